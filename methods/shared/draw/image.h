@@ -1,0 +1,41 @@
+// An image in memory: linear RGBA floats, rows from the top.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace dustbench::gpu {
+class Texture;
+}
+
+namespace dustbench::draw {
+
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<glm::vec4> pixels;
+
+    [[nodiscard]] const glm::vec4& at(int x, int y) const {
+        return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+    }
+};
+
+/// sRGB transfer function (IEC 61966-2-1), one channel; the argument is clamped to [0, 1].
+[[nodiscard]] float encodeSrgb(float linear);
+[[nodiscard]] float decodeSrgb(float encoded);
+
+/// Reads a colour texture back (waits for the GPU).
+[[nodiscard]] Image readBack(const gpu::Texture& texture);
+
+/// `layer` (premultiplied) over `scene`: C = L + (1 − α)·S. Throws std::invalid_argument for different sizes.
+[[nodiscard]] Image over(const Image& layer, const Image& scene);
+
+/// By extension: .png (8 bit, sRGB encoded) or .exr (float, linear). Written beside and renamed, so never half there.
+/// Throws InputError where the file cannot be written.
+void writeImage(const Image& image, const std::filesystem::path& file);
+
+/// Any image that OpenImageIO reads, made linear. Throws InputError with file and reason.
+[[nodiscard]] Image readImage(const std::filesystem::path& file);
+
+}  // namespace dustbench::draw

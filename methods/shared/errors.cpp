@@ -1,0 +1,49 @@
+#include "methods/shared/errors.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace dustbench {
+namespace {
+
+/// Levenshtein distance, two rows of the table at a time.
+std::size_t editDistance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> previous(b.size() + 1), current(b.size() + 1);
+    std::iota(previous.begin(), previous.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        current[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j)
+            current[j + 1] = std::min({previous[j + 1] + 1, current[j] + 1, previous[j] + (a[i] == b[j] ? 0 : 1)});
+        std::swap(previous, current);
+    }
+    return previous.back();
+}
+
+}  // namespace
+
+std::string nearestName(std::string_view got, std::span<const std::string> known) {
+    std::string nearest;
+    std::size_t least = std::max<std::size_t>(1, got.size() / 3) + 1;
+    for (const std::string& name : known) {
+        const bool isPrefix = got.size() >= 3 && name.starts_with(got);
+        const std::size_t distance = isPrefix ? 1 : editDistance(got, name);
+        if (distance < least) {
+            least = distance;
+            nearest = name;
+        }
+    }
+    return nearest;
+}
+
+InputError unknownName(std::string_view kind, std::string_view got, std::span<const std::string> known) {
+    std::string message = "unknown " + std::string(kind) + " '" + std::string(got) + "'";
+    if (const std::string nearest = nearestName(got, known); !nearest.empty())
+        message += " (did you mean '" + nearest + "'?)";
+    message += "; known:";
+    for (std::size_t i = 0; i < known.size(); ++i) message += (i ? ", " : " ") + known[i];
+    if (known.empty()) message += " none";
+    return InputError(message);
+}
+
+}  // namespace dustbench

@@ -1,0 +1,42 @@
+// The OpenGL 4.5 context, without a window, and the ledger of everything that lives on it.
+//
+// Owns: the EGL display and context. Threads: everything in gpu/ belongs to the thread that made the Device.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "methods/shared/memory_ledger.h"
+
+namespace dustbench::gpu {
+
+struct DeviceInfo {
+    std::string vendor;
+    std::string renderer;
+    std::string version;
+    std::string platform;  ///< `surfaceless` or `device`
+};
+
+class Device {
+ public:
+    /// EGL surfaceless first, an EGL device next. Throws InputError where neither gives OpenGL 4.5, saying what was
+    /// tried.
+    Device();
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    [[nodiscard]] const DeviceInfo& info() const { return info_; }
+    /// Bytes of every buffer and texture, by their labels.
+    [[nodiscard]] MemoryLedger& ledger() { return ledger_; }
+    /// Blocks until all queued work is done.
+    void finish();
+
+ private:
+    struct Connection;
+    std::unique_ptr<Connection> connection_;
+    DeviceInfo info_;
+    MemoryLedger ledger_;
+};
+
+}  // namespace dustbench::gpu

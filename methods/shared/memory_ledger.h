@@ -1,0 +1,93 @@
+// Exact bytes by structure: accounts that allocators and GPU objects book on.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dustbench {
+
+/// What one structure holds. A method reports a list of these; so do the particle engine and the GPU device.
+struct MemoryUse {
+    std::string structure;
+    std::size_t cpuBytes = 0;
+    std::size_t gpuBytes = 0;
+};
+
+using MemoryReport = std::vector<MemoryUse>;
+
+/// The bytes held under one name. Threads: safe to book on from any.
+class MemoryAccount {
+ public:
+    explicit MemoryAccount(std::string structure) : structure_(std::move(structure)) {}
+
+    void book(std::size_t bytes) { bytes_.fetch_add(bytes, std::memory_order_relaxed); }
+    void release(std::size_t bytes) { bytes_.fetch_sub(bytes, std::memory_order_relaxed); }
+    [[nodiscard]] std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
+    [[nodiscard]] const std::string& structure() const { return structure_; }
+
+ private:
+    std::string structure_;
+    std::atomic<std::size_t> bytes_{0};
+};
+
+/// A set of accounts, made on first use. Owns the accounts; it must outlive everything booked on them.
+class MemoryLedger {
+ public:
+    [[nodiscard]] MemoryAccount& account(std::string_view structure);
+    /// Bytes by structure, in the order of first use.
+    [[nodiscard]] std::vector<std::pair<std::string, std::size_t>> entries() const;
+    [[nodiscard]] std::size_t totalBytes() const;
+
+ private:
+    mutable std::mutex mutex_;
+    std::list<MemoryAccount> accounts_;
+};
+
+/// Standard allocator that books on an account. Memory is aligned to a cache line (64 bytes) for the vector units.
+template <typename T>
+class LedgerAllocator {
+ public:
+    using value_type = T;
+    using propagate_on_container_move_assignment = std::true_type;
+    using propagate_on_container_swap = std::true_type;
+    static constexpr std::align_val_t alignment{64};
+
+    explicit LedgerAllocator(MemoryAccount& account) : account_(&account) {}
+    template <typename U>
+    LedgerAllocator(const LedgerAllocator<U>& other) : account_(other.account()) {}  // NOLINT: standard conversion
+
+    [[nodiscard]] T* allocate(std::size_t count) {
+        T* memory = static_cast<T*>(::operator new(count * sizeof(T), alignment));
+        account_->book(count * sizeof(T));
+        return memory;
+    }
+    void deallocate(T* memory, std::size_t count) {
+        account_->release(count * sizeof(T));
+        ::operator delete(memory, alignment);
+    }
+    [[nodiscard]] MemoryAccount* account() const { return account_; }
+
+    template <typename U>
+    bool operator==(const LedgerAllocator<U>& other) const {
+        return account_ == other.account();
+    }
+
+ private:
+    MemoryAccount* account_;
+};
+
+/// A vector whose bytes are on a ledger: `LedgerVector<float> x{ledger.account("positions")};`
+template <typename T>
+class LedgerVector : public std::vector<T, LedgerAllocator<T>> {
+ public:
+    explicit LedgerVector(MemoryAccount& account) : std::vector<T, LedgerAllocator<T>>(LedgerAllocator<T>(account)) {}
+};
+
+}  // namespace dustbench

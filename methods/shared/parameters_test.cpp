@@ -1,0 +1,71 @@
+#include "methods/shared/parameters.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "methods/shared/errors.h"
+
+namespace dustbench {
+namespace {
+
+enum class Order { quicksort, radix, none };
+
+ParameterSet sample() {
+    ParameterSet set;
+    set.integer("depth", 7, 4, 12, "levels", "depth of the tree")
+        .real("share", 0.5, 0, 1, "", "a share")
+        .boolean("soft", false, "soft edges")
+        .choice("sort", "radix", {"quicksort", "radix", "none"}, "order of drawing");
+    return set;
+}
+
+std::string errorOf(ParameterValues& values, std::string_view name, std::string_view text) {
+    try {
+        values.set(name, text);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(Parameters, StartAtTheirDefaults) {
+    const ParameterValues values(sample());
+    EXPECT_EQ(values.integer("depth"), 7);
+    EXPECT_EQ(values.real("share"), 0.5);
+    EXPECT_FALSE(values.boolean("soft"));
+    EXPECT_EQ(values.choiceAs<Order>("sort"), Order::radix);
+}
+
+TEST(Parameters, HaveOneCanonicalTextForEqualValues) {
+    ParameterValues a(sample()), b(sample());
+    a.set("share", "0.250");
+    b.set("share", "+.25");
+    a.set("soft", "true");
+    b.set("soft", "on");
+    EXPECT_EQ(a.canonical(), b.canonical());
+}
+
+TEST(Parameters, SayWhatWasGotAndWhatIsAllowed) {
+    ParameterValues values(sample());
+    EXPECT_EQ(errorOf(values, "depth", "13"), "parameter depth: got '13', allowed: integer 4..12 levels");
+    EXPECT_EQ(errorOf(values, "depth", "7.5"), "parameter depth: got '7.5', allowed: integer 4..12 levels");
+    EXPECT_EQ(errorOf(values, "share", "nan"), "parameter share: got 'nan', allowed: number 0..1");
+    EXPECT_EQ(errorOf(values, "sort", "bubble"), "parameter sort: got 'bubble', allowed: quicksort|radix|none");
+    EXPECT_EQ(errorOf(values, "dept", "5"),
+              "unknown parameter 'dept' (did you mean 'depth'?); known: depth, share, soft, sort");
+}
+
+TEST(Parameters, KeepTheirValueWhenABadOneIsRefused) {
+    ParameterValues values(sample());
+    (void)errorOf(values, "depth", "99");
+    EXPECT_EQ(values.integer("depth"), 7);
+}
+
+TEST(Parameters, RefuseToBeDeclaredTwiceOrWithABadDefault) {
+    ParameterSet set = sample();
+    EXPECT_THROW(set.real("depth", 1, 0, 2, "", ""), std::logic_error);
+    EXPECT_THROW(set.real("new", 3, 0, 2, "", ""), std::logic_error);
+}
+
+}  // namespace
+}  // namespace dustbench

@@ -1,0 +1,44 @@
+// The particles of one system as a structure of arrays.
+//
+// Units: m, m/s, s. Frame: world. Owns: its columns, booked on a ledger. Colours: linear RGB.
+// Threads: const access from any; one writer.
+// Source: Thesis, 3.1.2 (the attributes of a particle). Departs: acceleration and luminosity live only during an update.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "methods/shared/memory_ledger.h"
+
+namespace dustbench::particles {
+
+class ParticleStore {
+ public:
+    explicit ParticleStore(MemoryLedger& ledger);
+
+    [[nodiscard]] std::size_t size() const { return serial.size(); }
+    [[nodiscard]] bool empty() const { return serial.empty(); }
+    void reserve(std::size_t count);
+    void resize(std::size_t count);
+    /// Moves particle `from` over particle `to` (all columns).
+    void move(std::size_t from, std::size_t to);
+
+    [[nodiscard]] glm::vec3 position(std::size_t i) const { return {x[i], y[i], z[i]}; }
+    [[nodiscard]] glm::vec3 colour(std::size_t i) const {
+        return uniformColour ? colourOfAll : glm::vec3{red[i], green[i], blue[i]};
+    }
+
+    LedgerVector<std::uint64_t> serial;  ///< unique within the system, in order of birth
+    LedgerVector<float> x, y, z;
+    LedgerVector<float> velocityX, velocityY, velocityZ;
+    LedgerVector<float> age, lifetime;
+    LedgerVector<float> radius;
+    LedgerVector<float> opacity;          ///< peak opacity α, 0..0.999
+    LedgerVector<float> red, green, blue;  ///< empty while `uniformColour`
+
+    bool uniformColour = true;  ///< one colour for all: then no colour columns are kept
+    glm::vec3 colourOfAll{1};
+};
+
+}  // namespace dustbench::particles
