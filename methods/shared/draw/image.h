@@ -25,13 +25,15 @@ struct Image {
 [[nodiscard]] float encodeSrgb(float linear);
 [[nodiscard]] float decodeSrgb(float encoded);
 
-/// Reads a colour texture back (waits for the GPU).
+/// Reads a flat texture of four channels back, values as they are stored (waits for the GPU).
+/// Throws std::invalid_argument for any other texture.
 [[nodiscard]] Image readBack(const gpu::Texture& texture);
 
 /// `layer` (premultiplied) over `scene`: C = L + (1 − α)·S. Throws std::invalid_argument for different sizes.
 [[nodiscard]] Image over(const Image& layer, const Image& scene);
 
 /// By extension: .png (8 bit, sRGB encoded) or .exr (float, linear). Written beside and renamed, so never half there.
+/// Alpha is premultiplied here and in .exr, straight in .png, which leaves it out where the whole image is opaque.
 /// Throws InputError where the file cannot be written.
 void writeImage(const Image& image, const std::filesystem::path& file);
 

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include "methods/shared/errors.h"
 
@@ -97,11 +97,10 @@ CsvTable CsvTable::parseText(std::string_view text, std::string name) {
 
 CsvTable CsvTable::parseFile(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
     if (!stream || std::filesystem::is_directory(file))
         throw InputError(file.string() + ": cannot be read, expected a CSV file");
-    text << stream.rdbuf();
-    return parseText(text.str(), file.string());
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    return parseText(text, file.string());
 }
 
 bool CsvTable::hasColumn(std::string_view column) const {

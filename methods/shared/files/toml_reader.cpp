@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 
@@ -59,10 +60,10 @@ TomlReader TomlReader::parseText(std::string_view text, std::string name) {
 
 TomlReader TomlReader::parseFile(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    if (!stream || std::filesystem::is_directory(file) || !(text << stream.rdbuf()))
+    if (!stream || std::filesystem::is_directory(file))
         throw InputError(file.string() + ": cannot be read, expected a TOML file");
-    return parseText(text.str(), file.string());
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    return parseText(text, file.string());
 }
 
 std::string TomlReader::where(std::string_view key) const {

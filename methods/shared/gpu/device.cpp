@@ -12,6 +12,7 @@
 
 namespace dustbench::gpu {
 
+/// The display belongs to the process and is never terminated: another Device may be using it.
 struct Device::Connection {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
@@ -20,7 +21,6 @@ struct Device::Connection {
         if (display == EGL_NO_DISPLAY) return;
         eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-        eglTerminate(display);
     }
 };
 

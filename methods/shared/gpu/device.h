@@ -1,6 +1,7 @@
 // The OpenGL 4.5 context, without a window, and the ledger of everything that lives on it.
 //
-// Owns: the EGL display and context. Threads: everything in gpu/ belongs to the thread that made the Device.
+// Owns: the OpenGL context; the EGL display stays with the process. Threads: everything in gpu/ belongs to the thread
+// that made the Device.
 #pragma once
 
 #include <memory>

@@ -29,7 +29,7 @@ struct Scene {
     std::vector<Solid> solids;          ///< besides the vehicle
     std::vector<SolidPose> solidPoses;  ///< of `solids`
     std::optional<VehicleModel> vehicle;
-    glm::vec3 dustAlbedo{0.62f, 0.50f, 0.36f};
+    glm::vec3 dustAlbedo{0.64f, 0.54f, 0.42f};
     double octreeEdgeMetres = 128;  ///< of the octree's world: a cube that follows the vehicle
 };
 

@@ -23,7 +23,7 @@ struct VehicleParameters {
     double brakeDecelerationLimit = 8;    ///< m/s² at full brake
     double dragAreaSquareMetres = 0.7;    ///< c_d · A
     double rollingResistance = 0.012;     ///< share of the weight
-    double topSpeed = 55;                 ///< m/s
+    double topSpeed = 60;                 ///< m/s
 };
 
 struct WheelState {

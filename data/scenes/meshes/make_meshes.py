@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+"""Writes the solids of this folder, one in each format that is read. Python 3, standard library only: `python3 make_meshes.py`.
+
+rock.obj (no normals: they are computed), crate.ply (vertex colours), marker_post.stl (binary). Metres, +Y up, on y = 0.
+"""
+import math
+import os
+import struct
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+def path(name):
+    return os.path.join(HERE, name)
+
+
+def icosphere(divisions):
+    golden = (1 + math.sqrt(5)) / 2
+    points = [(s * a, t * b, 0) for a, b in ((1, golden),) for s in (-1, 1) for t in (-1, 1)]
+    points += [(0, s, t * golden) for s in (-1, 1) for t in (-1, 1)]
+    points += [(s * golden, 0, t) for s in (-1, 1) for t in (-1, 1)]
+    points = [tuple(c / math.sqrt(1 + golden * golden) for c in p) for p in points]
+    edge = min(math.dist(points[0], p) for p in points[1:]) * 1.01
+    faces = []
+    for a in range(12):
+        for b in range(a + 1, 12):
+            for c in range(b + 1, 12):
+                if max(math.dist(points[a], points[b]), math.dist(points[b], points[c]),
+                       math.dist(points[a], points[c])) < edge:
+                    p, q, r = points[a], points[b], points[c]
+                    normal = cross(minus(q, p), minus(r, p))
+                    faces.append((a, b, c) if dot(normal, p) > 0 else (a, c, b))
+    for _ in range(divisions):
+        middles, finer = {}, []
+
+        def middle(a, b):
+            key = (min(a, b), max(a, b))
+            if key not in middles:
+                p = tuple((points[a][i] + points[b][i]) / 2 for i in range(3))
+                points.append(tuple(c / math.sqrt(dot(p, p)) for c in p))
+                middles[key] = len(points) - 1
+            return middles[key]
+
+        for a, b, c in faces:
+            ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+            finer += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+        faces = finer
+    return points, faces
+
+
+def minus(a, b):
+    return tuple(a[i] - b[i] for i in range(3))
+
+
+def dot(a, b):
+    return sum(a[i] * b[i] for i in range(3))
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def rock():
+    """A sphere cut by planes (facets of stone) and bent by a few waves, half buried."""
+    points, faces = icosphere(2)
+    cuts = []
+    for i in range(11):
+        y = 1 - 2 * (i + 0.5) / 11
+        angle = 2.39996 * i + 0.6
+        ring = math.sqrt(1 - y * y)
+        cuts.append(((ring * math.cos(angle), y, ring * math.sin(angle)), 0.66 + 0.22 * ((i * 37) % 11) / 10))
+    moved = []
+    for p in points:
+        radius = 1.0
+        for normal, distance in cuts:
+            across = dot(p, normal)
+            if across > 0:
+                radius = min(radius, distance / across)
+        radius *= 1 + 0.035 * math.sin(7 * p[0] + 2 * p[1]) * math.sin(6 * p[2] - p[0]) + 0.02 * math.sin(15 * p[1] + 9 * p[0])
+        moved.append((1.05 * radius * p[0], 0.78 * radius * p[1] + 0.42, 0.85 * radius * p[2]))
+    with open(path("rock.obj"), "w", newline="") as file:
+        file.write("# a boulder, about 1.8 m long and 1 m above the ground\n")
+        for p in moved:
+            file.write("v {:.4f} {:.4f} {:.4f}\n".format(*p))
+        for a, b, c in faces:
+            file.write(f"f {a + 1} {b + 1} {c + 1}\n")
+
+
+def crate():
+    """A wooden crate of 1 m: five planks a side between two battens."""
+    vertices, faces = [], []
+
+    def quad(corners, colour):
+        first = len(vertices)
+        vertices.extend((corner, colour) for corner in corners)
+        faces.append(tuple(range(first, first + 4)))
+
+    def block(low, high, colour):
+        for axis in range(3):
+            u, v = (axis + 1) % 3, (axis + 2) % 3
+            for side in (0, 1):
+                corners = []
+                for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)) if side else ((0, 0), (0, 1), (1, 1), (1, 0)):
+                    corner = [0, 0, 0]
+                    corner[axis] = (low, high)[side][axis]
+                    corner[u] = (low, high)[a][u]
+                    corner[v] = (low, high)[b][v]
+                    corners.append(tuple(corner))
+                quad(corners, colour)
+
+    tones = [(164, 122, 74), (150, 108, 64), (172, 131, 82), (143, 104, 62), (158, 116, 70)]
+    batten = (112, 80, 47)
+    for i, tone in enumerate(tones):
+        block((-0.47, 0.03 + 0.19 * i, -0.47), (0.47, 0.03 + 0.19 * i + 0.18, 0.47), tone)
+    block((-0.455, 0.02, -0.455), (0.455, 0.96, 0.455), (60, 44, 28))
+    for x in (-0.5, 0.4):
+        for z in (-0.5, 0.4):
+            block((x, 0, z), (x + 0.1, 1, z + 0.1), batten)
+    for y in (0, 0.91):
+        for z in (-0.5, 0.42):
+            block((-0.4, y, z), (0.4, y + 0.09, z + 0.08), batten)
+        for x in (-0.5, 0.42):
+            block((x, y, -0.4), (x + 0.08, y + 0.09, 0.4), batten)
+    with open(path("crate.ply"), "w", newline="") as file:
+        file.write("ply\nformat ascii 1.0\ncomment a wooden crate of one metre\n")
+        file.write(f"element vertex {len(vertices)}\nproperty float x\nproperty float y\nproperty float z\n")
+        file.write("property uchar red\nproperty uchar green\nproperty uchar blue\n")
+        file.write(f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+        for (x, y, z), (r, g, b) in vertices:
+            file.write(f"{x:.3f} {y:.3f} {z:.3f} {r} {g} {b}\n")
+        for face in faces:
+            file.write("4 " + " ".join(str(i) for i in face) + "\n")
+
+
+def marker_post():
+    """A six-sided post with a slanted cap, 1.2 m high."""
+    sides, radius, triangles = 6, 0.07, []
+
+    def ring(y, r, slant=0.0):
+        return [(r * math.cos(2 * math.pi * i / sides), y + slant * math.cos(2 * math.pi * i / sides),
+                 r * math.sin(2 * math.pi * i / sides)) for i in range(sides)]
+
+    rings = [ring(0, radius), ring(1.05, radius), ring(1.15, 0.05, 0.03)]
+    for low, high in zip(rings, rings[1:]):
+        for i in range(sides):
+            j = (i + 1) % sides
+            triangles += [(low[i], high[i], high[j]), (low[i], high[j], low[j])]
+    top = rings[-1]
+    for i in range(1, sides - 1):
+        triangles.append((top[0], top[i + 1], top[i]))
+    with open(path("marker_post.stl"), "wb") as file:
+        file.write(b"marker post, metres".ljust(80, b"\0"))
+        file.write(struct.pack("<I", len(triangles)))
+        for a, b, c in triangles:
+            normal = cross(minus(b, a), minus(c, a))
+            length = math.sqrt(dot(normal, normal))
+            file.write(struct.pack("<12fH", *(n / length for n in normal), *a, *b, *c, 0))
+
+
+rock()
+crate()
+marker_post()

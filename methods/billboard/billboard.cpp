@@ -1,0 +1,125 @@
+#include "methods/billboard/billboard.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "methods/shared/files/data_folder.h"
+#include "methods/shared/particles/particle_store.h"
+
+namespace dustbench::billboard {
+namespace {
+
+std::optional<draw::PuffTextures> loadPictures(Puff puff, gpu::Device& device) {
+    const auto load = [&](const char* id, draw::PuffTextures::Frames frames) {
+        return draw::PuffTextures(device, files::findData("puff picture", "textures", id, ".png"), frames);
+    };
+    switch (puff) {
+        case Puff::gaussian:
+            return std::nullopt;
+        case Puff::texture:
+            return load("puff", draw::PuffTextures::Frames::separate);
+        case Puff::textures:
+            return load("puffs", draw::PuffTextures::Frames::separate);
+        case Puff::animated:
+            return load("puff_animated", draw::PuffTextures::Frames::crossFaded);
+    }
+    return std::nullopt;
+}
+
+/// Which picture particle `i` shows: its own of several, or by how much of its life is over.
+float frameOf(const particles::ParticleStore& dust, std::size_t i, Puff puff, int frames) {
+    if (puff == Puff::animated)
+        return std::clamp(dust.age[i] / dust.lifetime[i], 0.0f, 1.0f) * static_cast<float>(frames - 1);
+    return static_cast<float>(dust.serial[i] % static_cast<std::uint64_t>(frames));
+}
+
+}  // namespace
+
+Billboard::Billboard(const Settings& settings) : settings_(settings), sort_(ledger_) {}
+
+void Billboard::prepare(const scene::Scene&, gpu::Device& device) {
+    pictures_ = loadPictures(settings_.puff, device);
+    quads_.emplace(device, settings_.style, pictures_ ? &*pictures_ : nullptr);
+}
+
+void Billboard::update(const Frame& frame) {
+    const particles::ParticleStore& dust = frame.dust;
+    std::span<const std::uint32_t> order;
+    {
+        const auto timing = frame.clock.measure(Stage::sort);
+        order = sort_.farToNear(settings_.sort, {dust.x, dust.y, dust.z}, glm::vec3(frame.view.camera.eye));
+    }
+    const auto timing = frame.clock.measure(Stage::upload);
+    upload(dust, order);
+}
+
+void Billboard::upload(const particles::ParticleStore& dust, std::span<const std::uint32_t> order) {
+    const draw::Billboards::Layout layout = quads_->layout(!dust.uniformColour);
+    const std::span<float> memory = quads_->map(order.size(), layout);
+    const int frames = pictures_ ? pictures_->frames() : 0;
+    const auto fill = [&](const tbb::blocked_range<std::size_t>& places) {
+        float* value = memory.data() + places.begin() * layout.floats;
+        for (std::size_t place = places.begin(); place < places.end(); ++place) {
+            const std::uint32_t i = order[place];
+            *value++ = dust.x[i];
+            *value++ = dust.y[i];
+            *value++ = dust.z[i];
+            *value++ = dust.radius[i];
+            *value++ = dust.opacity[i];
+            if (layout.framed) *value++ = frameOf(dust, i, settings_.puff, frames);
+            if (layout.coloured) {
+                *value++ = dust.red[i];
+                *value++ = dust.green[i];
+                *value++ = dust.blue[i];
+            }
+        }
+    };
+    // The reads jump through memory in depth order, which is what a second thread helps with.
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 16'384), fill);
+    quads_->unmap();
+}
+
+void Billboard::draw(const Frame& frame, gpu::Layer& layer) {
+    quads_->draw(frame.view, frame.dust.colourOfAll, layer);
+}
+
+MemoryReport Billboard::memory() const {
+    MemoryReport report;
+    for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
+    if (quads_) report.push_back({"billboards", 0, quads_->gpuBytes()});
+    if (pictures_) report.push_back({"puff pictures", 0, pictures_->texture().bytes()});
+    return report;
+}
+
+std::int64_t Billboard::primitives() const {
+    return quads_ ? static_cast<std::int64_t>(quads_->count()) : 0;
+}
+
+MethodInfo describe() {
+    MethodInfo info;
+    info.title = "Billboard dust";
+    info.summary =
+        "One camera-facing quad for each particle, sorted far to near and blended in one instanced draw call.";
+    info.source = "Carr2006";
+    info.parameters
+        .choice("sort", "radix", {"quicksort", "radix", "none"},
+                "order in which puffs are blended: far to near by the paper's quicksort or by a radix sort, or as they "
+                "come")
+        .choice(
+            "puff", "gaussian", {"gaussian", "texture", "textures", "animated"},
+            "what a quad shows: the optical model's Gaussian, one picture, one of several, or an animation over life")
+        .boolean("soft", false, "let puffs end softly at the scene behind them instead of cutting them off")
+        .choice("facing", "viewpoint", {"viewpoint", "viewplane"},
+                "turn each quad to the eye, or all of them parallel to the picture");
+    info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
+        Settings settings;
+        settings.sort = values.choiceAs<draw::SortKind>("sort");
+        settings.puff = values.choiceAs<Puff>("puff");
+        settings.style.soft = values.boolean("soft");
+        settings.style.facing = values.choiceAs<draw::Facing>("facing");
+        return std::make_unique<Billboard>(settings);
+    };
+    return info;
+}
+
+}  // namespace dustbench::billboard

@@ -1,0 +1,48 @@
+// Dust as sorted, camera-facing quads: the established way that the octree methods are compared with.
+//
+// Source: Carr2006, 3.1. Departs: opacity by one optical model for all methods (maths/transmittance.h); the paper's one
+// puff picture, several, or animated ones by `puff`, and quads that end softly at what is solid by `soft`.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "methods/shared/draw/billboards.h"
+#include "methods/shared/draw/depth_sort.h"
+#include "methods/shared/draw/puff_textures.h"
+#include "methods/shared/method.h"
+
+namespace dustbench::billboard {
+
+enum class Puff { gaussian, texture, textures, animated };
+
+struct Settings {
+    draw::SortKind sort = draw::SortKind::radix;
+    Puff puff = Puff::gaussian;
+    draw::BillboardStyle style;
+};
+
+class Billboard final : public Method {
+ public:
+    explicit Billboard(const Settings& settings);
+
+    void prepare(const scene::Scene& scene, gpu::Device& device) override;
+    void update(const Frame& frame) override;
+    void draw(const Frame& frame, gpu::Layer& layer) override;
+    [[nodiscard]] MemoryReport memory() const override;
+    [[nodiscard]] std::int64_t primitives() const override;
+
+ private:
+    void upload(const particles::ParticleStore& dust, std::span<const std::uint32_t> order);
+
+    Settings settings_;
+    MemoryLedger ledger_;
+    draw::DepthSort sort_;
+    std::optional<draw::PuffTextures> pictures_;
+    std::optional<draw::Billboards> quads_;
+};
+
+/// What the method declares; the registry asks for it.
+[[nodiscard]] MethodInfo describe();
+
+}  // namespace dustbench::billboard

@@ -1,0 +1,225 @@
+#include "methods/billboard/billboard.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "methods/shared/draw/image.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/maths/transmittance.h"
+#include "methods/shared/particles/particle_store.h"
+#include "methods/shared/scene/scene.h"
+
+namespace dustbench::billboard {
+namespace {
+
+gpu::Device& device() {
+    static gpu::Device one;
+    return one;
+}
+
+/// Dust before an eye, and a layer without a scene to draw it in.
+class Moment {
+ public:
+    explicit Moment(std::size_t count, std::uint32_t seed = 1) : dust(ledger_) {
+        view.width = 160;
+        view.height = 120;
+        view.camera.eye = {0, 2, 0};
+        view.camera.target = {0, 2, -10};
+        depth_ = gpu::Texture::make2D(device(), "scene depth", gpu::Format::depth32F, view.width, view.height);
+        depth_.write(std::vector<float>(static_cast<std::size_t>(view.width * view.height), 0.0f));
+        layer.emplace(device(), depth_);
+        dust.resize(count);
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<float> uniform(0, 1);
+        for (std::size_t i = 0; i < count; ++i) {
+            dust.serial[i] = 1000 + i;
+            dust.x[i] = 8 * uniform(random) - 4;
+            dust.y[i] = 4 * uniform(random);
+            dust.z[i] = -6 - 20 * uniform(random);
+            dust.radius[i] = 0.2f + uniform(random);
+            dust.opacity[i] = 0.3f * uniform(random);
+            dust.lifetime[i] = 5;
+            dust.age[i] = 5 * uniform(random);
+        }
+        dust.colourOfAll = {0.6f, 0.4f, 0.2f};
+    }
+
+    [[nodiscard]] Frame frame(const StageClock& clock = StageClock()) const {
+        return {0, 1.0 / 60, state, dust, view, clock};
+    }
+
+    draw::Image draw(Method& method) {
+        const StageClock clock;
+        const Frame now = frame(clock);
+        method.update(now);
+        return drawAgain(method);
+    }
+    draw::Image drawAgain(Method& method) {
+        const StageClock clock;
+        layer->clear();
+        method.draw(frame(clock), *layer);
+        return draw::readBack(layer->colour());
+    }
+
+    scene::Scene scene;
+    scene::SceneState state;
+    scene::View view;
+    std::optional<gpu::Layer> layer;
+
+ private:
+    MemoryLedger ledger_;
+    gpu::Texture depth_;
+
+ public:
+    particles::ParticleStore dust;
+};
+
+std::unique_ptr<Method> prepared(const Moment& moment, const std::vector<std::pair<std::string, std::string>>& values) {
+    const MethodInfo info = describe();
+    ParameterValues parameters(info.parameters);
+    for (const auto& [name, value] : values) parameters.set(name, value);
+    auto method = info.create(parameters);
+    method->prepare(moment.scene, device());
+    return method;
+}
+
+double largestDifference(const draw::Image& a, const draw::Image& b, bool alphaOnly) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        for (int c = alphaOnly ? 3 : 0; c < 4; ++c)
+            largest = std::max(largest, std::abs(static_cast<double>(a.pixels[i][c] - b.pixels[i][c])));
+    return largest;
+}
+
+TEST(Billboard, ShowsTheTransmittanceOfTheWholeCloud) {
+    Moment moment(300);
+    const auto method = prepared(moment, {});
+    const draw::Image image = moment.draw(*method);
+    double squares = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const glm::dvec3 ray = moment.view.rayDirection(x + 0.5, y + 0.5);
+            double depth = 0;
+            for (std::size_t i = 0; i < moment.dust.size(); ++i) {
+                const glm::dvec3 centre = glm::dvec3(moment.dust.position(i)) - moment.view.camera.eye;
+                const double foot = glm::dot(centre, ray), b = glm::length(centre - foot * ray);
+                depth -= std::log1p(-maths::billboardOpacity(static_cast<double>(moment.dust.opacity[i]),
+                                                             static_cast<double>(moment.dust.radius[i]), b));
+            }
+            const double difference = static_cast<double>(image.at(x, y).a) + std::expm1(-depth);
+            EXPECT_NEAR(difference, 0, 0.02);  // the quads' corners: each cuts off up to τ·exp(−9/2)
+            squares += difference * difference;
+        }
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(image.pixels.size())), 2e-3);
+}
+
+TEST(Billboard, SortsAloneDoNotChangeThePictureOfOneColour) {
+    const std::size_t count = 2'000;
+    Moment moment(count);
+    const draw::Image radix = moment.draw(*prepared(moment, {{"sort", "radix"}}));
+    const draw::Image quick = moment.draw(*prepared(moment, {{"sort", "quicksort"}}));
+    const draw::Image none = moment.draw(*prepared(moment, {{"sort", "none"}}));
+    EXPECT_EQ(quick.pixels, radix.pixels);
+    EXPECT_LT(largestDifference(radix, none, false), 1e-5);
+}
+
+TEST(Billboard, SortMattersWhereColoursDiffer) {
+    Moment moment(500);
+    moment.dust.keepOneColour(false);
+    for (std::size_t i = 0; i < moment.dust.size(); ++i) {
+        // The nearer the redder, so that the order shows.
+        moment.dust.red[i] = moment.dust.z[i] > -12 ? 1.0f : 0.0f;
+        moment.dust.green[i] = 1 - moment.dust.red[i];
+        moment.dust.blue[i] = 0;
+    }
+    const draw::Image radix = moment.draw(*prepared(moment, {{"sort", "radix"}}));
+    const draw::Image quick = moment.draw(*prepared(moment, {{"sort", "quicksort"}}));
+    const draw::Image none = moment.draw(*prepared(moment, {{"sort", "none"}}));
+    EXPECT_EQ(quick.pixels, radix.pixels);
+    EXPECT_LT(largestDifference(radix, none, true), 1e-5);
+    EXPECT_GT(largestDifference(radix, none, false), 0.05);
+}
+
+TEST(Billboard, DrawsTheSameAgainInEveryMode) {
+    Moment moment(200);
+    std::vector<draw::Image> pictures;
+    for (const char* puff : {"gaussian", "texture", "textures", "animated"})
+        for (const char* soft : {"false", "true"})
+            for (const char* facing : {"viewpoint", "viewplane"}) {
+                const auto method = prepared(moment, {{"puff", puff}, {"soft", soft}, {"facing", facing}});
+                const draw::Image image = moment.draw(*method);
+                EXPECT_EQ(moment.drawAgain(*method).pixels, image.pixels) << puff << soft << facing;
+                EXPECT_EQ(moment.draw(*method).pixels, image.pixels) << puff << soft << facing;
+                EXPECT_EQ(method->primitives(), 200);
+                double alpha = 0;
+                for (const glm::vec4& pixel : image.pixels) {
+                    ASSERT_TRUE(pixel.a >= 0 && pixel.a <= 1);
+                    alpha += static_cast<double>(pixel.a);
+                }
+                EXPECT_GT(alpha, 1000) << puff << soft << facing;
+                pictures.push_back(image);
+            }
+    for (std::size_t i = 0; i < pictures.size(); i += 4)
+        for (std::size_t j = 0; j < i; j += 4) EXPECT_GT(largestDifference(pictures[i], pictures[j], true), 0.01);
+}
+
+TEST(Billboard, FollowsACloudThatComesAndGoes) {
+    Moment empty(0), few(10), many(5'000);
+    const auto method = prepared(empty, {});
+    EXPECT_EQ(method->primitives(), 0);
+    const draw::Image first = few.draw(*method);
+    EXPECT_EQ(method->primitives(), 10);
+    (void)many.draw(*method);
+    EXPECT_EQ(method->primitives(), 5'000);
+    const draw::Image nothing = empty.draw(*method);
+    EXPECT_EQ(method->primitives(), 0);
+    for (const glm::vec4& pixel : nothing.pixels) ASSERT_EQ(pixel, glm::vec4(0));
+    EXPECT_EQ(few.draw(*method).pixels, first.pixels);
+}
+
+TEST(Billboard, HoldsFewBytesAParticleAndNoMoreEachFrame) {
+    const std::size_t count = 200'000;
+    Moment moment(count);
+    for (std::size_t i = 0; i < count; ++i) moment.dust.radius[i] = 0.01f;
+    const auto method = prepared(moment, {});
+    (void)moment.draw(*method);
+    const auto total = [&] {
+        MemoryUse sum;
+        for (const MemoryUse& use : method->memory()) {
+            sum.cpuBytes += use.cpuBytes;
+            sum.gpuBytes += use.gpuBytes;
+        }
+        return sum;
+    };
+    const MemoryUse warm = total();
+    EXPECT_LE(warm.cpuBytes, 24 * count);
+    EXPECT_GE(warm.gpuBytes, 20 * count);
+    (void)moment.draw(*method);
+    EXPECT_EQ(total().cpuBytes, warm.cpuBytes);
+    EXPECT_EQ(total().gpuBytes, warm.gpuBytes);
+}
+
+TEST(Billboard, ReportsSortAndUploadAsStages) {
+    class Listener final : public StageListener {
+     public:
+        void begin(Stage stage) override { begun.push_back(stage); }
+        void end(Stage) override { ++ended; }
+        void beginDetail(std::string_view) override {}
+        void endDetail(std::string_view) override {}
+        std::vector<Stage> begun;
+        std::size_t ended = 0;
+    } listener;
+    Moment moment(10);
+    const auto method = prepared(moment, {});
+    const StageClock clock(&listener);
+    method->update(moment.frame(clock));
+    EXPECT_EQ(listener.begun, (std::vector<Stage>{Stage::sort, Stage::upload}));
+    EXPECT_EQ(listener.ended, 2u);
+}
+
+}  // namespace
+}  // namespace dustbench::billboard

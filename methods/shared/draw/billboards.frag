@@ -1,0 +1,66 @@
+// A puff's opacity along the pixel's ray: α(b) = 1 − exp(−τ·exp(−b²/2s²)), premultiplied with its colour.
+in vec3 puff;
+flat in float nearness;
+#ifdef SOFT
+in vec3 toQuad;
+flat in vec4 toCentre;
+uniform float nearMetres;
+layout(binding = 1) uniform sampler2D sceneDepth;
+#endif
+#ifdef TEXTURED
+flat in float frame;
+uniform float shadeScale;
+layout(binding = 0) uniform sampler2DArray pictures;
+#endif
+#ifdef COLOURED
+flat in vec3 puffColour;
+#else
+uniform vec3 puffColour;
+#endif
+layout(location = 0) out vec4 colour;
+
+#ifdef SOFT
+/// Error function, absolute error below 3e-7. Source: AbramowitzStegun1964, Eq. 7.1.28.
+float errorFunction(float x) {
+    float a = min(abs(x), 6.0);
+    float p = 0.0001520143 + a * (0.0002765672 + a * 0.0000430638);
+    p = 1.0 + a * (0.0705230784 + a * (0.0422820123 + a * (0.0092705272 + a * p)));
+    float p4 = (p * p) * (p * p);
+    return sign(x) * (1.0 - 1.0 / ((p4 * p4) * (p4 * p4)));
+}
+
+/// Share of the puff's depth between the eye and the scene: ½·[erf((t1 − tc)/√2s) − erf((0 − tc)/√2s)].
+float shareBeforeScene() {
+    float rayLength = length(toQuad);
+    // Reversed depth is near distance / distance along the axis; w is the quad's distance along it.
+    float depth = texelFetch(sceneDepth, ivec2(gl_FragCoord.xy), 0).r;
+    float scene = nearMetres / max(depth, 1e-9) * rayLength * gl_FragCoord.w;
+    float foot = dot(toCentre.xyz, toQuad) / rayLength;
+    return 0.5 * (errorFunction((scene - foot) * toCentre.w) + errorFunction(foot * toCentre.w));
+}
+#endif
+
+void main() {
+#ifdef TEXTURED
+    vec2 place = 0.5 * puff.xy + 0.5;
+#ifdef CROSS_FADED
+    float earlier = floor(frame);
+    vec4 texel = mix(texture(pictures, vec3(place, earlier)), texture(pictures, vec3(place, earlier + 1.0)),
+                     frame - earlier);
+#else
+    vec4 texel = texture(pictures, vec3(place, frame));
+#endif
+    float depth = puff.z * texel.a;
+    vec3 lit = puffColour * (shadeScale * texel.rgb);
+#else
+    // On a plane at the centre's distance d, offset u belongs to a ray that passes at b² = u²/(1 + u²/d²).
+    float offset = dot(puff.xy, puff.xy);
+    float depth = exp2(puff.z - offset / (1.0 + offset * nearness));
+    vec3 lit = puffColour;
+#endif
+#ifdef SOFT
+    depth *= shareBeforeScene();
+#endif
+    float alpha = 1.0 - exp2(-depth);
+    colour = vec4(lit * alpha, alpha);
+}

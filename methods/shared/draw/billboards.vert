@@ -1,0 +1,72 @@
+// Corners of camera-facing quads, pulled from the instances: PUFFS_AT_ONCE quads in each drawn instance.
+layout(std430, binding = 0) readonly buffer Instances {
+    float values[];  // x y z radius opacity [frame] [red green blue]
+};
+uniform int count;
+uniform vec3 eye;
+uniform mat4 worldToEye;
+uniform vec4 projection;  // x and y scale, near distance, depth of the puff picture
+
+out vec3 puff;           // offset from the centre, such that |offset|² = b²/(2s²)·log2(e); optical depth
+flat out float nearness;  // (offset length 1 / distance)²
+#ifdef SOFT
+out vec3 toQuad;  // eye space
+flat out vec4 toCentre;  // eye space; 1/(√2·s)
+#endif
+#ifdef TEXTURED
+flat out float frame;
+#endif
+#ifdef COLOURED
+flat out vec3 puffColour;
+#endif
+
+const float log2e = 1.44269504;
+
+/// −log2(1 − α) = τ·log2(e); by its series where the difference from 1 would lose digits.
+float opticalDepth(float opacity) {
+    if (opacity > 0.05) return -log2(1.0 - opacity);
+    return log2e * opacity * (1.0 + opacity * (1.0 / 2 + opacity * (1.0 / 3 + opacity * (1.0 / 4 + opacity / 5))));
+}
+
+void main() {
+    int wanted = gl_InstanceID * PUFFS_AT_ONCE + (gl_VertexID >> 2);
+    int base = min(wanted, count - 1) * FLOATS;
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1 & 1) * 2.0 - 1.0;
+
+    // The eye is taken off first: what is left is small near the eye, where it matters.
+    vec3 centre = mat3(worldToEye) * (vec3(values[base], values[base + 1], values[base + 2]) - eye);
+    float distance = length(centre);
+    bool drawn = wanted < count && distance > 1e-4;
+    float radius = drawn ? values[base + 3] : 0.0;
+
+#ifdef VIEWPLANE
+    vec3 right = vec3(1, 0, 0), up = vec3(0, 1, 0);
+    nearness = 0.0;
+#else
+    // Perpendicular to the ray to the centre; `right` stays level in the picture.
+    vec3 sight = drawn ? centre / distance : vec3(0, 0, -1);
+    vec3 right = vec3(-sight.z, 0, sight.x) * inversesqrt(max(sight.x * sight.x + sight.z * sight.z, 1e-12));
+    vec3 up = cross(right, sight);
+    float share = radius / max(distance, 1e-4);
+    nearness = share * share / (2.0 * log2e);
+#endif
+    vec3 position = centre + 1.5 * radius * (corner.x * right + corner.y * up);
+    gl_Position = vec4(position.xy * projection.xy, projection.z, -position.z);
+
+    // 1.5 r = 3s: |offset|² = 9/2·log2(e) in the middle of an edge.
+    float edge = 1.5 * sqrt(2.0 * log2e);
+    float depth = max(opticalDepth(values[base + 4]), 1e-30);
+#ifdef TEXTURED
+    puff = vec3(corner, depth * projection.w);
+    frame = values[base + 5];
+#else
+    puff = vec3(edge * corner, log2(depth));
+#endif
+#ifdef SOFT
+    toQuad = position;
+    toCentre = vec4(centre, sqrt(2.0) / max(radius, 1e-20));
+#endif
+#ifdef COLOURED
+    puffColour = vec3(values[base + FLOATS - 3], values[base + FLOATS - 2], values[base + FLOATS - 1]);
+#endif
+}

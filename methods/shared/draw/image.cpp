@@ -1,0 +1,48 @@
+#include "methods/shared/draw/image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "methods/shared/gpu/texture.h"
+
+namespace dustbench::draw {
+
+float encodeSrgb(float linear) {
+    // NaN counts as 0, so that a faulty pixel cannot take the whole file with it.
+    const float value = linear > 0 ? std::min(linear, 1.0f) : 0.0f;
+    return value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1 / 2.4f) - 0.055f;
+}
+
+float decodeSrgb(float encoded) {
+    const float value = encoded > 0 ? std::min(encoded, 1.0f) : 0.0f;
+    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+}
+
+Image readBack(const gpu::Texture& texture) {
+    const bool fourChannels = texture.format() == gpu::Format::rgba8 || texture.format() == gpu::Format::srgba8 ||
+                              texture.format() == gpu::Format::rgba16F || texture.format() == gpu::Format::rgba32F;
+    if (!fourChannels || texture.depth() != 1)
+        throw std::invalid_argument("readBack: a flat texture of four channels is needed");
+    const std::vector<float> values = texture.readFloats();
+    Image image{texture.width(), texture.height(), std::vector<glm::vec4>(values.size() / 4)};
+    const auto row = static_cast<std::size_t>(image.width);
+    const auto rows = static_cast<std::size_t>(image.height);
+    for (std::size_t y = 0; y < rows; ++y)
+        for (std::size_t x = 0; x < row; ++x) {
+            const float* value = &values[((rows - 1 - y) * row + x) * 4];
+            image.pixels[y * row + x] = {value[0], value[1], value[2], value[3]};
+        }
+    return image;
+}
+
+Image over(const Image& layer, const Image& scene) {
+    if (layer.width != scene.width || layer.height != scene.height)
+        throw std::invalid_argument("over: the layer and the scene differ in size");
+    Image result = layer;
+    for (std::size_t i = 0; i < result.pixels.size(); ++i)
+        result.pixels[i] += (1 - layer.pixels[i].a) * scene.pixels[i];
+    return result;
+}
+
+}  // namespace dustbench::draw

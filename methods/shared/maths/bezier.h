@@ -1,0 +1,34 @@
+// Cubic Bézier curves of scalars and vectors over t in [0, 1].
+//
+// Threads: pure. Source: Thesis, 4.4.3 (de Casteljau); Farin2002, ch. 4. Departs: the printed weight (N − t) is (1 −
+// t).
+#pragma once
+
+namespace dustbench::maths {
+
+template <typename T>
+[[nodiscard]] constexpr T interpolate(const T& a, const T& b, float t) {
+    return a + (b - a) * t;
+}
+
+/// de Casteljau: P(i, j) = (1 − t)·P(i, j−1) + t·P(i+1, j−1), until one point remains.
+template <typename T>
+[[nodiscard]] constexpr T bezier(const T& p0, const T& p1, const T& p2, const T& p3, float t) {
+    const T p01 = interpolate(p0, p1, t), p12 = interpolate(p1, p2, t), p23 = interpolate(p2, p3, t);
+    return interpolate(interpolate(p01, p12, t), interpolate(p12, p23, t), t);
+}
+
+/// The same curve as c0 + c1·t + c2·t² + c3·t³: a third of the work where one curve is evaluated many times.
+template <typename T>
+struct CubicPolynomial {
+    T c0{}, c1{}, c2{}, c3{};
+
+    [[nodiscard]] constexpr T operator()(float t) const { return c0 + t * (c1 + t * (c2 + t * c3)); }
+};
+
+template <typename T>
+[[nodiscard]] constexpr CubicPolynomial<T> bezierPolynomial(const T& p0, const T& p1, const T& p2, const T& p3) {
+    return {p0, 3.0f * (p1 - p0), 3.0f * (p0 - 2.0f * p1 + p2), p3 - p0 + 3.0f * (p1 - p2)};
+}
+
+}  // namespace dustbench::maths

@@ -1,0 +1,35 @@
+// What parts work on: a run of particles small enough that all parts pass over it while it stays in the cache.
+//
+// Units: m, m/s, m/s², s. Frame: world. Owns: nothing. Threads: one chunk, one thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace dustbench::particles {
+
+/// Particles per chunk: twelve columns and the scratch of an update are 46 KiB, which the second-level cache holds.
+inline constexpr std::size_t chunkSize = 512;
+
+/// Pointers to `count` particles. All arrays are distinct, so that kernels may declare them `__restrict`.
+struct Chunk {
+    std::size_t count = 0;
+    const std::uint64_t* serial = nullptr;
+    float *x = nullptr, *y = nullptr, *z = nullptr;
+    float *velocityX = nullptr, *velocityY = nullptr, *velocityZ = nullptr;
+    float *age = nullptr, *lifetime = nullptr;
+    float* radius = nullptr;
+    float* opacity = nullptr;
+    float *red = nullptr, *green = nullptr, *blue = nullptr;  ///< null while one colour serves all
+
+    // Of this update alone:
+    float* share = nullptr;  ///< age / lifetime, 0..1
+    float *accelerationX = nullptr, *accelerationY = nullptr, *accelerationZ = nullptr;
+    float *airX = nullptr, *airY = nullptr, *airZ = nullptr;  ///< the air's velocity at the particle
+    float *luminosityRed = nullptr, *luminosityGreen = nullptr, *luminosityBlue = nullptr;  ///< null without shading
+    std::uint8_t* dead = nullptr;  ///< 1: dies in this update; 0: lives
+
+    [[nodiscard]] bool hasColours() const { return red != nullptr; }
+};
+
+}  // namespace dustbench::particles

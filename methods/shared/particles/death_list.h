@@ -1,0 +1,33 @@
+// Who dies in a step: noted chunk by chunk on any thread, then collected in the order of storage.
+//
+// Owns: its lists, booked on a ledger: two bytes per particle, and four per death.
+// Threads: `note` from any thread, one chunk each.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "methods/shared/memory_ledger.h"
+#include "methods/shared/particles/chunk.h"
+
+namespace dustbench::particles {
+
+class DeathList {
+ public:
+    explicit DeathList(MemoryLedger& ledger);
+
+    /// Makes room for this many particles.
+    void prepare(std::size_t particles);
+    /// The dead of one chunk; those of its `count` particles whose flag is 1 (the others are 0).
+    void note(std::size_t chunk, const std::uint8_t* dead, std::size_t count);
+    /// Storage indices of all the dead, ascending, however many threads noted them.
+    [[nodiscard]] std::span<const std::uint32_t> collect();
+
+ private:
+    LedgerVector<std::uint16_t> within_;  ///< of chunk c: places in it, from c·chunkSize on
+    LedgerVector<std::uint32_t> counts_;  ///< of chunk c
+    LedgerVector<std::uint32_t> indices_;
+};
+
+}  // namespace dustbench::particles

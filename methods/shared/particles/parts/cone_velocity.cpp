@@ -1,0 +1,57 @@
+#include "methods/shared/particles/parts/cone_velocity.h"
+
+#include "methods/shared/errors.h"
+#include "methods/shared/maths/philox.h"
+#include "methods/shared/particles/vector_parameter.h"
+
+namespace dustbench::particles {
+namespace {
+
+maths::Cone coneOf(const ParameterValues& values) {
+    const glm::vec3 direction = vectorOf(values, "direction", spaceAxes);
+    if (!(glm::length(direction) > 1e-6f))
+        throw InputError("parameter direction: got [0, 0, 0], allowed: any direction, of some length");
+    return {values.choiceAs<maths::SamplingMode>("mode"), glm::normalize(direction),
+            static_cast<float>(values.real("half_angle_degrees") / 360)};
+}
+
+}  // namespace
+
+PartInfo ConeVelocity::describe() {
+    PartInfo info{PartKind::velocity, "cone", "within a cone, faster with the vehicle's speed", {}, {}};
+    info.parameters.choice("mode", "fixed", {"paper", "fixed"},
+                           "paper: angle √R·half_angle; fixed: uniform over the cone, its cosine interpolated");
+    declareVector(info.parameters, "direction", spaceAxes, {0, 1, 0}, -1, 1, "", "axis: forward, up, right");
+    info.parameters.real("half_angle_degrees", 30, 0, 180, "°", "half the cone's opening")
+        .real("speed", 1, 0, 1000, "m/s", "along the cone, whatever the vehicle does")
+        .real("speed_share", 0, 0, 10, "", "of the vehicle's speed, besides")
+        .real("variation", 0.5, 0, 1, "", "largest departure from that speed, relative")
+        .real("inherit", 0, -10, 10, "", "share of the emitter's own velocity that particles keep");
+    return info;
+}
+
+ConeVelocity::ConeVelocity(const ParameterValues& values)
+    : VelocityPart("cone", values),
+      cone_(coneOf(values)),
+      speed_(static_cast<float>(values.real("speed"))),
+      speedShare_(static_cast<float>(values.real("speed_share"))),
+      variation_(static_cast<float>(values.real("variation"))),
+      inherit_(static_cast<float>(values.real("inherit"))) {}
+
+void ConeVelocity::launch(Newborns& newborns, const Step& step) const {
+    const Chunk& chunk = newborns.chunk;
+    for (std::size_t i = 0; i < chunk.count; ++i) {
+        const Emitter& emitter = *newborns.emitter[i];
+        const auto u = maths::uniform4(step.seed, velocityStream, chunk.serial[i]);
+        const glm::vec3 local = cone_.direction(u[0], u[1]);
+        const glm::vec3 direction = local.x * emitter.forward + local.y * emitter.up + local.z * emitter.right;
+        const float speed = (speed_ + speedShare_ * emitter.speed) * (1 + variation_ * maths::centred(u[2]));
+        const glm::vec3 carrier = glm::mix(emitter.velocityFrom, emitter.velocityTo, newborns.moment[i]);
+        const glm::vec3 velocity = speed * direction + inherit_ * carrier;
+        chunk.velocityX[i] = velocity.x;
+        chunk.velocityY[i] = velocity.y;
+        chunk.velocityZ[i] = velocity.z;
+    }
+}
+
+}  // namespace dustbench::particles
