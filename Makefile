@@ -1,0 +1,76 @@
+# The front door: `make test` and `make reproduce` do all that is needed, from a bare Debian 12 on.
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+MAKEFLAGS += --no-print-directory
+
+PAPER ?= carr2006
+JOBS ?= $(shell nproc)
+PROGRAM := build/release/dustbench
+
+# Paths inside the tree count relative to it, so that a copy of the tree finds its objects in the compiler cache.
+export CCACHE_BASEDIR ?= $(CURDIR)
+export CTEST_PARALLEL_LEVEL ?= $(JOBS)
+
+SOURCES = $(shell find methods bench tests -name '*.h' -o -name '*.cpp' | LC_ALL=C sort)
+
+.PHONY: help
+help: ## What make can do here
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' Makefile
+
+.PHONY: packages
+packages: ## Install the Debian packages that are missing
+	@.ci/install build
+
+# Ninja configures again by itself whenever a CMakeLists.txt changes; this is for the first time and for new presets.
+build/%/build.ninja: CMakePresets.json | packages
+	@cmake --preset $*
+	@touch $@
+
+.PHONY: build
+build: build/release/build.ninja ## The program, build/release/dustbench
+	@cmake --build --preset release --parallel $(JOBS) --target dustbench
+
+.PHONY: reproduce
+reproduce: build ## The paper's experiments in their quick size (PAPER=carr2006), results in reports/out/
+	@$(PROGRAM) reproduce --paper $(PAPER) --quick --out reports/out/$(PAPER)
+
+.PHONY: test
+test: build/release/build.ninja ## Build everything and run every test
+	@cmake --build --preset release --parallel $(JOBS)
+	@ctest --preset release
+
+.PHONY: bench
+bench: build/release/build.ninja ## Run every benchmark program
+	@cmake --build --preset release --parallel $(JOBS) --target benches
+	@for program in build/release/*_bench; do echo "== $$program"; "$$program"; done
+
+.PHONY: asan
+asan: build/asan/build.ninja ## The unit tests under AddressSanitizer and UndefinedBehaviorSanitizer
+	@cmake --build --preset asan --parallel $(JOBS) --target unit_tests
+	@ctest --preset asan --exclude-regex _NOT_BUILT
+
+.PHONY: tsan
+tsan: build/tsan/build.ninja ## The unit tests that need no GPU under ThreadSanitizer
+	@cmake --build --preset tsan --parallel $(JOBS) --target unit_tests
+	@ctest --preset tsan --exclude-regex _NOT_BUILT
+
+.PHONY: format
+format: ## Lay out all sources by .clang-format
+	@.ci/install format
+	@clang-format-14 -i $(SOURCES)
+
+.PHONY: format-check
+format-check: ## Say which sources `make format` would change
+	@.ci/install format
+	@clang-format-14 --dry-run --Werror $(SOURCES)
+
+.PHONY: lint
+lint: ## Build all sources with clang-tidy beside the compiler
+	@.ci/install lint
+	@$(MAKE) build/tidy/build.ninja
+	@cmake --build --preset tidy --parallel $(JOBS)
+
+.PHONY: clean
+clean: ## Remove all that was built (results in reports/out/ stay)
+	@rm -rf build

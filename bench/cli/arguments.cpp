@@ -1,0 +1,133 @@
+#include "bench/cli/arguments.h"
+
+#include <charconv>
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "methods/shared/errors.h"
+
+namespace dustbench::cli {
+namespace {
+
+template <typename Number>
+std::function<void(const std::string&)> reader(const std::string& name, Number& value, Number minimum, Number maximum) {
+    return [name, &value, minimum, maximum](const std::string& text) {
+        Number number{};
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (error != std::errc() || end != text.data() + text.size() || !(number >= minimum && number <= maximum)) {
+            const bool unbounded = maximum == std::numeric_limits<Number>::max();
+            std::ostringstream allowed;
+            allowed << (std::is_integral_v<Number> ? "integer " : "number ") << minimum
+                    << (unbounded ? " or more" : "..");
+            if (!unbounded) allowed << maximum;
+            throw InputError(name + ": got '" + text + "', allowed: " + allowed.str());
+        }
+        value = number;
+    };
+}
+
+template <typename Number>
+void declareNumber(CLI::App& app, const std::string& name, const std::string& help, Number& value, Number minimum,
+                   Number maximum) {
+    std::ostringstream initial;
+    initial << value;
+    app.add_option_function<std::string>(name, reader(name, value, minimum, maximum), help)
+        ->type_name("N")
+        ->default_str(initial.str());
+}
+
+std::vector<std::string> optionNames(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+        if (!option->get_positional()) names.push_back(option->get_name());
+    return names;
+}
+
+/// Says what is near an option or subcommand that nobody knows.
+InputError unexpected(const CLI::App& app, const CLI::App* command, const std::vector<std::string>& argv,
+                      const CLI::ParseError& error) {
+    if (!command) {
+        std::vector<std::string> known;
+        for (const CLI::App* each : app.get_subcommands({})) known.push_back(each->get_name());
+        if (!argv.empty() && !argv.front().starts_with('-')) return unknownName("command", argv.front(), known);
+        return InputError(error.what());
+    }
+    for (const std::string& word : argv) {
+        const std::string name = word.substr(0, word.find('='));
+        if (name.size() > 1 && name.front() == '-' && !command->get_option_no_throw(name))
+            return unknownName("option of " + command->get_name(), name, optionNames(*command));
+    }
+    return InputError(error.what());
+}
+
+}  // namespace
+
+void Arguments::flag(const std::string& name, const std::string& help, bool& value) {
+    app_.add_flag(name, value, help);
+}
+
+void Arguments::text(const std::string& name, const std::string& placeholder, const std::string& help,
+                     std::string& value) {
+    CLI::Option* option = app_.add_option(name, value, help)->type_name(placeholder);
+    if (!value.empty()) option->capture_default_str();
+}
+
+void Arguments::required(const std::string& name, const std::string& placeholder, const std::string& help,
+                         std::string& value) {
+    app_.add_option(name, value, help)->type_name(placeholder)->required();
+}
+
+void Arguments::texts(const std::string& name, const std::string& placeholder, const std::string& help,
+                      std::vector<std::string>& values) {
+    app_.add_option(name, values, help)->type_name(placeholder)->allow_extra_args(false)->type_size(1);
+}
+
+void Arguments::integer(const std::string& name, const std::string& help, std::int64_t& value, std::int64_t minimum,
+                        std::int64_t maximum) {
+    declareNumber(app_, name, help, value, minimum, maximum);
+}
+
+void Arguments::number(const std::string& name, const std::string& help, double& value, double minimum,
+                       double maximum) {
+    declareNumber(app_, name, help, value, minimum, maximum);
+}
+
+int dispatch(const std::vector<Command>& commands, std::string_view version, const std::vector<std::string>& argv) {
+    CLI::App app("Real-time volumetric effects behind one vehicle, compared and measured.", "dustbench");
+    app.require_subcommand(1);
+    app.get_formatter()->column_width(34);
+    app.set_version_flag("--version", std::string(version));
+    std::vector<std::pair<CLI::App*, const Command*>> declared;
+    for (const Command& command : commands) {
+        CLI::App* sub = app.add_subcommand(command.name, command.summary);
+        sub->footer(command.footer);
+        Arguments arguments(*sub);
+        command.declare(arguments);
+        declared.emplace_back(sub, &command);
+    }
+
+    const auto chosen = [&]() -> const std::pair<CLI::App*, const Command*>* {
+        for (const auto& entry : declared)
+            if (entry.first->parsed() || entry.first->count() > 0) return &entry;
+        return nullptr;
+    };
+    try {
+        std::vector<std::string> reversed(argv.rbegin(), argv.rend());
+        app.parse(std::move(reversed));
+    } catch (const CLI::CallForVersion& call) {
+        std::cout << call.what() << '\n';
+        return 0;
+    } catch (const CLI::CallForHelp&) {
+        std::cout << app.help();
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        const auto* entry = chosen();
+        // By type: a subcommand's ExtrasError carries the subcommand's name instead of its own.
+        if (dynamic_cast<const CLI::ExtrasError*>(&error) || !entry)
+            throw unexpected(app, entry ? entry->first : nullptr, argv, error);
+        throw InputError(error.what());
+    }
+    return chosen()->second->run();
+}
+
+}  // namespace dustbench::cli

@@ -1,0 +1,21 @@
+// The subcommands, one source file each.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/cli/arguments.h"
+
+namespace dustbench::cli {
+
+[[nodiscard]] Command listCommand();
+[[nodiscard]] Command envCommand();
+[[nodiscard]] Command runCommand();
+[[nodiscard]] Command suiteCommand();
+[[nodiscard]] Command reproduceCommand();
+
+/// What a run's own process does: `measure-run SPEC FOLDER -- the user's command`. Not for people.
+inline constexpr const char* childCommandName = "measure-run";
+[[nodiscard]] int measureRunCommand(const std::vector<std::string>& argv);
+
+}  // namespace dustbench::cli

@@ -1,0 +1,274 @@
+// The program as a user calls it: exit codes, one line on stderr, files and their agreement.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "bench/run/run_record.h"
+#include "methods/shared/files/csv.h"
+#include "methods/shared/registry.h"
+#include "methods/shared/stage_clock.h"
+
+namespace dustbench::cli {
+namespace {
+namespace fs = std::filesystem;
+
+using testing::HasSubstr;
+
+std::string contentOf(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+struct Called {
+    int code = -1;
+    std::string out, err;
+};
+
+class Dustbench : public testing::Test {
+ protected:
+    void SetUp() override {
+        folder_ =
+            fs::path(testing::TempDir()) /
+            fmt::format("dustbench-{}-{}", testing::UnitTest::GetInstance()->current_test_info()->name(), getpid());
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    [[nodiscard]] Called call(const std::string& arguments) const {
+        const std::string command = fmt::format("'{}' {} >'{}' 2>'{}'", DUSTBENCH_PROGRAM, arguments,
+                                                (folder_ / "stdout").string(), (folder_ / "stderr").string());
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(folder_ / "stdout"),
+                contentOf(folder_ / "stderr")};
+    }
+    [[nodiscard]] std::string out() const { return (folder_ / "out").string(); }
+    /// A run short enough for a test, drawn by the first method that there is.
+    [[nodiscard]] Called shortRun(const std::string& more) const {
+        return call(fmt::format("run --method {} --size 96x72 --warmup 2 -P preroll=0.2 -P particles=200 {}",
+                                methods().front().id, more));
+    }
+    [[nodiscard]] std::vector<fs::path> runs(const std::string& folder) const {
+        std::vector<fs::path> list;
+        for (const auto& entry : fs::directory_iterator(fs::path(folder) / "runs")) list.push_back(entry.path());
+        return list;
+    }
+
+    fs::path folder_;
+};
+
+std::string stateHash(const fs::path& run) {
+    const std::string text = contentOf(run / "run.json");
+    const std::string key = "\"state_hash\": \"";
+    const std::size_t at = text.find(key);
+    return at == std::string::npos ? "" : text.substr(at + key.size(), 16);
+}
+
+TEST_F(Dustbench, WrongUseIsOneLineAndExitCodeThree) {
+    ASSERT_FALSE(methods().empty());
+    const std::string method = methods().front().id;
+    const std::vector<std::pair<std::string, std::string>> mistakes{
+        {"", "subcommand"},
+        {"lst", "'list'"},
+        {"list method", "'methods'"},
+        {"run --out o", "--method"},
+        {"run --method " + method + "x --out o", "'" + method + "'"},
+        {"run --method " + method + " --out o --scene plan", "'plain'"},
+        {"run --method " + method + " --out o --drive slalon", "'slalom'"},
+        {"run --method " + method + " --out o -P particle=5", "'particles'"},
+        {"run --method " + method + " --out o -P particles=-5", "0..10000000"},
+        {"run --method " + method + " --out o -P particles", "name=value"},
+        {"run --method " + method + " --out o --frames 0", "1..10000000"},
+        {"run --method " + method + " --out o --frames many", "'many'"},
+        {"run --method " + method + " --out o --frame 5", "'--frames'"},
+        {"run --method " + method + " --out o --size 5", "WIDTHxHEIGHT"},
+        {"run --method " + method + " --out o --sync always", "frame|stage|none"},
+        {"suite carr2006-fig6 --out o", "'carr2006-fig5'"},
+        {"suite /nowhere/suite.toml --out o", "/nowhere/suite.toml"},
+        {"suite carr2006-fig5 --order sorted --out o", "interleaved|batch"},
+        {"reproduce --paper carr206", "'carr2006'"},
+        {"reproduce --paper carr2006 --quick --full --out o", "--full"},
+    };
+    for (const auto& [arguments, expected] : mistakes) {
+        const Called called = call(arguments);
+        EXPECT_EQ(called.code, 3) << arguments << "\n" << called.err;
+        EXPECT_THAT(called.err, HasSubstr(expected)) << arguments;
+        EXPECT_EQ(std::ranges::count(called.err, '\n'), 1) << arguments << "\n" << called.err;
+        EXPECT_EQ(called.out, "") << arguments;
+    }
+}
+
+TEST_F(Dustbench, AMalformedFileIsNamedWithItsLine) {
+    std::ofstream(folder_ / "broken.toml") << "title = \"x\"\nframes = = 3\n";
+    EXPECT_THAT(call(fmt::format("suite {}/broken.toml --out {}", folder_.string(), out())).err,
+                HasSubstr("broken.toml:2"));
+    std::ofstream(folder_ / "drive.csv") << "time_s,throttle\n0,fast\n";
+    const Called drive = shortRun(fmt::format("--frames 1 --drive {}/drive.csv --out {}", folder_.string(), out()));
+    EXPECT_EQ(drive.code, 3) << drive.err;
+    EXPECT_THAT(drive.err, HasSubstr("drive.csv:"));
+    EXPECT_FALSE(fs::exists(out()));
+}
+
+TEST_F(Dustbench, AFolderThatCannotBeWrittenIsFoundBeforeTheFirstRun) {
+    std::ofstream(folder_ / "file") << "x";
+    const Called called = shortRun("--frames 1 --out " + (folder_ / "file" / "out").string());
+    EXPECT_EQ(called.code, 3);
+    EXPECT_THAT(called.err, HasSubstr("cannot be written"));
+}
+
+TEST_F(Dustbench, HelpAndListsGoToStdout) {
+    for (const char* arguments : {"--help", "run --help", "suite --help", "list --help", "--version", "list", "env"}) {
+        const Called called = call(arguments);
+        EXPECT_EQ(called.code, 0) << arguments << "\n" << called.err;
+        EXPECT_FALSE(called.out.empty()) << arguments;
+        EXPECT_EQ(called.err, "") << arguments;
+    }
+    const std::string list = call("list methods").out;
+    for (const MethodInfo& method : methods()) {
+        EXPECT_THAT(list, HasSubstr(method.id));
+        for (const Parameter& parameter : method.parameters.all()) EXPECT_THAT(list, HasSubstr(parameter.name));
+    }
+    EXPECT_THAT(call("list suites --json").out, HasSubstr("\"id\": \"carr2006-fig5\""));
+    EXPECT_THAT(call("env --json").out, HasSubstr("\"gl_renderer\""));
+}
+
+TEST_F(Dustbench, StagesOfEveryFrameAddUpToItsTime) {
+    for (const char* sync : {"frame", "stage"}) {
+        const std::string folder = out() + sync;
+        const Called called = shortRun(fmt::format("--frames 20 --images 8 --sync {} --out {}", sync, folder));
+        ASSERT_EQ(called.code, 0) << called.err;
+        const fs::path run = runs(folder).at(0);
+        const auto frames = files::CsvTable::parseFile(run / "frames.csv");
+        ASSERT_EQ(frames.rows(), 20u);
+        double frameMs = 0, stagesMs = 0;
+        for (std::size_t row = 0; row < frames.rows(); ++row) {
+            EXPECT_EQ(frames.number(row, "frame"), static_cast<double>(row));
+            frameMs += frames.number(row, "frame_ms");
+            for (const std::string_view stage : stageNames) stagesMs += frames.number(row, std::string(stage) + "_ms");
+        }
+        EXPECT_LE(stagesMs, frameMs);
+        EXPECT_GE(stagesMs, 0.95 * frameMs);
+
+        std::vector<std::string> images;
+        for (const auto& entry : fs::directory_iterator(run / "images")) images.push_back(entry.path().filename());
+        EXPECT_THAT(images, testing::UnorderedElementsAre("f000000.png", "f000000.exr", "f000008.png", "f000008.exr",
+                                                          "f000016.png", "f000016.exr"));
+        EXPECT_EQ(files::CsvTable::parseFile(fs::path(folder) / "summary.csv").rows(), 1u);
+    }
+}
+
+TEST_F(Dustbench, StateHashDependsOnTheSeedAndOnNothingElseOfARun) {
+    const auto hash = [this](const std::string& name, const std::string& more) {
+        const std::string folder = out() + name;
+        const Called called = shortRun(fmt::format("--frames 12 --out {} {}", folder, more));
+        EXPECT_EQ(called.code, 0) << called.err;
+        return stateHash(runs(folder).at(0));
+    };
+    const std::string once = hash("a", "--threads 1");
+    EXPECT_EQ(once.size(), 16u);
+    EXPECT_EQ(hash("b", "--threads 1"), once);
+    EXPECT_EQ(hash("c", "--threads 2"), once);
+    EXPECT_EQ(hash("d", "--sync none"), once);
+    EXPECT_NE(hash("e", "--seed 2"), once);
+}
+
+TEST_F(Dustbench, AListOfValuesIsARunEach) {
+    const Called called =
+        call(fmt::format("run --method {} --size 64x48 --warmup 0 --frames 2 -P preroll=0.1 -P particles=50:150:50 "
+                         "-P speed=10,20 --out {}",
+                         methods().front().id, out()));
+    ASSERT_EQ(called.code, 0) << called.err;
+    EXPECT_EQ(runs(out()).size(), 6u);
+    EXPECT_THAT(called.err, HasSubstr("[6/6]"));
+}
+
+TEST_F(Dustbench, AKilledSuiteLeavesNoHalfRunAndResumes) {
+    std::ofstream(folder_ / "long.toml") << fmt::format(
+        "title = \"long\"\nmethods = [\"{}\"]\nsizes = [\"64x48\"]\nframes = 30\nwarmup = 0\nrepetitions = 4\n"
+        "[parameters]\npreroll = 0.1\nparticles = 100\n",
+        methods().front().id);
+    const std::string suite = (folder_ / "long.toml").string();
+    const pid_t victim = fork();
+    if (victim == 0) {
+        execl(DUSTBENCH_PROGRAM, DUSTBENCH_PROGRAM, "suite", suite.c_str(), "--out", out().c_str(), nullptr);
+        _exit(127);
+    }
+    const auto visible = [this] {
+        std::vector<fs::path> list;
+        std::error_code error;
+        for (const auto& entry : fs::directory_iterator(fs::path(out()) / "runs", error))
+            if (!entry.path().filename().string().starts_with('.')) list.push_back(entry.path());
+        return list;
+    };
+    for (int i = 0; i < 6'000 && visible().empty(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ASSERT_FALSE(visible().empty());
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));  // into the next run
+    kill(victim, SIGKILL);
+    waitpid(victim, nullptr, 0);
+    for (const fs::path& run : visible()) EXPECT_TRUE(fs::exists(run / "run.json") && fs::exists(run / "frames.csv"));
+
+    const Called resumed = call(fmt::format("suite {} --out {}", suite, out()));
+    EXPECT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_EQ(runs(out()).size(), 4u);
+    EXPECT_EQ(files::CsvTable::parseFile(fs::path(out()) / "summary.csv").rows(), 4u);
+    EXPECT_THAT(call(fmt::format("suite {} --out {}", suite, out())).err, HasSubstr("4 were there"));
+}
+
+TEST_F(Dustbench, CtrlCEndsWithTwoAndLeavesNoHalfRun) {
+    const pid_t child = fork();
+    if (child == 0) {
+        execl(DUSTBENCH_PROGRAM, DUSTBENCH_PROGRAM, "run", "--method", methods().front().id.c_str(), "--frames",
+              "1000000", "--size", "64x48", "--out", out().c_str(), nullptr);
+        _exit(127);
+    }
+    const auto begun = [this] {
+        std::error_code error;
+        for (const auto& entry : fs::directory_iterator(fs::path(out()) / "runs", error)) {
+            (void)entry;
+            return true;
+        }
+        return false;
+    };
+    for (int i = 0; i < 6'000 && !begun(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ASSERT_TRUE(begun());
+    kill(child, SIGINT);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 2);
+    EXPECT_THAT(runs(out()), testing::IsEmpty());
+}
+
+TEST_F(Dustbench, ARunThatTakesTooLongIsATimeoutAndExitCodeOne) {
+    std::ofstream(folder_ / "slow.toml") << fmt::format(
+        "title = \"slow\"\nmethods = [\"{}\"]\nsizes = [\"64x48\"]\nframes = 1000000\nwarmup = 0\n"
+        "[parameters]\npreroll = 0.1\nparticles = 100\n",
+        methods().front().id);
+    const Called called = call(fmt::format("suite {}/slow.toml --timeout 2 --out {}", folder_.string(), out()));
+    EXPECT_EQ(called.code, 1) << called.err;
+    ASSERT_EQ(runs(out()).size(), 1u);
+    const bench::StoredRun run = bench::readRunFile(runs(out()).at(0) / "run.json");
+    EXPECT_EQ(run.status, bench::RunStatus::timeout);
+    EXPECT_THAT(run.reason, HasSubstr("no end after 2 s"));
+}
+
+TEST_F(Dustbench, ADryRunOnlyPrintsTheList) {
+    const Called called = call("suite carr2006-fig5 --quick --dry-run --out " + out());
+    EXPECT_EQ(called.code, 0) << called.err;
+    EXPECT_EQ(std::ranges::count(called.out, '\n'), 4 * 3 * 2);
+    EXPECT_FALSE(fs::exists(out()));
+}
+
+}  // namespace
+}  // namespace dustbench::cli

@@ -1,0 +1,14 @@
+// What the command's exit status says.
+#pragma once
+
+namespace dustbench::cli {
+
+enum ExitCode {
+    exitOk = 0,
+    exitRunFailed = 1,
+    exitAborted = 2,
+    exitBadInput = 3,
+    exitInternal = 4,
+};
+
+}  // namespace dustbench::cli

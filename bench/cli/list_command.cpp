@@ -1,0 +1,75 @@
+// `dustbench list`: what this build and its data offer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "bench/cli/commands.h"
+#include "bench/cli/exit_codes.h"
+#include "bench/run/catalogue.h"
+#include "methods/shared/errors.h"
+
+namespace dustbench::cli {
+namespace {
+
+struct ListOptions {
+    std::string what;
+    std::string id;
+    bool json = false;
+};
+
+void printParameters(const std::vector<Parameter>& parameters) {
+    for (const Parameter& parameter : parameters) {
+        std::string value = parameter.name + "=" + parameter.initial;
+        std::cout << fmt::format("      -P {:<24} {}  ({}{})\n", value, parameter.help, parameter.allowed(),
+                                 parameter.unit.empty() ? "" : " " + parameter.unit);
+    }
+}
+
+void printItem(const bench::CatalogueItem& item, bool withParameters) {
+    std::cout << fmt::format("  {:<20} {}\n", item.id, item.title);
+    if (!item.summary.empty()) std::cout << fmt::format("  {:<20} {}\n", "", item.summary);
+    if (withParameters) printParameters(item.parameters);
+}
+
+int list(const ListOptions& options) {
+    if (!options.what.empty()) {
+        const std::vector<std::string>& kinds = bench::catalogueKinds();
+        if (std::ranges::find(kinds, options.what) == kinds.end()) throw unknownName("list", options.what, kinds);
+    }
+    std::vector<bench::CatalogueItem> all;
+    for (const std::string& kind : bench::catalogueKinds()) {
+        if (!options.what.empty() && options.what != kind) continue;
+        std::vector<bench::CatalogueItem> items = bench::catalogue(kind);
+        if (!options.id.empty()) items = {bench::findItem(kind, items, options.id)};
+        if (!options.json) {
+            std::cout << kind << ":\n";
+            for (const bench::CatalogueItem& item : items) printItem(item, kind == "methods" && !options.what.empty());
+            if (kind == "methods" && !options.what.empty() && options.id.empty()) {
+                std::cout << "every method, from the world that it is shown:\n";
+                printParameters(bench::worldParameterList());
+            }
+        }
+        all.insert(all.end(), items.begin(), items.end());
+    }
+    if (options.json) std::cout << bench::catalogueJson(all);
+    return exitOk;
+}
+
+}  // namespace
+
+Command listCommand() {
+    auto options = std::make_shared<ListOptions>();
+    return {"list", "What there is: methods, scenes, drives, suites, metrics",
+            "`dustbench list methods` shows every parameter that -P sets, with its default and what is allowed.",
+            [options](Arguments& arguments) {
+                arguments.text("what", "", "methods, scenes, drives, suites or metrics; all where left out",
+                               options->what);
+                arguments.text("id", "", "only this one", options->id);
+                arguments.flag("--json", "an array of objects with `id`", options->json);
+            },
+            [options] { return list(*options); }};
+}
+
+}  // namespace dustbench::cli

@@ -1,0 +1,42 @@
+// The `dustbench` command: parses, runs a subcommand, and turns what it throws into one line and an exit code.
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "bench/cli/commands.h"
+#include "bench/cli/exit_codes.h"
+#include "bench/measure/provenance.h"
+#include "methods/shared/errors.h"
+
+namespace dustbench::cli {
+namespace {
+
+/// A message without line breaks, so that stderr gets one line whatever was thrown.
+std::string oneLine(std::string message) {
+    std::ranges::replace(message, '\n', ' ');
+    return message;
+}
+
+int run(const std::vector<std::string>& argv) {
+    if (!argv.empty() && argv.front() == childCommandName) return measureRunCommand(argv);
+    return dispatch({listCommand(), envCommand(), runCommand(), suiteCommand(), reproduceCommand()},
+                    "dustbench " + bench::buildFacts().version, argv);
+}
+
+}  // namespace
+}  // namespace dustbench::cli
+
+int main(int argc, char** argv) {
+    using namespace dustbench;
+    try {
+        return cli::run({argv + std::min(argc, 1), argv + argc});
+    } catch (const InputError& error) {
+        std::cerr << "dustbench: " << cli::oneLine(error.what()) << '\n';
+        return cli::exitBadInput;
+    } catch (const std::exception& error) {
+        std::cerr << "dustbench: internal error: " << cli::oneLine(error.what()) << '\n';
+        return cli::exitInternal;
+    }
+}

@@ -1,0 +1,37 @@
+// The process of one run: measures and leaves the run's files; tells its parent on stdout how far it is.
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+
+#include "bench/cli/commands.h"
+#include "bench/cli/exit_codes.h"
+#include "bench/run/measured_run.h"
+#include "bench/run/results_folder.h"
+#include "methods/shared/errors.h"
+
+namespace dustbench::cli {
+
+int measureRunCommand(const std::vector<std::string>& argv) {
+    if (argv.size() < 4 || argv[3] != "--")
+        throw InputError(std::string(childCommandName) + ": got other arguments than SPEC FOLDER -- COMMAND");
+    std::ifstream file(argv[1], std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const std::filesystem::path folder = argv[2];
+
+    auto lastSaid = std::chrono::steady_clock::now();
+    const auto progress = [&lastSaid](std::string_view phase, std::int64_t done, std::int64_t total) {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - lastSaid < std::chrono::milliseconds(100) && done != total) return;
+        lastSaid = now;
+        const std::string line = std::string(phase) + " " + std::to_string(done) + " " + std::to_string(total) + "\n";
+        [[maybe_unused]] const auto written = write(STDOUT_FILENO, line.data(), line.size());
+    };
+    const bench::RunRecord record =
+        bench::measureRun(bench::specFromJson(text), folder, {argv.begin() + 4, argv.end()}, progress);
+    bench::writeWhole(folder / "run.json", bench::toJson(record));
+    return exitOk;
+}
+
+}  // namespace dustbench::cli

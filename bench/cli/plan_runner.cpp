@@ -1,0 +1,61 @@
+#include "bench/cli/plan_runner.h"
+
+#include <signal.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "bench/cli/commands.h"
+#include "bench/cli/exit_codes.h"
+#include "bench/cli/progress_printer.h"
+#include "bench/measure/provenance.h"
+#include "methods/shared/gpu/device.h"
+
+namespace dustbench::cli {
+namespace {
+
+volatile sig_atomic_t interruptions = 0;
+
+void countInterruption(int) {
+    interruptions = interruptions + 1;
+}
+
+/// Ctrl-C and `kill` are asked for between two looks at the child, so that nothing is left half done.
+void listenForInterruption() {
+    struct sigaction action {};
+    action.sa_handler = countInterruption;
+    for (const int signalNumber : {SIGINT, SIGTERM, SIGHUP}) sigaction(signalNumber, &action, nullptr);
+}
+
+}  // namespace
+
+int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,
+            const PlanOptions& options) {
+    { const gpu::Device mustExist; }
+    listenForInterruption();
+
+    bench::ExecutionOptions execution;
+    execution.force = options.force;
+    execution.retryFailed = options.retryFailed;
+    execution.timeoutSeconds = options.timeoutSeconds;
+    execution.badInputEnds = options.badInputEnds;
+    execution.argv = bench::commandLine();
+    execution.interrupted = [] { return interruptions != 0; };
+    execution.command = [&execution](const std::filesystem::path& spec, const std::filesystem::path& folder) {
+        std::vector<std::string> command{"/proc/self/exe", childCommandName, spec.string(), folder.string(), "--"};
+        command.insert(command.end(), execution.argv.begin(), execution.argv.end());
+        return command;
+    };
+    ProgressPrinter printer;
+    const bench::ExecutionResult result = bench::execute(plan, repetitions, results, execution, printer);
+    if (result.aborted) {
+        std::cerr << "aborted; the same command goes on from here" << std::endl;
+        return exitAborted;
+    }
+    if (plan.size() > 1)
+        std::cerr << result.done << " done, " << result.skipped << " skipped, " << result.failed << " failed, "
+                  << result.kept << " were there" << std::endl;
+    return result.failed > 0 ? exitRunFailed : exitOk;
+}
+
+}  // namespace dustbench::cli

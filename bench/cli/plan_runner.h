@@ -1,0 +1,24 @@
+// What `run`, `suite` and `reproduce` share: working through a plan with progress, Ctrl-C and exit codes.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "bench/run/executor.h"
+
+namespace dustbench::cli {
+
+/// The options of executing that a user may set; the rest is filled in.
+struct PlanOptions {
+    bool force = false;
+    bool retryFailed = false;
+    double timeoutSeconds = 0;
+    bool badInputEnds = false;
+};
+
+/// Executes and gives the exit code. Where there is something to run, it makes sure first that OpenGL is there.
+/// Throws InputError.
+[[nodiscard]] int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,
+                          const PlanOptions& options);
+
+}  // namespace dustbench::cli

@@ -1,0 +1,57 @@
+#include "bench/cli/progress_printer.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <iostream>
+
+#include "bench/run/progress.h"
+
+namespace dustbench::cli {
+namespace {
+
+/// A plain log need not grow with every frame: a sign of life now and then.
+constexpr std::chrono::seconds plainInterval{30};
+constexpr std::chrono::milliseconds barInterval{100};
+
+}  // namespace
+
+ProgressPrinter::ProgressPrinter() : terminal_(isatty(STDERR_FILENO) != 0) {}
+
+int ProgressPrinter::terminalWidth() const {
+    winsize size{};
+    return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+void ProgressPrinter::eraseBar() {
+    if (terminal_) std::cerr << "\r\x1b[K";
+}
+
+void ProgressPrinter::started(std::size_t position, std::size_t total, const bench::PlannedRun& run, int repetitions,
+                              double etaSeconds) {
+    std::cerr << bench::progressLine(position, total, run, repetitions, etaSeconds) << std::endl;
+    last_.clear();
+    lastShown_ = std::chrono::steady_clock::now();
+}
+
+void ProgressPrinter::heard(std::string_view line) {
+    if (!line.empty()) last_ = line;
+    const auto now = std::chrono::steady_clock::now();
+    if (terminal_ && now - lastShown_ >= barInterval) {
+        eraseBar();
+        std::cerr << bench::progressBar(last_, terminalWidth()) << std::flush;
+    } else if (!terminal_ && now - lastShown_ >= plainInterval) {
+        std::cerr << "    " << (last_.empty() ? "starting" : last_) << std::endl;
+    } else {
+        return;
+    }
+    lastShown_ = now;
+}
+
+void ProgressPrinter::ended(const bench::PlannedRun&, bench::RunStatus status, const std::string& reason) {
+    eraseBar();
+    if (status != bench::RunStatus::done)
+        std::cerr << "    " << bench::statusName(status) << ": " << reason << std::endl;
+}
+
+}  // namespace dustbench::cli

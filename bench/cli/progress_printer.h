@@ -1,0 +1,29 @@
+// Shows on stderr how a plan goes on: a bar on a terminal, plain lines elsewhere.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "bench/run/executor.h"
+
+namespace dustbench::cli {
+
+class ProgressPrinter : public bench::ExecutionListener {
+ public:
+    ProgressPrinter();
+
+    void started(std::size_t position, std::size_t total, const bench::PlannedRun& run, int repetitions,
+                 double etaSeconds) override;
+    void heard(std::string_view line) override;
+    void ended(const bench::PlannedRun& run, bench::RunStatus status, const std::string& reason) override;
+
+ private:
+    [[nodiscard]] int terminalWidth() const;
+    void eraseBar();
+
+    bool terminal_;
+    std::string last_;  ///< what the run said last
+    std::chrono::steady_clock::time_point lastShown_;
+};
+
+}  // namespace dustbench::cli

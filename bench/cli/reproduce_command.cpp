@@ -1,0 +1,77 @@
+// `dustbench reproduce`: runs the suites of a paper and prints what came out.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "bench/cli/commands.h"
+#include "bench/cli/exit_codes.h"
+#include "bench/cli/plan_runner.h"
+#include "bench/cli/shared_options.h"
+#include "bench/cli/text_table.h"
+#include "bench/run/paper.h"
+#include "bench/run/suite.h"
+#include "bench/run/suite_table.h"
+#include "methods/shared/errors.h"
+
+namespace dustbench::cli {
+namespace {
+
+struct ReproduceOptions {
+    std::string paper, out;
+    bool quick = false, full = false;
+};
+
+int reproduce(const ReproduceOptions& options) {
+    if (options.quick && options.full) throw InputError("--quick and --full: got both, allowed: one of them");
+    std::vector<bench::Paper> papers;
+    for (const std::string& id : options.paper.empty() ? bench::listPapers() : std::vector{options.paper})
+        papers.push_back(bench::loadPaper(id));
+
+    int code = exitOk;
+    for (const bench::Paper& paper : papers) {
+        // Several papers of one call lie side by side.
+        std::filesystem::path out = options.out;
+        if (options.out.empty()) out = std::filesystem::path("reports/out") / paper.id;
+        if (!options.out.empty() && options.paper.empty()) out /= paper.id;
+        bench::ResultsFolder results(out);
+        std::cout << fmt::format("{} ({}): {}\n", paper.authors, paper.year, paper.title);
+        for (const std::string& id : paper.suites) {
+            const bench::Suite suite = bench::loadSuite(id, options.quick);
+            const auto plan = bench::planRuns(suite);
+            checkWorlds(plan);
+            PlanOptions planOptions;
+            planOptions.timeoutSeconds = suite.timeoutSeconds;
+            const int suiteCode = runPlan(plan, suite.repetitions, results, planOptions);
+            if (suiteCode == exitAborted) return suiteCode;
+            code = std::max(code, suiteCode);
+
+            bench::SuiteTable table = bench::tabulate(suite, results.runs());
+            table.rows.insert(table.rows.begin(), table.header);
+            std::cout << "\n" << suite.title << "\n" << textTable(table.rows);
+        }
+        std::cout << "\n" << (results.path() / "summary.csv").string() << "\n";
+    }
+    return code;
+}
+
+}  // namespace
+
+Command reproduceCommand() {
+    auto options = std::make_shared<ReproduceOptions>();
+    return {"reproduce", "Run the experiments of a paper and print what came out",
+            "Runs whose results are there already are left alone.",
+            [options](Arguments& arguments) {
+                arguments.text("--paper", "ID", "carr2006 …: a folder of data/papers; all of them unless given",
+                               options->paper);
+                arguments.flag("--quick", "the suites' short forms: minutes instead of hours", options->quick);
+                arguments.flag("--full", "the whole suites (as without --quick)", options->full);
+                arguments.text("--out", "DIR", "folder for the results; reports/out/<paper> unless given",
+                               options->out);
+            },
+            [options] { return reproduce(*options); }};
+}
+
+}  // namespace dustbench::cli

@@ -1,0 +1,36 @@
+#include "bench/cli/shared_options.h"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "bench/run/value_list.h"
+#include "bench/scene/world.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/registry.h"
+
+namespace dustbench::cli {
+
+bench::ParameterLists parseParameters(const std::vector<std::string>& texts) {
+    bench::ParameterLists lists;
+    for (const std::string& text : texts) {
+        const std::size_t equals = text.find('=');
+        if (equals == 0 || equals == std::string::npos) throw InputError("-P: got '" + text + "', expected name=value");
+        const std::string name = text.substr(0, equals);
+        if (std::ranges::find(lists, name, &bench::ParameterLists::value_type::first) != lists.end())
+            throw InputError("-P: parameter " + name + " is given twice; several values are a list: " + name + "=a,b");
+        lists.emplace_back(name, bench::expandValues(name, text.substr(equals + 1)));
+    }
+    return lists;
+}
+
+void checkWorlds(const std::vector<bench::PlannedRun>& plan) {
+    std::set<std::tuple<std::string, std::string, bench::ParameterTexts>> seen;
+    for (const bench::PlannedRun& run : plan) {
+        const auto parameters = bench::resolveParameters(findMethod(run.spec.method), run.spec.parameters).world;
+        if (seen.emplace(run.spec.scene, run.spec.drive, parameters.canonical()).second)
+            const bench::World loads(run.spec.scene, run.spec.drive, parameters, run.spec.seed);
+    }
+}
+
+}  // namespace dustbench::cli

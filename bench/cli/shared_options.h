@@ -1,0 +1,20 @@
+// Help and checks that several subcommands share.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/run/run_spec.h"
+#include "bench/run/suite.h"
+
+namespace dustbench::cli {
+
+/// `name=value` of every -P, in order; values may be lists and ranges. Throws InputError.
+[[nodiscard]] bench::ParameterLists parseParameters(const std::vector<std::string>& texts);
+
+/// Loads every scene and drive of the plan once, so that what is wrong with them shows before the first run.
+/// Throws InputError.
+void checkWorlds(const std::vector<bench::PlannedRun>& plan);
+
+}  // namespace dustbench::cli

@@ -1,0 +1,43 @@
+// What is known of one recorded frame: one row of frames.csv and its rows of stages.csv.
+//
+// Units: as the names say.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "methods/shared/stage_clock.h"
+
+namespace dustbench::bench {
+
+struct FrameRecord {
+    std::int64_t frame = 0;  ///< 0 is the first recorded one
+    double timeSeconds = 0;  ///< simulated
+    double frameMs = 0;      ///< by its own two timestamps, never the sum of the stages
+    std::array<double, stageNames.size()> stageMs{};
+    std::optional<double> gpuMs;
+    std::int64_t particles = 0;
+    std::int64_t primitives = 0;
+    std::int64_t cpuBytes = 0;
+    std::int64_t gpuBytes = 0;
+    std::int64_t rssBytes = 0;
+
+    struct Detail {
+        Stage stage = Stage::build;
+        std::string name;
+        double ms = 0;
+    };
+    std::vector<Detail> details;
+
+    /// The part of the frame that lies in no stage: the harness's own.
+    [[nodiscard]] double harnessMs() const {
+        double rest = frameMs;
+        for (const double ms : stageMs) rest -= ms;
+        return rest;
+    }
+};
+
+}  // namespace dustbench::bench

@@ -1,0 +1,25 @@
+// What this machine is, and what about it disturbs a measurement.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dustbench::bench {
+
+/// Empty texts and zeros: the machine does not tell.
+struct Machine {
+    std::string cpu;
+    std::string governor;  ///< of the first core's frequency: `performance`, `powersave` …
+    int cores = 0;         ///< that this process may use
+    std::int64_t ramBytes = 0;
+    std::string kernel;
+    double loadAverage = 0;  ///< over the last minute: runnable threads
+};
+
+[[nodiscard]] Machine readMachine();
+
+/// One sentence each: what makes times measured here and now less trustworthy.
+[[nodiscard]] std::vector<std::string> disturbances(const Machine& machine);
+
+}  // namespace dustbench::bench

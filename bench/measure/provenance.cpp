@@ -1,0 +1,66 @@
+#include "bench/measure/provenance.h"
+
+#include <fmt/chrono.h>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "bench/measure/sha256.h"
+#include "build_facts_values.h"
+#include "methods/shared/files/data_folder.h"
+
+namespace dustbench::bench {
+
+BuildFacts buildFacts() {
+    return {built::version, built::commit, built::dirty, built::compiler, built::flags, built::buildType};
+}
+
+Provenance startProvenance(std::vector<std::string> argv) {
+    Provenance provenance;
+    provenance.argv = std::move(argv);
+    provenance.build = buildFacts();
+    provenance.machine = readMachine();
+    provenance.startedUtc = fmt::format(
+        "{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+    provenance.warnings = disturbances(provenance.machine);
+    if (provenance.build.buildType != "Release")
+        provenance.warnings.push_back("not a release build: " + provenance.build.buildType);
+    if (provenance.build.flags.find("-fsanitize") != std::string::npos)
+        provenance.warnings.push_back("built with a sanitizer");
+    if (provenance.build.gitDirty) provenance.warnings.push_back("built from a tree with uncommitted changes");
+    return provenance;
+}
+
+std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& inputs) {
+    std::vector<InputHash> hashes;
+    const std::set<std::filesystem::path> files(inputs.begin(), inputs.end());  // a mesh may be used more than once
+    for (const std::filesystem::path& file : files) {
+        const auto inside = file.lexically_normal().lexically_relative(files::dataFolder().lexically_normal());
+        const bool ours = !inside.empty() && *inside.begin() != "..";
+        hashes.push_back({ours ? inside.generic_string() : file.generic_string(), sha256OfFile(file)});
+    }
+    return hashes;
+}
+
+bool isSoftwareRenderer(const gpu::DeviceInfo& device) {
+    for (const char* name : {"llvmpipe", "softpipe", "swrast", "SwiftShader"})
+        if (device.renderer.find(name) != std::string::npos) return true;
+    return false;
+}
+
+std::vector<std::string> commandLine() {
+    std::ifstream file("/proc/self/cmdline", std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(file), {});
+    std::vector<std::string> words;
+    for (std::size_t at = 0; at < bytes.size();) {
+        const std::size_t end = bytes.find('\0', at);
+        words.push_back(bytes.substr(at, end - at));
+        if (end == std::string::npos) break;
+        at = end + 1;
+    }
+    return words;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,53 @@
+// Where a result comes from: the program, the machine, the inputs and the hour.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/measure/machine.h"
+#include "methods/shared/gpu/device.h"
+
+namespace dustbench::bench {
+
+/// How this program was built. The commit is empty where it was built outside git.
+struct BuildFacts {
+    std::string version;
+    std::string gitCommit;
+    bool gitDirty = false;
+    std::string compiler;
+    std::string flags;
+    std::string buildType;
+};
+[[nodiscard]] BuildFacts buildFacts();
+
+struct InputHash {
+    std::string file;
+    std::string sha256;
+};
+
+struct Provenance {
+    std::vector<std::string> argv;
+    BuildFacts build;
+    Machine machine;
+    gpu::DeviceInfo device;  ///< empty texts where no device was made
+    bool gpuTimersTrusted = false;
+    std::vector<InputHash> inputs;
+    std::string startedUtc;  ///< ISO 8601, to the second
+    std::vector<std::string> warnings;
+};
+
+/// Now, for this process; device, timers and inputs are added by whoever knows them.
+[[nodiscard]] Provenance startProvenance(std::vector<std::string> argv);
+
+/// Paths inside the data folder are named relative to it, so that results of two checkouts compare equal.
+[[nodiscard]] std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& files);
+
+/// True for the renderers that draw on the CPU.
+[[nodiscard]] bool isSoftwareRenderer(const gpu::DeviceInfo& device);
+
+/// The command line of this process.
+[[nodiscard]] std::vector<std::string> commandLine();
+
+}  // namespace dustbench::bench

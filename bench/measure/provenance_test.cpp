@@ -1,0 +1,52 @@
+#include "bench/measure/provenance.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+
+#include "methods/shared/files/data_folder.h"
+
+namespace dustbench::bench {
+
+TEST(Provenance, SaysHowAndWhenAndWhere) {
+    const Provenance provenance = startProvenance({"dustbench", "run"});
+    EXPECT_THAT(provenance.argv, testing::ElementsAre("dustbench", "run"));
+    EXPECT_FALSE(provenance.build.compiler.empty());
+    EXPECT_THAT(provenance.build.flags, testing::HasSubstr("-ffp-contract=off"));
+    EXPECT_TRUE(std::regex_match(provenance.build.gitCommit, std::regex("([0-9a-f]{40})?")));
+    EXPECT_TRUE(std::regex_match(provenance.startedUtc, std::regex(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ)")));
+    EXPECT_GE(provenance.machine.cores, 1);
+    EXPECT_GT(provenance.machine.ramBytes, 1 << 20);
+    EXPECT_FALSE(provenance.machine.kernel.empty());
+}
+
+TEST(Provenance, WarnsOfABusyMachineAndASlowGovernor) {
+    Machine machine;
+    machine.cores = 4;
+    EXPECT_THAT(disturbances(machine), testing::IsEmpty());
+    machine.governor = "performance";
+    EXPECT_THAT(disturbances(machine), testing::IsEmpty());
+    machine.governor = "powersave";
+    machine.loadAverage = 3;
+    EXPECT_THAT(disturbances(machine),
+                testing::ElementsAre(testing::HasSubstr("powersave"), testing::HasSubstr("3.00 on 4 cores")));
+}
+
+TEST(Provenance, NamesInputsByTheirContent) {
+    const auto file = std::filesystem::path(testing::TempDir()) / "provenance_input.txt";
+    std::ofstream(file) << "abc";
+    const auto hashes = hashInputs({file});
+    ASSERT_EQ(hashes.size(), 1u);
+    EXPECT_EQ(hashes[0].file, file.generic_string());
+    EXPECT_EQ(hashes[0].sha256, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    EXPECT_EQ(hashInputs({files::dataFolder() / "suites" / "x.toml"})[0].file, "suites/x.toml");
+}
+
+TEST(Provenance, KnowsTheRenderersThatDrawOnTheCpu) {
+    EXPECT_TRUE(isSoftwareRenderer({"Mesa", "llvmpipe (LLVM 15.0.6, 256 bits)", "4.5", "surfaceless"}));
+    EXPECT_FALSE(isSoftwareRenderer({"NVIDIA Corporation", "NVIDIA H200/PCIe/SSE2", "4.6", "device"}));
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,16 @@
+// SHA-256, to name inputs and runs by their content: what `sha256sum` prints.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace dustbench::bench {
+
+/// 64 hexadecimal digits.
+[[nodiscard]] std::string sha256(std::string_view bytes);
+
+/// Of a file's content; empty where it cannot be read.
+[[nodiscard]] std::string sha256OfFile(const std::filesystem::path& file);
+
+}  // namespace dustbench::bench

@@ -1,0 +1,59 @@
+// Measures the stages of one frame after the other: each stage's own time, without that of the stages nested in it.
+//
+// Units: nanoseconds of a steady clock. Threads: the one that runs the frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "methods/shared/stage_clock.h"
+
+namespace dustbench::bench {
+
+/// Nanoseconds of std::chrono::steady_clock.
+[[nodiscard]] std::int64_t steadyNow();
+
+class StageRecorder : public StageListener {
+ public:
+    struct Detail {
+        Stage stage;  ///< within which it was measured first
+        std::string_view name;
+        std::int64_t ns = 0;  ///< summed over the frame, without the details nested in it
+    };
+
+    explicit StageRecorder(std::function<std::int64_t()> now = steadyNow) : now_(std::move(now)) {}
+
+    /// Called before the time of every transition is taken, so that queued work counts for the stage that queued it.
+    void setFence(std::function<void()> fence) { fence_ = std::move(fence); }
+
+    /// Forgets the last frame.
+    void clear();
+
+    void begin(Stage stage) override;
+    void end(Stage stage) override;
+    void beginDetail(std::string_view name) override;
+    void endDetail(std::string_view name) override;
+
+    [[nodiscard]] const std::array<std::int64_t, stageNames.size()>& stageNs() const { return stageNs_; }
+    [[nodiscard]] std::int64_t totalNs() const;
+    /// In the order of first appearance.
+    [[nodiscard]] const std::vector<Detail>& details() const { return details_; }
+
+ private:
+    std::int64_t transition(bool somethingWasQueued);
+    void creditDetail(std::int64_t now);
+
+    std::function<std::int64_t()> now_;
+    std::function<void()> fence_;
+    std::array<std::int64_t, stageNames.size()> stageNs_{};
+    std::vector<Detail> details_;
+    std::vector<Stage> openStages_;
+    std::vector<std::size_t> openDetails_;
+    std::int64_t stageSince_ = 0;
+    std::int64_t detailSince_ = 0;
+};
+
+}  // namespace dustbench::bench

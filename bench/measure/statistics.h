@@ -1,0 +1,26 @@
+// What a run's frame times are summed up to.
+//
+// All functions give NaN for no values.
+#pragma once
+
+#include <span>
+
+namespace dustbench::bench {
+
+/// The p-quantile (0 ≤ p ≤ 1), linear between order statistics: x₍ₖ₎ + f·(x₍ₖ₊₁₎ − x₍ₖ₎) with k + f = p·(n − 1), k from
+/// 0. Source: Hyndman1996, definition 7.
+[[nodiscard]] double quantile(std::span<const double> values, double p);
+
+[[nodiscard]] double median(std::span<const double> values);
+
+[[nodiscard]] double maximum(std::span<const double> values);
+
+/// FPS = n·1000 / Σms: frames over the time they took, not the mean of their rates.
+[[nodiscard]] double averageFps(std::span<const double> frameMs);
+
+/// 1 % low, weighted by time: 1000 / t, where the frames of t ms and longer take up 1 % of the time. Slowest first, t
+/// is the frame with which the running sum reaches `share` of Σms. (By count, one long stall among thousands would not
+/// show.)
+[[nodiscard]] double lowFps(std::span<const double> frameMs, double share = 0.01);
+
+}  // namespace dustbench::bench

@@ -1,0 +1,20 @@
+# Writes HEADER with the commit of SOURCE and how the program is built, unless it says so already.
+cmake_minimum_required(VERSION 3.25)
+set(COMMIT "")
+set(DIRTY "false")
+find_program(GIT git)
+if(GIT)
+  execute_process(COMMAND ${GIT} -C ${SOURCE} rev-parse --verify HEAD
+    OUTPUT_VARIABLE COMMIT ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE FAILED)
+  if(FAILED)
+    set(COMMIT "")
+  else()
+    execute_process(COMMAND ${GIT} -C ${SOURCE} --no-optional-locks status --porcelain
+      OUTPUT_VARIABLE CHANGES ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
+    if(CHANGES)
+      set(DIRTY "true")
+    endif()
+  endif()
+endif()
+string(REPLACE "\"" "\\\"" FLAGS "${FLAGS}")
+configure_file(${CMAKE_CURRENT_LIST_DIR}/build_facts_values.h.in ${HEADER} @ONLY)

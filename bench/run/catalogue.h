@@ -1,0 +1,36 @@
+// What this build and its data offer, for `dustbench list` and its JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "methods/shared/parameters.h"
+
+namespace dustbench::bench {
+
+struct CatalogueItem {
+    std::string kind;  ///< one of catalogueKinds()
+    std::string id;
+    std::string title;
+    std::string summary;
+    std::string source;  ///< key in data/references.bib, or empty
+    std::vector<Parameter> parameters{};
+};
+
+/// `methods scenes drives suites metrics`
+[[nodiscard]] const std::vector<std::string>& catalogueKinds();
+
+/// Sorted by id; metrics in the order of summary.csv.
+[[nodiscard]] std::vector<CatalogueItem> catalogue(const std::string& kind);
+
+/// Throws InputError with the nearest id.
+[[nodiscard]] CatalogueItem findItem(const std::string& kind, const std::vector<CatalogueItem>& items,
+                                     const std::string& id);
+
+/// The parameters of the world that every method is shown.
+[[nodiscard]] const std::vector<Parameter>& worldParameterList();
+
+/// An array of objects.
+[[nodiscard]] std::string catalogueJson(const std::vector<CatalogueItem>& items);
+
+}  // namespace dustbench::bench

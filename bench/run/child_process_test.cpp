@@ -1,0 +1,101 @@
+#include "bench/run/child_process.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+namespace dustbench::bench {
+namespace {
+
+using End = ChildOutcome::End;
+
+ChildCommand shell(const std::string& script) {
+    ChildCommand command;
+    command.argv = {"/bin/sh", "-c", script};
+    command.log = std::filesystem::path(testing::TempDir()) / ("child-" + std::to_string(getpid()) + ".log");
+    return command;
+}
+
+TEST(ChildProcess, HandsOnLinesAndExitCode) {
+    std::vector<std::string> lines;
+    ChildCommand command = shell("echo one; echo two; echo complaint >&2; exit 7");
+    command.onLine = [&](std::string_view line) { lines.emplace_back(line); };
+    const ChildOutcome outcome = runChild(command);
+    EXPECT_THAT(lines, testing::ElementsAre("one", "two"));
+    EXPECT_EQ(outcome.end, End::exited);
+    EXPECT_EQ(outcome.code, 7);
+    EXPECT_EQ(outcome.reason(), "exit code 7: complaint");
+}
+
+TEST(ChildProcess, NamesTheSignalThatKilledIt) {
+    const ChildOutcome outcome = runChild(shell("echo last words >&2; kill -SEGV $$"));
+    EXPECT_EQ(outcome.end, End::killedBySignal);
+    EXPECT_EQ(outcome.reason(), "killed by SIGSEGV: last words");
+}
+
+TEST(ChildProcess, EndsAHangWithEverythingItStarted) {
+    ChildCommand command = shell("sleep 600 & echo $!; wait");
+    pid_t grandchild = 0;
+    command.onLine = [&](std::string_view line) {
+        if (!line.empty()) grandchild = std::stoi(std::string(line));
+    };
+    command.timeoutSeconds = 0.3;
+    const ChildOutcome outcome = runChild(command);
+    EXPECT_EQ(outcome.end, End::timedOut);
+    EXPECT_EQ(outcome.reason(), "no end after 0.3 s");
+    ASSERT_GT(grandchild, 0);
+    // Dead, or a zombie that nobody has collected yet.
+    const auto alive = [&] {
+        std::ifstream file("/proc/" + std::to_string(grandchild) + "/stat");
+        std::string pid, name, state;
+        return (file >> pid >> name >> state) && state != "Z" && state != "X";
+    };
+    for (int i = 0; i < 100 && alive(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_FALSE(alive());
+}
+
+TEST(ChildProcess, StopsWhenInterrupted) {
+    ChildCommand command = shell("sleep 600");
+    command.interrupted = [] { return true; };
+    EXPECT_EQ(runChild(command).end, End::interrupted);
+}
+
+TEST(ChildProcess, SaysWhyACommandCannotStart) {
+    ChildCommand command = shell("");
+    command.argv = {"/nowhere/program"};
+    EXPECT_THAT(runChild(command).reason(), testing::HasSubstr("No such file"));
+}
+
+TEST(ChildProcess, DoesNotOutliveItsParent) {
+    const auto file = std::filesystem::path(testing::TempDir()) / ("orphan-" + std::to_string(getpid()));
+    std::filesystem::remove(file);
+    const pid_t parent = fork();
+    if (parent == 0) {
+        (void)runChild(shell("echo $$ > " + file.string() + "; exec sleep 600"));
+        _exit(0);
+    }
+    pid_t child = 0;
+    for (int i = 0; i < 250 && child == 0; ++i) {
+        std::ifstream(file) >> child;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    ASSERT_GT(child, 0);
+    kill(parent, SIGKILL);
+    waitpid(parent, nullptr, 0);
+    const auto alive = [&] {
+        std::ifstream stat("/proc/" + std::to_string(child) + "/stat");
+        std::string pid, name, state;
+        return (stat >> pid >> name >> state) && state != "Z" && state != "X";
+    };
+    for (int i = 0; i < 250 && alive(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_FALSE(alive());
+}
+
+}  // namespace
+}  // namespace dustbench::bench

@@ -1,0 +1,55 @@
+// Works through a plan of runs, one process each, and keeps what comes out of them.
+//
+// Threads: call from the main thread.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/run/results_folder.h"
+#include "bench/run/run_record.h"
+#include "bench/run/suite.h"
+
+namespace dustbench::bench {
+
+/// Hears how a plan goes on. All members do nothing unless overridden.
+class ExecutionListener {
+ public:
+    virtual ~ExecutionListener() = default;
+    /// `position` counts from 1 among the `total` runs of the plan; `etaSeconds` is negative while nothing is known.
+    virtual void started(std::size_t /*position*/, std::size_t /*total*/, const PlannedRun& /*run*/,
+                         int /*repetitions*/, double /*etaSeconds*/) {}
+    /// What the run says of itself: `frames 12 120`; empty about once a second where it says nothing.
+    virtual void heard(std::string_view /*line*/) {}
+    virtual void ended(const PlannedRun& /*run*/, RunStatus /*status*/, const std::string& /*reason*/) {}
+};
+
+struct ExecutionOptions {
+    bool force = false;        ///< do again what is there
+    bool retryFailed = false;  ///< do again what failed or ran out of time
+    double timeoutSeconds = 0;
+    std::vector<std::string> argv;  ///< the user's command, for provenance
+    /// The command that measures one run: it reads the specification and leaves a run's files in the folder.
+    std::function<std::vector<std::string>(const std::filesystem::path& spec, const std::filesystem::path& folder)>
+        command;
+    std::function<bool()> interrupted;
+    /// Exit code 3 of a run is the user's mistake: nothing is kept and InputError is thrown with the run's last words.
+    bool badInputEnds = false;
+};
+
+struct ExecutionResult {
+    std::size_t done = 0;
+    std::size_t skipped = 0;
+    std::size_t failed = 0;  ///< and timeouts; those of an earlier time count as well where they were left alone
+    std::size_t kept = 0;    ///< were there before
+    bool aborted = false;
+};
+
+[[nodiscard]] ExecutionResult execute(const std::vector<PlannedRun>& plan, int repetitions, ResultsFolder& results,
+                                      const ExecutionOptions& options, ExecutionListener& listener);
+
+}  // namespace dustbench::bench

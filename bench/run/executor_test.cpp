@@ -1,0 +1,206 @@
+#include "bench/run/executor.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "bench/run/summary.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/files/csv.h"
+
+namespace dustbench::bench {
+namespace {
+namespace fs = std::filesystem;
+
+using testing::HasSubstr;
+
+/// A plan of four runs and a folder for their results. Children are shell scripts that copy what a run would write.
+class Executor : public testing::Test {
+ protected:
+    void SetUp() override {
+        folder_ = fs::path(testing::TempDir()) /
+                  (std::string("executor-") + testing::UnitTest::GetInstance()->current_test_info()->name() + "-" +
+                   std::to_string(getpid()));
+        fs::remove_all(folder_);
+        fs::create_directories(folder_ / "made");
+        for (int i = 0; i < 4; ++i) {
+            PlannedRun run;
+            run.spec.method = "haze";
+            run.spec.seed = static_cast<std::uint64_t>(i);
+            run.spec.parameters["note"] = "a,b \"c\"";
+            plan_.push_back(run);
+            RunRecord record;
+            record.spec = run.spec;
+            record.summary = identityColumns(record, 2);
+            writeWhole(made(run), toJson(record));
+        }
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    [[nodiscard]] fs::path made(const PlannedRun& run) const { return folder_ / "made" / runId(run.spec); }
+    [[nodiscard]] fs::path out() const { return folder_ / "out"; }
+
+    /// `script` sees the run's folder as $1 and the finished run.json as $2.
+    [[nodiscard]] ExecutionOptions shell(const std::string& script) const {
+        ExecutionOptions options;
+        options.command = [script, this](const fs::path&, const fs::path& folder) -> std::vector<std::string> {
+            std::string id = folder.filename();
+            id = id.substr(id.find('-') + 1);
+            return {"/bin/sh", "-c", script, "sh", folder.string(), (folder_ / "made" / id).string()};
+        };
+        return options;
+    }
+    [[nodiscard]] ExecutionResult runAll(const ExecutionOptions& options) {
+        ResultsFolder results(out());
+        ExecutionListener quiet;
+        return execute(plan_, 1, results, options, quiet);
+    }
+    /// Names in runs/, hidden ones too.
+    [[nodiscard]] std::vector<std::string> entries() const {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(out() / "runs")) names.push_back(entry.path().filename());
+        return names;
+    }
+
+    fs::path folder_;
+    std::vector<PlannedRun> plan_;
+};
+
+constexpr const char* good = "cp \"$2\" \"$1/run.json\"";
+
+TEST_F(Executor, KeepsEveryRunAndSummarisesThem) {
+    const ExecutionResult result = runAll(shell(good));
+    EXPECT_EQ(result.done, 4u);
+    EXPECT_EQ(result.failed, 0u);
+    const auto table = files::CsvTable::parseFile(out() / "summary.csv");
+    ASSERT_EQ(table.rows(), 4u);
+    EXPECT_EQ(table.cell(0, "status"), "done");
+    EXPECT_EQ(table.cell(0, "p.note"), "a,b \"c\"");
+    EXPECT_EQ(table.cell(0, "psnr_db"), "");
+    for (const PlannedRun& run : plan_) {
+        const fs::path folder = out() / "runs" / runId(run.spec);
+        EXPECT_TRUE(fs::exists(folder / "run.json"));
+        EXPECT_FALSE(fs::exists(folder / "spec.json"));
+        EXPECT_FALSE(fs::exists(folder / "log.txt"));
+    }
+}
+
+TEST_F(Executor, ResumesWithWhatIsMissing) {
+    (void)runAll(shell(good));
+    fs::remove_all(out() / "runs" / runId(plan_[2].spec));
+    const ExecutionResult again = runAll(shell(good));
+    EXPECT_EQ(again.kept, 3u);
+    EXPECT_EQ(again.done, 1u);
+    ExecutionOptions force = shell(good);
+    force.force = true;
+    EXPECT_EQ(runAll(force).done, 4u);
+}
+
+TEST_F(Executor, ACrashIsAFailedRunAndThePlanGoesOn) {
+    const std::string crash =
+        "case $2 in *" + runId(plan_[1].spec) + ") touch $1/frames.csv; echo 'bad thing' >&2; kill -ABRT $$;; esac; ";
+    const ExecutionResult result = runAll(shell(crash + good));
+    EXPECT_EQ(result.failed, 1u);
+    EXPECT_EQ(result.done, 3u);
+    const fs::path folder = out() / "runs" / runId(plan_[1].spec);
+    const StoredRun run = readRunFile(folder / "run.json");
+    EXPECT_EQ(run.status, RunStatus::failed);
+    EXPECT_EQ(run.reason, "killed by SIGABRT: bad thing");
+    EXPECT_TRUE(fs::exists(folder / "log.txt"));
+    EXPECT_FALSE(fs::exists(folder / "frames.csv"));
+    // It stays failed until one asks for it again.
+    EXPECT_EQ(runAll(shell(good)).failed, 1u);
+    ExecutionOptions retry = shell(good);
+    retry.retryFailed = true;
+    const ExecutionResult after = runAll(retry);
+    EXPECT_EQ(after.failed, 0u);
+    EXPECT_EQ(after.done, 1u);
+    EXPECT_EQ(after.kept, 3u);
+}
+
+TEST_F(Executor, AHangIsATimeoutThatSaysHowFarItCame) {
+    ExecutionOptions options =
+        shell("case $2 in *" + runId(plan_[0].spec) + ") echo frames 3 9; sleep 600;; esac; " + good);
+    options.timeoutSeconds = 0.5;
+    const ExecutionResult result = runAll(options);
+    EXPECT_EQ(result.failed, 1u);
+    EXPECT_EQ(result.done, 3u);
+    const StoredRun run = readRunFile(out() / "runs" / runId(plan_[0].spec) / "run.json");
+    EXPECT_EQ(run.status, RunStatus::timeout);
+    EXPECT_EQ(run.reason, "no end after 0.5 s (at frames 3 9)");
+}
+
+TEST_F(Executor, AChildWithoutAResultHasFailed) {
+    const ExecutionResult result = runAll(shell("exit 0"));
+    EXPECT_EQ(result.failed, 4u);
+}
+
+TEST_F(Executor, BadInputEndsThePlanWithTheChildsWords) {
+    ExecutionOptions options = shell("echo 'dustbench: no such thing' >&2; exit 3");
+    options.badInputEnds = true;
+    try {
+        (void)runAll(options);
+        FAIL() << "nothing thrown";
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), "no such thing");
+    }
+    EXPECT_THAT(entries(), testing::IsEmpty());
+}
+
+TEST_F(Executor, InterruptionLeavesNothingOfTheRunInFlight) {
+    ExecutionOptions options = shell("sleep 600");
+    options.interrupted = [] { return true; };
+    EXPECT_TRUE(runAll(options).aborted);
+    EXPECT_THAT(entries(), testing::IsEmpty());
+}
+
+TEST_F(Executor, AKillLosesAtMostTheRunInFlightAndTheNextCallResumes) {
+    // The third run hangs; by then the first two are complete. The whole process dies there.
+    const std::string hang = "case $2 in *" + runId(plan_[2].spec) + ") touch $1/frames.csv; sleep 600;; esac; ";
+    const pid_t victim = fork();
+    if (victim == 0) {
+        (void)runAll(shell(hang + good));
+        _exit(0);
+    }
+    const fs::path half = out() / "runs" / (".unfinished-" + runId(plan_[2].spec)) / "frames.csv";
+    for (int i = 0; i < 1000 && !fs::exists(half); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ASSERT_TRUE(fs::exists(half));
+    kill(victim, SIGKILL);
+    waitpid(victim, nullptr, 0);
+
+    std::vector<std::string> visible;
+    for (const std::string& name : entries())
+        if (!name.starts_with('.')) visible.push_back(name);
+    EXPECT_THAT(visible, testing::UnorderedElementsAre(runId(plan_[0].spec), runId(plan_[1].spec)));
+
+    const ExecutionResult result = runAll(shell(good));
+    EXPECT_EQ(result.kept, 2u);
+    EXPECT_EQ(result.done, 2u);
+    EXPECT_EQ(entries().size(), 4u);
+    EXPECT_EQ(files::CsvTable::parseFile(out() / "summary.csv").rows(), 4u);
+}
+
+TEST_F(Executor, TwoProgramsDoNotWriteIntoOneFolder) {
+    const ResultsFolder first(out());
+    EXPECT_THROW(ResultsFolder second(out()), InputError);
+}
+
+TEST_F(Executor, AFolderThatCannotBeMadeIsBadInput) {
+    std::ofstream(folder_ / "file") << "x";
+    try {
+        const ResultsFolder results(folder_ / "file" / "out");
+        FAIL() << "nothing thrown";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("cannot be written"));
+    }
+}
+
+}  // namespace
+}  // namespace dustbench::bench

@@ -1,0 +1,70 @@
+// Runs and times frames of one method in one world: input, simulation, method, opaque scene, drawing, waiting.
+//
+// Owns: the world's graphics and the method. Threads: the one that made it, inside the oneTBB arena to be used.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "bench/measure/frame_record.h"
+#include "bench/measure/stage_recorder.h"
+#include "bench/run/run_spec.h"
+#include "bench/scene/world.h"
+#include "methods/shared/draw/composite.h"
+#include "methods/shared/draw/image.h"
+#include "methods/shared/draw/opaque_scene.h"
+#include "methods/shared/gpu/device.h"
+#include "methods/shared/gpu/fence.h"
+#include "methods/shared/gpu/layer.h"
+#include "methods/shared/gpu/timer_query.h"
+#include "methods/shared/method.h"
+
+namespace dustbench::bench {
+
+class FrameRunner {
+ public:
+    /// `useGpuTimers`: only where they were found to be true. `world` and `device` must outlive the runner.
+    FrameRunner(const RunSpec& spec, World& world, gpu::Device& device, std::unique_ptr<Method> method,
+                bool useGpuTimers);
+
+    /// One step of the world without a picture; the method takes part where it wants to.
+    void stepWithoutPicture(std::int64_t index);
+    /// One step whose picture is drawn twice: right away, as a timed frame is, and again with every stage waited for.
+    /// Throws std::runtime_error where the two differ.
+    void verifiedStep(std::int64_t index);
+    /// One frame as it is measured; recorded where `index` is 0 or more.
+    void frame(std::int64_t index);
+    /// Waits for all frames in flight and completes their records.
+    void drain();
+
+    /// The last frame over its scene, linear.
+    [[nodiscard]] draw::Image picture();
+    [[nodiscard]] std::span<const FrameRecord> records() const { return records_; }
+    [[nodiscard]] const Method& method() const { return *method_; }
+
+ private:
+    void drawFrame(const Frame& frame);
+    void waitForGpu();
+    void keepRecord(std::int64_t index, std::int64_t elapsedNs);
+    void collectGpuTimes();
+
+    RunSpec spec_;
+    World& world_;
+    gpu::Device& device_;
+    std::unique_ptr<Method> method_;
+    draw::OpaqueScene scene_;
+    gpu::Layer layer_;
+    draw::Composite composite_;
+    StageRecorder recorder_;
+    gpu::Fence lastFrame_;
+    std::int64_t lastEndNs_ = 0;  ///< where the next frame begins that overlaps this one; 0: nothing is in flight
+    bool useGpuTimers_;
+    std::deque<std::pair<std::size_t, gpu::TimerQuery>> pendingGpuTimes_;  ///< by index into records_
+    std::vector<FrameRecord> records_;
+};
+
+}  // namespace dustbench::bench

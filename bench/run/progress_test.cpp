@@ -1,0 +1,30 @@
+#include "bench/run/progress.h"
+
+#include <gtest/gtest.h>
+
+namespace dustbench::bench {
+
+TEST(Progress, LineSaysWhereWhatAndHowLong) {
+    PlannedRun run;
+    run.spec.method = "billboard";
+    run.spec.scene = "flat";
+    run.spec.repetition = 2;
+    run.label = "particles=1000";
+    EXPECT_EQ(progressLine(3, 48, run, 5, 245), "[3/48] billboard flat particles=1000 rep 2/5 ETA 4 min 05 s");
+    run.label = "";
+    EXPECT_EQ(progressLine(1, 1, run, 2, -1), "[1/1] billboard flat rep 2/2 ETA ?");
+}
+
+TEST(Progress, DurationsReadLikeAClock) {
+    EXPECT_EQ(durationText(3.4), "3 s");
+    EXPECT_EQ(durationText(59.6), "1 min 00 s");
+    EXPECT_EQ(durationText(3'600 + 12 * 60), "1 h 12 min");
+}
+
+TEST(Progress, BarFillsWithTheFrames) {
+    EXPECT_EQ(progressBar("frames 5 10", 24), "[#####.....] frames 5/10");
+    EXPECT_EQ(progressBar("frames 10 10", 25), "[##########] frames 10/10");
+    EXPECT_EQ(progressBar("hello", 80), "");
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,144 @@
+#include "bench/run/results_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <set>
+
+#include "bench/run/summary.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/files/csv.h"
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view hiddenStart = ".unfinished-";
+constexpr std::string_view oldStart = ".replaced-";
+
+InputError cannotWrite(const fs::path& path, const std::string& reason) {
+    return InputError("output folder '" + path.string() + "' cannot be written: " + reason);
+}
+
+}  // namespace
+
+void writeWhole(const fs::path& file, std::string_view content) {
+    const fs::path beside = file.parent_path() / fmt::format(".{}.new", file.filename().string());
+    {
+        std::ofstream stream(beside, std::ios::binary | std::ios::trunc);
+        stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+        stream.flush();
+        if (!stream) throw cannotWrite(file, std::strerror(errno));
+    }
+    std::error_code error;
+    fs::rename(beside, file, error);
+    if (error) throw cannotWrite(file, error.message());
+}
+
+ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)) {
+    const fs::path runs = folder_ / "runs";
+    std::error_code error;
+    fs::create_directories(runs, error);
+    if (error) throw cannotWrite(folder_, error.message());
+    for (const fs::path& each : {folder_, runs})
+        if (access(each.c_str(), W_OK | X_OK) != 0) throw cannotWrite(each, std::strerror(errno));
+
+    lock_ = open(runs.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0) throw cannotWrite(runs, std::strerror(errno));
+    if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+        const bool busy = errno == EWOULDBLOCK;
+        const std::string reason = busy ? "another dustbench is writing into it" : std::strerror(errno);
+        close(lock_);
+        throw cannotWrite(folder_, reason);
+    }
+
+    try {
+        for (const auto& entry : fs::directory_iterator(runs)) {
+            const std::string name = entry.path().filename();
+            if (name.starts_with(hiddenStart) || name.starts_with(oldStart))
+                fs::remove_all(entry.path());
+            else if (fs::exists(entry.path() / "run.json"))
+                runs_[name] = readRunFile(entry.path() / "run.json");
+        }
+    } catch (const fs::filesystem_error& failure) {
+        close(lock_);
+        throw cannotWrite(folder_, failure.code().message());
+    } catch (...) {
+        close(lock_);
+        throw;
+    }
+}
+
+ResultsFolder::~ResultsFolder() {
+    close(lock_);
+}
+
+fs::path ResultsFolder::hidden(const std::string& runId) const {
+    return folder_ / "runs" / fmt::format("{}{}", hiddenStart, runId);
+}
+
+fs::path ResultsFolder::beginRun(const std::string& runId) {
+    std::error_code error;
+    fs::remove_all(hidden(runId), error);
+    fs::create_directory(hidden(runId), error);
+    if (error) throw cannotWrite(hidden(runId), error.message());
+    return hidden(runId);
+}
+
+void ResultsFolder::publish(const std::string& runId) {
+    StoredRun run = readRunFile(hidden(runId) / "run.json");
+    const fs::path old = folder_ / "runs" / fmt::format("{}{}", oldStart, runId);
+    std::error_code error;
+    if (fs::exists(runFolder(runId))) {
+        fs::remove_all(old, error);
+        fs::rename(runFolder(runId), old, error);
+        if (error) throw cannotWrite(runFolder(runId), error.message());
+    }
+    fs::rename(hidden(runId), runFolder(runId), error);
+    if (error) throw cannotWrite(runFolder(runId), error.message());
+    fs::remove_all(old, error);
+    runs_[runId] = std::move(run);
+    writeSummary();
+}
+
+void ResultsFolder::discard(const std::string& runId) {
+    std::error_code error;
+    fs::remove_all(hidden(runId), error);
+}
+
+void ResultsFolder::writeSummary() const {
+    std::set<std::string> parameters;
+    for (const auto& [id, run] : runs_)
+        for (const auto& [name, text] : run.parameters) parameters.insert(name);
+
+    std::string text;
+    for (const std::string& name : columnsBeforeParameters()) text.append(name).append(1, ',');
+    for (const std::string& name : parameters) text.append(files::csvCell(fmt::format("p.{}", name))).append(1, ',');
+    for (const std::string& name : columnsAfterParameters()) text.append(name).append(1, ',');
+    text.back() = '\n';
+
+    for (const auto& [id, run] : runs_) {
+        std::string row;
+        const auto add = [&row](std::string_view cell) { row.append(files::csvCell(cell)).append(1, ','); };
+        const auto cellOf = [&run = run](const std::string& name) {
+            const auto found = run.cells.find(name);
+            return found == run.cells.end() ? std::string() : found->second;
+        };
+        for (const std::string& name : columnsBeforeParameters()) add(cellOf(name));
+        for (const std::string& name : parameters) {
+            const auto found = run.parameters.find(name);
+            add(found == run.parameters.end() ? std::string() : found->second);
+        }
+        for (const std::string& name : columnsAfterParameters()) add(cellOf(name));
+        row.back() = '\n';
+        text += row;
+    }
+    writeWhole(folder_ / "summary.csv", text);
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,49 @@
+// The folder that `--out` names: one folder per run, which appears by one rename, and summary.csv over all of them.
+//
+// Owns: a lock on the folder, so that two programs never write into one. Threads: one at a time.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "bench/run/run_record.h"
+
+namespace dustbench::bench {
+
+/// Writes beside and renames, so that the file is never half there. Throws InputError where it cannot be written.
+void writeWhole(const std::filesystem::path& file, std::string_view content);
+
+class ResultsFolder {
+ public:
+    /// Makes the folder, checks that it can be written, removes what killed runs left behind, and reads the runs that
+    /// are there. Throws InputError where it cannot be written or another program is writing into it.
+    explicit ResultsFolder(std::filesystem::path folder);
+    ~ResultsFolder();
+    ResultsFolder(const ResultsFolder&) = delete;
+    ResultsFolder& operator=(const ResultsFolder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+    [[nodiscard]] std::filesystem::path runFolder(const std::string& runId) const { return folder_ / "runs" / runId; }
+    /// By run id.
+    [[nodiscard]] const std::map<std::string, StoredRun>& runs() const { return runs_; }
+
+    /// A new hidden folder in which the run is written until it is complete.
+    [[nodiscard]] std::filesystem::path beginRun(const std::string& runId);
+    /// Makes the hidden folder, with its run.json, the run's; an older result under the same id goes. Then rewrites
+    /// summary.csv.
+    void publish(const std::string& runId);
+    void discard(const std::string& runId);
+
+    /// All runs that are there, one row each, in the order of their ids; p.… columns are the union of all parameters.
+    void writeSummary() const;
+
+ private:
+    [[nodiscard]] std::filesystem::path hidden(const std::string& runId) const;
+
+    std::filesystem::path folder_;
+    int lock_ = -1;
+    std::map<std::string, StoredRun> runs_;
+};
+
+}  // namespace dustbench::bench

@@ -1,0 +1,110 @@
+#include "bench/run/run_spec.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "bench/scene/world.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/registry.h"
+
+namespace dustbench::bench {
+namespace {
+
+MethodInfo haze() {
+    MethodInfo info;
+    info.id = "haze";
+    info.parameters.real("thickness", 0.5, 0, 1, "", "how thick").choice("mode", "soft", {"soft", "hard"}, "which");
+    return info;
+}
+
+std::string messageOf(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "nothing thrown";
+}
+
+TEST(RunSpec, IdDoesNotDependOnOrderOrSpellingOfParameters) {
+    RunSpec a, b;
+    a.method = b.method = "haze";
+    a.parameters = canonicalParameters(haze(), {{"mode", "hard"}, {"thickness", "0.50"}});
+    b.parameters = canonicalParameters(haze(), {{"thickness", ".5"}, {"mode", "hard"}});
+    EXPECT_EQ(runId(a), runId(b));
+    // A default that is spelled out names the same run as one that is not.
+    b.parameters = canonicalParameters(haze(), {{"mode", "hard"}});
+    EXPECT_EQ(runId(a), runId(b));
+}
+
+TEST(RunSpec, EveryFieldTellsRunsApart) {
+    RunSpec base;
+    base.method = "haze";
+    base.parameters = canonicalParameters(haze(), {});
+    std::vector<RunSpec> specs(13, base);
+    specs[1].method = "mist";
+    specs[2].scene = "hills";
+    specs[3].drive = "slalom";
+    specs[4].parameters = canonicalParameters(haze(), {{"mode", "hard"}});
+    specs[5].frames = 7;
+    specs[6].warmup = 7;
+    specs[7].size = {32, 24};
+    specs[8].seed = 7;
+    specs[9].threads = 1;
+    specs[10].sync = Sync::stage;
+    specs[11].imagesEvery = 60;
+    specs[12].repetition = 2;
+    std::set<std::string> ids;
+    for (const RunSpec& spec : specs) ids.insert(runId(spec));
+    EXPECT_EQ(ids.size(), specs.size());
+}
+
+TEST(RunSpec, IdIsAReadablePlainFolderName) {
+    RunSpec spec;
+    spec.method = "haze";
+    spec.scene = "/some/where/my scene.toml";
+    spec.drive = "slalom";
+    EXPECT_THAT(runId(spec), testing::MatchesRegex("haze-myscene-slalom-r1-[0-9a-f]+"));
+}
+
+TEST(RunSpec, UnknownParameterNamesTheNearestOfMethodAndWorld) {
+    EXPECT_THAT(messageOf([] {
+                    (void)resolveParameters(haze(), {{"thicknes", "1"}});
+                }),
+                testing::HasSubstr("did you mean 'thickness'"));
+    const std::string worlds = worldParameters().all().front().name;
+    EXPECT_THAT(messageOf([&] {
+                    (void)resolveParameters(haze(), {{worlds + "x", "1"}});
+                }),
+                testing::HasSubstr("did you mean '" + worlds + "'"));
+}
+
+TEST(RunSpec, ValueOutOfRangeSaysTheRange) {
+    EXPECT_THAT(messageOf([] {
+                    (void)resolveParameters(haze(), {{"thickness", "2"}});
+                }),
+                testing::AllOf(testing::HasSubstr("thickness"), testing::HasSubstr("'2'"), testing::HasSubstr("0..1")));
+}
+
+TEST(RunSpec, NoMethodRedeclaresAParameterOfTheWorld) {
+    for (const MethodInfo& method : methods())
+        for (const Parameter& parameter : method.parameters.all())
+            EXPECT_EQ(worldParameters().find(parameter.name), nullptr) << method.id << ": " << parameter.name;
+}
+
+TEST(RunSpec, SizeIsWidthByHeight) {
+    EXPECT_EQ(parseSize("800x600").width, 800);
+    EXPECT_EQ(parseSize("800x600").height, 600);
+    for (const char* text : {"800", "800x", "x600", "0x5", "800x600x3", "800X600", "-1x5", "99999x1", ""})
+        EXPECT_THROW((void)parseSize(text), InputError) << text;
+}
+
+TEST(RunSpec, SyncIsOneOfThree) {
+    for (const Sync sync : {Sync::frame, Sync::stage, Sync::none}) EXPECT_EQ(parseSync(syncName(sync)), sync);
+    EXPECT_THROW((void)parseSync("always"), InputError);
+}
+
+}  // namespace
+}  // namespace dustbench::bench

@@ -1,0 +1,271 @@
+#include "bench/run/suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "bench/run/value_list.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/files/data_folder.h"
+#include "methods/shared/files/toml_reader.h"
+#include "methods/shared/maths/philox.h"
+#include "methods/shared/registry.h"
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::int64_t mostFrames = 10'000'000;
+
+/// What a suite's file says, before anything is multiplied out. `[quick]` is read over it with the same function.
+struct Draft {
+    std::vector<std::string> methods{"all"};
+    std::vector<std::string> scenes{"plain"};
+    std::vector<std::string> drives{""};
+    std::vector<std::string> sizes{"640x480"};
+    RunSpec base;
+    Suite suite;
+    ParameterLists parameters;
+    std::vector<std::pair<std::string, ParameterLists>> methodParameters;
+};
+
+[[nodiscard]] InputError at(const std::string& where, const InputError& error) {
+    return InputError(where + error.what());
+}
+
+void setList(ParameterLists& lists, const std::string& name, std::vector<std::string> values) {
+    const auto known = std::ranges::find(lists, name, &ParameterLists::value_type::first);
+    if (known != lists.end())
+        known->second = std::move(values);
+    else
+        lists.emplace_back(name, std::move(values));
+}
+
+std::vector<std::string> readValues(files::TomlReader& table, const std::string& name) {
+    try {
+        std::vector<std::string> values;
+        for (const std::string& text : table.scalars(name))
+            for (std::string& value : expandValues(name, text)) values.push_back(std::move(value));
+        if (values.empty()) throw InputError("parameter " + name + ": no values");
+        return values;
+    } catch (const InputError& error) {
+        const std::string message = error.what();
+        throw message.starts_with(table.where(name)) ? error : at(table.where(name), error);
+    }
+}
+
+/// Every value must suit each of the methods, or the file is wrong at this line.
+void readParameters(files::TomlReader& table, const std::vector<std::string>& methodIds, ParameterLists& lists) {
+    for (const std::string& name : table.keys()) {
+        const std::vector<std::string> values = readValues(table, name);
+        for (const std::string& id : methodIds)
+            for (const std::string& value : values) try {
+                    (void)resolveParameters(findMethod(id), {{name, value}});
+                } catch (const InputError& error) {
+                    throw at(table.where(name), error);
+                }
+        setList(lists, name, values);
+    }
+}
+
+template <typename Check>
+void readNames(files::TomlReader& table, const std::string& key, std::vector<std::string>& names, const Check& check) {
+    if (!table.has(key)) return;
+    names = table.texts(key);
+    if (names.empty()) throw InputError(table.where(key) + "key '" + key + "': got an empty array, expected names");
+    for (const std::string& name : names) try {
+            check(name);
+        } catch (const InputError& error) {
+            throw at(table.where(key), error);
+        }
+}
+
+std::vector<std::string> allMethods() {
+    std::vector<std::string> ids;
+    for (const MethodInfo& info : methods()) ids.push_back(info.id);
+    return ids;
+}
+
+void readDraft(files::TomlReader& table, Draft& draft) {
+    readNames(table, "methods", draft.methods, [](const std::string& id) {
+        if (id != "all") (void)findMethod(id);
+    });
+    if (std::ranges::find(draft.methods, "all") != draft.methods.end()) draft.methods = allMethods();
+    readNames(table, "scenes", draft.scenes,
+              [](const std::string& id) { (void)files::findData("scene", "scenes", id, ".toml"); });
+    readNames(table, "drives", draft.drives, [](const std::string& id) {
+        if (!id.empty()) (void)files::findData("drive", "drives", id, ".csv");
+    });
+    readNames(table, "sizes", draft.sizes, [](const std::string& size) { (void)parseSize(size); });
+
+    RunSpec& base = draft.base;
+    base.frames = table.integer("frames", 1, mostFrames, base.frames);
+    base.warmup = table.integer("warmup", 0, mostFrames, base.warmup);
+    base.seed = static_cast<std::uint64_t>(
+        table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), static_cast<std::int64_t>(base.seed)));
+    base.threads = static_cast<int>(table.integer("threads", 0, 1024, base.threads));
+    base.imagesEvery = table.integer("images", 0, mostFrames, base.imagesEvery);
+    if (table.has("sync")) base.sync = parseSync(table.choice("sync", {"frame", "stage", "none"}));
+
+    Suite& suite = draft.suite;
+    suite.title = table.text("title", suite.title);
+    suite.summary = table.text("summary", suite.summary);
+    suite.repetitions = static_cast<int>(table.integer("repetitions", 1, 1000, suite.repetitions));
+    suite.timeoutSeconds = table.number("timeout_s", 1, 1e6, suite.timeoutSeconds);
+    if (table.has("order")) suite.order = parseOrder(table.choice("order", {"interleaved", "batch"}));
+
+    if (table.has("parameters")) {
+        files::TomlReader parameters = table.table("parameters");
+        readParameters(parameters, draft.methods, draft.parameters);
+        parameters.finish();
+    }
+    if (table.has("method")) {
+        files::TomlReader perMethod = table.table("method");
+        for (const std::string& id : perMethod.keys()) {
+            if (std::ranges::find(draft.methods, id) == draft.methods.end())
+                throw at(perMethod.where(id), unknownName("method of this suite", id, draft.methods));
+            files::TomlReader parameters = perMethod.table(id);
+            auto known = std::ranges::find(draft.methodParameters, id, [](const auto& entry) { return entry.first; });
+            if (known == draft.methodParameters.end()) {
+                draft.methodParameters.emplace_back(id, ParameterLists{});
+                known = std::prev(draft.methodParameters.end());
+            }
+            readParameters(parameters, {id}, known->second);
+            parameters.finish();
+        }
+        perMethod.finish();
+    }
+}
+
+Suite multiplyOut(Draft draft) {
+    Suite suite = std::move(draft.suite);
+    for (const std::string& id : draft.methods) {
+        ParameterLists lists = draft.parameters;
+        for (const auto& [method, own] : draft.methodParameters)
+            if (method == id)
+                for (const auto& [name, values] : own) setList(lists, name, values);
+        for (const std::string& scene : draft.scenes)
+            for (const std::string& drive : draft.drives)
+                for (const std::string& size : draft.sizes) {
+                    RunSpec base = draft.base;
+                    base.method = id;
+                    base.scene = scene;
+                    base.drive = drive;
+                    base.size = parseSize(size);
+                    for (PlannedRun& run : expandParameters(base, findMethod(id), lists)) {
+                        if (draft.drives.size() > 1) run.label = drive + " " + run.label;
+                        if (draft.sizes.size() > 1) run.label = size + " " + run.label;
+                        suite.cells.push_back(std::move(run));
+                    }
+                }
+    }
+    return suite;
+}
+
+Suite readSuite(files::TomlReader file, std::string id, bool quick) {
+    Draft draft;
+    readDraft(file, draft);
+    if (file.has("quick")) {
+        Draft shorter = draft;  // read in any case, so that a mistake in it shows early
+        files::TomlReader table = file.table("quick");
+        readDraft(table, shorter);
+        table.finish();
+        if (quick) draft = std::move(shorter);
+    }
+    file.finish();
+    Suite suite = multiplyOut(std::move(draft));
+    suite.id = std::move(id);
+    return suite;
+}
+
+/// Fisher-Yates with the round's own random numbers.
+void shuffle(std::vector<PlannedRun>& runs, std::size_t first, std::uint64_t seed, std::uint32_t round) {
+    for (std::size_t i = runs.size() - 1; i > first; --i) {
+        const std::size_t choice = maths::randomWords(seed, round, i)[0] % (i - first + 1);
+        std::swap(runs[i], runs[first + choice]);
+    }
+}
+
+}  // namespace
+
+Order parseOrder(std::string_view text) {
+    if (text == "interleaved") return Order::interleaved;
+    if (text == "batch") return Order::batch;
+    throw InputError(fmt::format("order: got '{}', allowed: interleaved|batch", text));
+}
+
+std::vector<SuiteFile> listSuites() {
+    std::vector<SuiteFile> suites;
+    const auto add = [&suites](const std::string& folder, const std::string& paper) {
+        for (const std::string& id : files::listData(folder, ".toml"))
+            suites.push_back({id, files::dataFolder() / folder / (id + ".toml"), paper});
+    };
+    add("suites", "");
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(files::dataFolder() / "papers", error)) {
+        const std::string paper = entry.path().filename();
+        add("papers/" + paper + "/suites", paper);
+    }
+    std::ranges::sort(suites, {}, &SuiteFile::id);
+    return suites;
+}
+
+Suite loadSuite(const std::string& idOrFile, bool quick) {
+    fs::path file = idOrFile;
+    if (idOrFile.find('/') == std::string::npos && !idOrFile.ends_with(".toml")) {
+        std::vector<std::string> known;
+        for (const SuiteFile& suite : listSuites()) {
+            known.push_back(suite.id);
+            if (suite.id == idOrFile) file = suite.file;
+        }
+        if (file == fs::path(idOrFile)) throw unknownName("suite", idOrFile, known);
+    }
+    return readSuite(files::TomlReader::parseFile(file), file.stem(), quick);
+}
+
+Suite parseSuite(std::string_view text, const std::string& name, bool quick) {
+    return readSuite(files::TomlReader::parseText(text, name), name, quick);
+}
+
+std::vector<PlannedRun> expandParameters(const RunSpec& base, const MethodInfo& method, const ParameterLists& lists) {
+    std::vector<PlannedRun> runs;
+    std::vector<std::size_t> choice(lists.size(), 0);
+    for (;;) {
+        ParameterTexts given;
+        std::string label;
+        for (std::size_t i = 0; i < lists.size(); ++i) {
+            given[lists[i].first] = lists[i].second[choice[i]];
+            label += (i ? " " : "") + lists[i].first + "=" + lists[i].second[choice[i]];
+        }
+        runs.push_back({base, label});
+        runs.back().spec.parameters = canonicalParameters(method, given);
+
+        std::size_t digit = lists.size();
+        while (digit > 0 && ++choice[digit - 1] == lists[digit - 1].second.size()) choice[--digit] = 0;
+        if (digit == 0) return runs;
+    }
+}
+
+std::vector<PlannedRun> planRuns(const Suite& suite) {
+    std::vector<PlannedRun> plan;
+    const auto add = [&plan](PlannedRun run, int repetition) {
+        run.spec.repetition = repetition;
+        plan.push_back(std::move(run));
+    };
+    if (suite.order == Order::batch) {
+        for (const PlannedRun& cell : suite.cells)
+            for (int repetition = 1; repetition <= suite.repetitions; ++repetition) add(cell, repetition);
+        return plan;
+    }
+    for (int repetition = 1; repetition <= suite.repetitions; ++repetition) {
+        const std::size_t first = plan.size();
+        for (const PlannedRun& cell : suite.cells) add(cell, repetition);
+        if (plan.size() > first)
+            shuffle(plan, first, suite.cells.front().spec.seed, static_cast<std::uint32_t>(repetition));
+    }
+    return plan;
+}
+
+}  // namespace dustbench::bench

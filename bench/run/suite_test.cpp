@@ -1,0 +1,145 @@
+#include "bench/run/suite.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "bench/scene/world.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/registry.h"
+
+namespace dustbench::bench {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr const char* sweep = R"(
+title = "Sweep"
+methods = ["billboard"]
+scenes = ["plain"]
+drives = ["straight", "slalom"]
+sizes = ["64x48", "128x96", "256x192"]
+repetitions = 4
+frames = 50
+seed = 9
+
+[parameters]
+particles = [100, "200:400:100"]
+speed = "10,20"
+
+[quick]
+repetitions = 2
+frames = 5
+sizes = ["64x48"]
+[quick.parameters]
+particles = 50
+)";
+
+std::string messageOf(const std::string& text) {
+    try {
+        (void)parseSuite(text, "s.toml", false);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "nothing thrown";
+}
+
+std::vector<std::string> ids(const std::vector<PlannedRun>& plan) {
+    std::vector<std::string> list;
+    for (const PlannedRun& run : plan) list.push_back(runId(run.spec));
+    return list;
+}
+
+TEST(Suite, IsTheProductOfItsLists) {
+    const Suite suite = parseSuite(sweep, "sweep", false);
+    EXPECT_EQ(suite.cells.size(), 2u * 3u * 4u * 2u);
+    const auto plan = planRuns(suite);
+    EXPECT_EQ(plan.size(), suite.cells.size() * 4);
+    const auto list = ids(plan);
+    EXPECT_EQ(std::set<std::string>(list.begin(), list.end()).size(), plan.size());
+}
+
+TEST(Suite, QuickTakesTheValuesOfItsTableAndKeepsTheRest) {
+    const Suite suite = parseSuite(sweep, "sweep", true);
+    EXPECT_EQ(suite.cells.size(), 2u * 1u * 1u * 2u);
+    EXPECT_EQ(suite.repetitions, 2);
+    for (const PlannedRun& cell : suite.cells) {
+        EXPECT_EQ(cell.spec.frames, 5);
+        EXPECT_EQ(cell.spec.seed, 9u);
+        EXPECT_EQ(cell.spec.parameters.at("particles"), "50");
+    }
+}
+
+TEST(Suite, InterleavedRoundsHoldEveryCellOnceInSeededOrder) {
+    const Suite suite = parseSuite(sweep, "sweep", false);
+    const auto plan = planRuns(suite);
+    const std::size_t cells = suite.cells.size();
+    std::vector<std::vector<std::string>> rounds;
+    for (int round = 0; round < suite.repetitions; ++round) {
+        std::vector<std::string> keys;
+        for (std::size_t i = 0; i < cells; ++i) {
+            RunSpec spec = plan[static_cast<std::size_t>(round) * cells + i].spec;
+            EXPECT_EQ(spec.repetition, round + 1);
+            spec.repetition = 1;
+            keys.push_back(runId(spec));
+        }
+        EXPECT_EQ(std::set<std::string>(keys.begin(), keys.end()).size(), cells);
+        rounds.push_back(keys);
+    }
+    EXPECT_NE(rounds[0], rounds[1]);
+    EXPECT_NE(rounds[0], ids(suite.cells));
+    EXPECT_EQ(ids(plan), ids(planRuns(suite)));
+
+    Suite otherSeed = suite;
+    for (PlannedRun& cell : otherSeed.cells) cell.spec.seed = 10;
+    const auto other = planRuns(otherSeed);
+    const auto label = [](const PlannedRun& run) { return run.label; };
+    std::vector<std::string> labels, otherLabels;
+    std::ranges::transform(plan, std::back_inserter(labels), label);
+    std::ranges::transform(other, std::back_inserter(otherLabels), label);
+    EXPECT_NE(labels, otherLabels);
+}
+
+TEST(Suite, BatchOrderKeepsTheRepetitionsOfACellTogether) {
+    Suite suite = parseSuite(sweep, "sweep", false);
+    suite.order = Order::batch;
+    const auto plan = planRuns(suite);
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        EXPECT_EQ(plan[i].spec.repetition, static_cast<int>(i % 4) + 1);
+        EXPECT_EQ(plan[i].label, suite.cells[i / 4].label);
+    }
+}
+
+TEST(Suite, EveryMethodOfTheBuildTakesPartWhereAllAre) {
+    const Suite suite = parseSuite("methods = \"all\"", "all", false);
+    EXPECT_EQ(suite.cells.size(), methods().size());
+}
+
+TEST(Suite, MistakesNameFileLineAndWhatIsNear) {
+    EXPECT_THAT(messageOf("methods = [\n\"bilboard\"]"), AllOf(HasSubstr("s.toml:1"), HasSubstr("'billboard'")));
+    EXPECT_THAT(messageOf("frames = 5\nscenes = [\"plainn\"]"), AllOf(HasSubstr("s.toml:2"), HasSubstr("'plain'")));
+    EXPECT_THAT(messageOf("repetition = 5"), AllOf(HasSubstr("s.toml:1"), HasSubstr("repetitions")));
+    EXPECT_THAT(messageOf("[parameters]\n\nparticle = 5"), AllOf(HasSubstr("s.toml:3"), HasSubstr("'particles'")));
+    EXPECT_THAT(messageOf("[parameters]\nparticles = -5"), AllOf(HasSubstr("s.toml:2"), HasSubstr("-5")));
+    EXPECT_THAT(messageOf("[parameters]\nparticles = \"1:2\""), HasSubstr("s.toml:2"));
+    EXPECT_THAT(messageOf("sizes = [\"64\"]"), AllOf(HasSubstr("s.toml:1"), HasSubstr("WIDTHxHEIGHT")));
+    EXPECT_THAT(messageOf("[quick]\nframe = 5"), AllOf(HasSubstr("s.toml:2"), HasSubstr("frames")));
+    EXPECT_THAT(messageOf("[method.billbord]\nsort = \"none\""), HasSubstr("'billboard'"));
+}
+
+TEST(Suite, EverySuiteOfTheProjectCanBePlanned) {
+    const auto suites = listSuites();
+    EXPECT_FALSE(suites.empty());
+    for (const SuiteFile& file : suites)
+        for (const bool quick : {false, true}) {
+            const Suite suite = loadSuite(file.id, quick);
+            EXPECT_FALSE(planRuns(suite).empty()) << file.id;
+            EXPECT_FALSE(suite.title.empty()) << file.id;
+        }
+}
+
+}  // namespace
+}  // namespace dustbench::bench

@@ -1,0 +1,21 @@
+// The car that is drawn: a hatchback and its wheel, built from simple lofted parts to fit the vehicle's measures.
+//
+// Frame: the vehicle's own (+X forward, +Y up, +Z right, origin on the ground under the rear axle); the wheel's axis is
+// +Z, its outer face looks to +Z. Units: metres. Colours: linear RGB.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "methods/shared/scene/scene.h"
+
+namespace dustbench::bench {
+
+struct CarColours {
+    glm::vec3 paint{0.035f, 0.13f, 0.42f};
+    glm::vec3 stripe{0.85f, 0.85f, 0.82f};
+};
+
+[[nodiscard]] scene::Mesh carBody(const scene::VehicleParameters& parameters, const CarColours& colours);
+[[nodiscard]] scene::Mesh carWheel(const scene::VehicleParameters& parameters);
+
+}  // namespace dustbench::bench

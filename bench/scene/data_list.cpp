@@ -1,0 +1,43 @@
+#include "bench/scene/data_list.h"
+
+#include "methods/shared/errors.h"
+#include "methods/shared/files/data_folder.h"
+#include "methods/shared/files/toml_reader.h"
+
+namespace dustbench::bench {
+namespace {
+
+/// What `read` says, or why it cannot: one broken file must not hide the others.
+template <typename Read>
+std::string descriptionOr(const Read& read) {
+    try {
+        return read();
+    } catch (const InputError& error) {
+        return std::string("cannot be read: ") + error.what();
+    }
+}
+
+}  // namespace
+
+std::vector<DataEntry> listScenes() {
+    std::vector<DataEntry> entries;
+    for (const std::string& id : files::listData("scenes", ".toml"))
+        entries.push_back({id, descriptionOr([&] {
+                               const auto file = files::dataFolder() / "scenes" / (id + ".toml");
+                               return files::TomlReader::parseFile(file).text("description");
+                           })});
+    return entries;
+}
+
+std::vector<DataEntry> listDrives() {
+    std::vector<DataEntry> entries;
+    const auto file = files::dataFolder() / "drives" / "drives.toml";
+    for (const std::string& id : files::listData("drives", ".csv"))
+        entries.push_back({id, descriptionOr([&]() -> std::string {
+                               if (!std::filesystem::exists(file)) return "";
+                               return files::TomlReader::parseFile(file).text(id, "");
+                           })});
+    return entries;
+}
+
+}  // namespace dustbench::bench

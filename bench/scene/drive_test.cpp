@@ -1,0 +1,194 @@
+#include "bench/scene/drive.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench/scene/driver.h"
+#include "bench/scene/test_folder.h"
+#include "methods/shared/files/data_folder.h"
+
+namespace dustbench::bench {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr double tick = 1.0 / 60;
+
+Drive builtIn(const std::string& id) {
+    return Drive::parseFile(files::findData("drive", "drives", id, ".csv"));
+}
+
+/// Drives the default vehicle on level ground; `each` sees every state.
+template <typename Each>
+void driveIt(const Drive& drive, const Each& each) {
+    const scene::VehicleParameters p;
+    Driver driver;
+    scene::VehicleState state = placeVehicle(p, {}, 0, 0, 0, drive.targetSpeedAt(0));
+    for (int n = 0; n * tick < drive.seconds(); ++n) {
+        const double now = n * tick, next = now + tick;
+        const Controls controls =
+            driver.decide(p, state, drive.targetSpeedAt(now), drive.targetSpeedAt(next), drive.steerAt(next), tick);
+        state = step(p, state, controls, {}, tick);
+        each(next, state);
+    }
+}
+
+TEST(Drive, IsLinearBetweenRowsAndHeldOutside) {
+    const Drive drive = Drive::parseText("time_s,throttle,brake,steer\n0,0,1,-1\n2,1,0,1\n", "d");
+    EXPECT_FALSE(drive.followsSpeed());
+    EXPECT_EQ(drive.throttleAt(-5), 0);
+    EXPECT_EQ(drive.throttleAt(0.5), 0.25);
+    EXPECT_EQ(drive.brakeAt(0.5), 0.75);
+    EXPECT_EQ(drive.steerAt(1), 0);
+    EXPECT_EQ(drive.steerAt(2), 1);
+    EXPECT_EQ(drive.steerAt(99), 1);
+    EXPECT_EQ(drive.seconds(), 2);
+}
+
+TEST(Drive, TakesItsColumnsInAnyOrder) {
+    const Drive drive = Drive::parseText("steer,time_s,target_speed_mps\n0.5,0,10\n", "d");
+    EXPECT_TRUE(drive.followsSpeed());
+    EXPECT_EQ(drive.targetSpeedAt(7), 10);
+    EXPECT_EQ(drive.steerAt(7), 0.5);
+}
+
+TEST(Drive, ReplacesOnlyTheSpeedsThatAreAboveZero) {
+    Drive drive = Drive::parseText("time_s,target_speed_mps,steer\n0,0,0\n1,5,0\n2,0,0\n", "d");
+    drive.replaceSpeeds(30);
+    EXPECT_EQ(drive.targetSpeedAt(0), 0);
+    EXPECT_EQ(drive.targetSpeedAt(1), 30);
+    EXPECT_EQ(drive.targetSpeedAt(2), 0);
+}
+
+struct BadDrive {
+    std::string text, start, part;
+};
+
+TEST(Drive, SaysFileLineAndWhatWasExpectedOfBadInput) {
+    const std::string pedals = "time_s,throttle,brake,steer\n";
+    const std::string speeds = "time_s,target_speed_mps,steer\n";
+    for (const BadDrive& bad :
+         {BadDrive{"", "d.csv:1: ", "empty"}, BadDrive{pedals, "d.csv:2: ", "no rows"},
+          BadDrive{"time_s,gas\n0,1\n", "d.csv:1: ", "time_s,throttle,brake,steer"},
+          BadDrive{pedals + "0,0,0,0\n1,0,0,1.5\n", "d.csv:3: ", "column 'steer': got 1.5, expected a number -1..1"},
+          BadDrive{pedals + "0,2,0,0\n", "d.csv:2: ", "column 'throttle': got 2"},
+          BadDrive{pedals + "0,0,nan,0\n", "d.csv:2: ", "column 'brake': got 'nan', expected a number"},
+          BadDrive{pedals + "0,0,,0\n", "d.csv:2: ", "column 'brake'"},
+          BadDrive{pedals + "0,0,0\n", "d.csv:2: ", "3 cells, expected 4"},
+          BadDrive{speeds + "0,5,0\n2,5,0\n2,6,0\n", "d.csv:4: ", "column 'time_s': got 2, expected more than 2"},
+          BadDrive{speeds + "0,5,0\n2,5,0\n1,6,0\n", "d.csv:4: ", "expected more than 2"},
+          BadDrive{speeds + "3,5,0\n", "d.csv:2: ", "expected 0 in the first row"},
+          BadDrive{speeds + "0,-1,0\n", "d.csv:2: ", "column 'target_speed_mps': got -1"}}) {
+        const std::string message = inputError([&] { static_cast<void>(Drive::parseText(bad.text, "d.csv")); });
+        EXPECT_THAT(message, StartsWith(bad.start));
+        EXPECT_THAT(message, HasSubstr(bad.part));
+    }
+}
+
+TEST(Drive, NamesTheNearestBuiltInDrive) {
+    EXPECT_THAT(inputError([] { static_cast<void>(builtIn("strait")); }), HasSubstr("did you mean 'straight'?"));
+}
+
+TEST(BuiltInDrives, Ece15IsThePublishedUrbanCycle) {
+    const Drive drive = builtIn("ece15");
+    EXPECT_EQ(drive.seconds(), 195);
+    double fastest = 0;
+    for (double t = 0; t <= 195; t += 0.5) fastest = std::max(fastest, drive.targetSpeedAt(t));
+    EXPECT_NEAR(fastest, 50 / 3.6, 1e-5);
+    // The operations joined by straight lines: 3652.5 km/h·s. Published: 1013 m (theoretical), mean 18.7 km/h.
+    EXPECT_NEAR(drive.targetDistance(), 3652.5 / 3.6, 0.01);
+    EXPECT_NEAR(drive.targetDistance(), 1013, 0.002 * 1013);
+    EXPECT_NEAR(drive.targetDistance() / 195 * 3.6, 18.7, 0.05);
+}
+
+TEST(BuiltInDrives, EudcIsThePublishedExtraUrbanCycle) {
+    const Drive drive = builtIn("eudc");
+    EXPECT_EQ(drive.seconds(), 400);
+    EXPECT_NEAR(drive.targetSpeedAt(340), 120 / 3.6, 1e-5);
+    EXPECT_NEAR(drive.targetDistance(), 6955, 1);
+}
+
+TEST(BuiltInDrives, TheVehicleFollowsTheRealCycles) {
+    for (const char* id : {"ece15", "eudc"}) {
+        const Drive drive = builtIn(id);
+        double travelled = 0;
+        driveIt(drive, [&](double time, const scene::VehicleState& state) {
+            ASSERT_NEAR(state.speed, drive.targetSpeedAt(time), 0.3) << id << " at " << time;
+            travelled = state.position.x;
+        });
+        EXPECT_NEAR(travelled, drive.targetDistance(), 0.002 * drive.targetDistance()) << id;
+    }
+}
+
+TEST(BuiltInDrives, LastAMinuteOrMore) {
+    for (const std::string& id : files::listData("drives", ".csv")) EXPECT_GE(builtIn(id).seconds(), 60) << id;
+}
+
+TEST(BuiltInDrives, StraightKeepsTwentyMetresASecond) {
+    driveIt(builtIn("straight"), [](double time, const scene::VehicleState& state) {
+        ASSERT_NEAR(state.speed, 20, 1e-6);
+        ASSERT_NEAR(state.position.x, 20 * time, 1e-3);
+        ASSERT_EQ(state.position.z, 0);
+    });
+}
+
+TEST(BuiltInDrives, AccelerationReachesFortyFromRest) {
+    double last = -1;
+    driveIt(builtIn("acceleration"), [&](double time, const scene::VehicleState& state) {
+        if (time < 18) {
+            ASSERT_GE(state.speed, last - 1e-9);
+        }
+        last = state.speed;
+    });
+    EXPECT_NEAR(last, 40, 0.05);
+}
+
+TEST(BuiltInDrives, FigureOfEightReturnsToItsStartAfterEveryRound) {
+    const Drive drive = builtIn("figure_of_eight");
+    constexpr int rounds = 3;
+    int returned = 0;
+    double left = 0, right = 0;
+    driveIt(drive, [&](double time, const scene::VehicleState& state) {
+        left = std::min(left, state.position.z);
+        right = std::max(right, state.position.z);
+        const double inRound = std::fmod(time, drive.seconds() / rounds);
+        if (inRound < tick && time > 1) {
+            ++returned;
+            EXPECT_LT(std::hypot(state.position.x, state.position.z), 0.5) << time;
+            EXPECT_NEAR(std::remainder(state.heading, 2 * 3.14159265358979), 0, 0.02) << time;
+        }
+    });
+    EXPECT_GE(returned, rounds - 1);
+    EXPECT_LT(left, -20);
+    EXPECT_GT(right, 20);
+}
+
+TEST(BuiltInDrives, SlalomSwingsToBothSidesAndKeepsItsDirection) {
+    double heading = 0, most = 0, least = 0;
+    int count = 0;
+    driveIt(builtIn("slalom"), [&](double, const scene::VehicleState& state) {
+        heading += state.heading;
+        ++count;
+        most = std::max(most, state.heading);
+        least = std::min(least, state.heading);
+    });
+    EXPECT_NEAR(heading / count, 0, 0.01);
+    EXPECT_GT(most, 0.15);
+    EXPECT_LT(least, -0.15);
+}
+
+TEST(BuiltInDrives, StopAndGoStopsFourTimes) {
+    int stops = 0;
+    bool standing = true;
+    driveIt(builtIn("stop_and_go"), [&](double, const scene::VehicleState& state) {
+        if (state.speed == 0 && !standing) ++stops;
+        standing = state.speed == 0;
+    });
+    EXPECT_EQ(stops, 4);
+}
+
+}  // namespace
+}  // namespace dustbench::bench

@@ -1,0 +1,53 @@
+// Builds a mesh from curved patches, boxes and turned profiles, each with its own colours.
+//
+// Owns: the mesh under construction.
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "methods/shared/scene/mesh.h"
+
+namespace dustbench::bench {
+
+class SurfaceBuilder {
+ public:
+    using Position = std::function<glm::vec3(float u, float v)>;
+    using Colour = std::function<glm::vec3(float u, float v)>;
+
+    /// The quads between the lines `us` and `vs` of the surface P(u, v), one colour a cell (taken at its middle). The
+    /// outside is where ∂P/∂u × ∂P/∂v points; normals are those of the smooth surface.
+    void patch(std::span<const float> us, std::span<const float> vs, const Position& position, const Colour& colour);
+    /// The same with a flat normal a cell.
+    void facets(std::span<const float> us, std::span<const float> vs, const Position& position, const Colour& colour);
+    /// The patch with normals given.
+    void patch(std::span<const float> us, std::span<const float> vs, const Position& position, const Position& normal,
+               const Colour& colour);
+    void box(const glm::vec3& centre, const glm::vec3& halfSize, const glm::vec3& colour);
+    /// A profile of (radius, z), turned about the Z axis; the outside is to the left of its direction seen with the
+    /// radius to the right and z upwards. Each part between two points has its own normal and colour (one a part).
+    void turned(std::span<const glm::vec2> profile, int segments,
+                const std::function<glm::vec3(int part, int segment)>& colour);
+    /// A disc with a rim behind it: a lamp, facing `+X` or `−X`.
+    void lamp(const glm::vec3& centre, float radius, float depth, bool forwards, const glm::vec3& glass,
+              const glm::vec3& rim);
+
+    /// Appends the mirror image in the plane z = 0 of all triangles from `firstVertex`, `firstIndex` on.
+    void mirror(std::size_t firstVertex, std::size_t firstIndex);
+
+    [[nodiscard]] std::size_t vertices() const { return mesh_.positions.size(); }
+    [[nodiscard]] std::size_t indices() const { return mesh_.indices.size(); }
+    [[nodiscard]] scene::Mesh finish() { return std::move(mesh_); }
+
+ private:
+    void quad(const glm::vec3 (&corners)[4], const glm::vec3 (&normals)[4], const glm::vec3& colour);
+
+    scene::Mesh mesh_;
+};
+
+/// Evenly spaced lines from `first` to `last`.
+[[nodiscard]] std::vector<float> lines(float first, float last, int cells);
+
+}  // namespace dustbench::bench

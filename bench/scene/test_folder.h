@@ -1,0 +1,55 @@
+// For tests: a folder that vanishes with the test, and the line that a call throws.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "methods/shared/errors.h"
+
+namespace dustbench::bench {
+
+/// Owns: the folder and what is in it.
+class TestFolder {
+ public:
+    TestFolder() {
+        const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+        path_ = std::filesystem::temp_directory_path() /
+                ("dustbench_" + std::to_string(::getpid()) + "_" + test->test_suite_name() + "_" + test->name());
+        std::filesystem::remove_all(path_);
+        std::filesystem::create_directories(path_);
+    }
+    ~TestFolder() { std::filesystem::remove_all(path_); }
+    TestFolder(const TestFolder&) = delete;
+    TestFolder& operator=(const TestFolder&) = delete;
+
+    std::filesystem::path write(const std::string& name, std::string_view text) const {
+        const auto file = path_ / name;
+        std::ofstream(file, std::ios::binary) << text;
+        return file;
+    }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+    std::filesystem::path path_;
+};
+
+/// The message of the InputError that `call` throws; a failure where it throws none or several lines.
+template <typename Call>
+std::string inputError(const Call& call) {
+    try {
+        call();
+    } catch (const InputError& error) {
+        const std::string message = error.what();
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        return message;
+    }
+    ADD_FAILURE() << "expected an InputError";
+    return "";
+}
+
+}  // namespace dustbench::bench

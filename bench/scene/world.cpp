@@ -1,0 +1,218 @@
+#include "bench/scene/world.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bench/scene/cameras.h"
+#include "bench/scene/drive.h"
+#include "bench/scene/driver.h"
+#include "bench/scene/scene_file.h"
+#include "bench/scene/vehicle_dynamics.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/files/csv.h"
+#include "methods/shared/files/data_folder.h"
+#include "methods/shared/maths/hash.h"
+#include "methods/shared/particles/particle_system.h"
+
+namespace dustbench::bench {
+namespace {
+
+using scene::SceneState;
+using scene::VehicleParameters;
+using scene::VehicleState;
+
+/// Driver and drive together: what is done at which moment. The drive's controls of time 0 hold before it.
+class Steering {
+ public:
+    explicit Steering(Drive drive) : drive_(std::move(drive)) {}
+
+    [[nodiscard]] const Drive& drive() const { return drive_; }
+    [[nodiscard]] double initialSpeed() const { return drive_.followsSpeed() ? drive_.targetSpeedAt(0) : 0; }
+
+    /// For the step that begins at `now`.
+    [[nodiscard]] Controls decide(const VehicleParameters& parameters, const VehicleState& vehicle, double now) {
+        const double next = now + stepSeconds;
+        const double steer = drive_.steerAt(next);
+        if (!drive_.followsSpeed()) return {drive_.throttleAt(now), drive_.brakeAt(now), steer};
+        return driver_.decide(parameters, vehicle, drive_.targetSpeedAt(now), drive_.targetSpeedAt(next), steer,
+                              stepSeconds);
+    }
+
+ private:
+    Drive drive_;
+    Driver driver_;
+};
+
+Drive readDrive(const std::filesystem::path& file, const std::string& id, const VehicleParameters& vehicle,
+                double speed) {
+    Drive drive = Drive::parseFile(file);
+    if (speed > 0) {
+        if (!drive.followsSpeed())
+            throw InputError("parameter 'speed': the drive '" + id +
+                             "' goes by pedals and has no target speeds to replace");
+        if (speed > vehicle.topSpeed)
+            throw InputError("parameter 'speed': got " + files::csvNumber(speed) +
+                             ", but the scene's vehicle has a top speed of " + files::csvNumber(vehicle.topSpeed));
+        drive.replaceSpeeds(speed);
+    }
+    return drive;
+}
+
+/// Where the preroll must begin so that it ends at `start`: the way it drives, taken back. Exact on level ground.
+VehicleState placeBefore(const VehicleParameters& parameters, const scene::Terrain& terrain, const Start& start,
+                         Steering steering, std::int64_t steps) {
+    const VehicleState from =
+        placeVehicle(parameters, terrain, start.x, start.z, start.heading, steering.initialSpeed());
+    VehicleState to = from;
+    for (std::int64_t n = -steps; n < 0; ++n)
+        to = step(parameters, to, steering.decide(parameters, to, static_cast<double>(n) * stepSeconds), terrain,
+                  stepSeconds);
+    // The rigid motion from → to, in the plane: heading turns by `turn`, the way in the frame of `from` is (ahead,
+    // right).
+    const double turn = to.heading - from.heading;
+    const glm::dvec2 moved(to.position.x - from.position.x, to.position.z - from.position.z);
+    const double ahead = moved.x * std::cos(from.heading) - moved.y * std::sin(from.heading);
+    const double right = moved.x * std::sin(from.heading) + moved.y * std::cos(from.heading);
+    const double heading = start.heading - turn;
+    const double x = start.x - (ahead * std::cos(heading) + right * std::sin(heading));
+    const double z = start.z - (-ahead * std::sin(heading) + right * std::cos(heading));
+    return placeVehicle(parameters, terrain, x, z, heading, steering.initialSpeed());
+}
+
+void addVehicle(maths::Hash& hash, const VehicleState& vehicle) {
+    const auto add = [&](const glm::dvec3& v) { hash.add(v.x).add(v.y).add(v.z); };
+    add(vehicle.position);
+    hash.add(vehicle.heading).add(vehicle.speed).add(vehicle.acceleration).add(vehicle.steerAngle);
+    add(vehicle.up);
+    for (const scene::WheelState& wheel : vehicle.wheels) {
+        add(wheel.hub);
+        add(wheel.contact);
+        add(wheel.velocity);
+        add(wheel.forward);
+        hash.add(wheel.steerAngle).add(wheel.spinAngle).add(wheel.spinRate);
+    }
+}
+
+std::size_t bytesOf(const scene::Mesh& mesh) {
+    return mesh.positions.size() * 3 * sizeof(glm::vec3) + mesh.indices.size() * sizeof(std::uint32_t);
+}
+
+}  // namespace
+
+const ParameterSet& worldParameters() {
+    static const ParameterSet parameters = [] {
+        ParameterSet set;
+        set.integer("particles", 0, 0, 10'000'000, "",
+                    "dust particles to keep alive on average; 0: as many as the vehicle's speed raises");
+        set.real("speed", 0, 0, 60, "m/s", "replaces every target speed above 0 of the drive; 0: as the drive says");
+        set.real("preroll", -1, -1, 120, "s", "untimed simulation before the drive begins; below 0: one mean lifetime");
+        set.choice("camera", "chase", {"chase", "fixed", "orbit"}, "which of the scene's cameras looks on");
+        return set;
+    }();
+    return parameters;
+}
+
+struct World::State {
+    SceneFile file;
+    std::string driveId;
+    CameraKind camera;
+    std::int64_t fixedCount;
+    particles::ParticleSystem dust;
+    Steering steering;
+    std::int64_t prerollSteps = 0;
+    std::int64_t stepIndex = 0;  ///< of the next step; 0 is the first of the drive
+    Controls controls{};
+    SceneState now{};
+    CameraLag lag{};
+
+    [[nodiscard]] const VehicleParameters& vehicle() const { return file.scene.vehicle->parameters; }
+    [[nodiscard]] double time() const { return static_cast<double>(stepIndex) * stepSeconds; }
+};
+
+World::World(const std::string& sceneId, const std::string& driveId, const ParameterValues& parameters,
+             std::uint64_t seed) {
+    SceneFile file = readScene(files::findData("scene", "scenes", sceneId, ".toml"));
+    const std::string drive = driveId.empty() ? file.drive : driveId;
+    const auto driveFile = files::findData("drive", "drives", drive, ".csv");
+    const auto dustFile = files::findData("particle system", "particles", file.dust, ".toml");
+    file.files.push_back(driveFile);
+    file.files.push_back(dustFile);
+    Steering steering(readDrive(driveFile, drive, file.scene.vehicle->parameters, parameters.real("speed")));
+    state_ = std::make_unique<State>(State{.file = std::move(file),
+                                           .driveId = drive,
+                                           .camera = parameters.choiceAs<CameraKind>("camera"),
+                                           .fixedCount = parameters.integer("particles"),
+                                           .dust = particles::ParticleSystem::load(dustFile, seed),
+                                           .steering = std::move(steering)});
+    State& s = *state_;
+    const double preroll = parameters.real("preroll");
+    s.prerollSteps = std::llround((preroll < 0 ? s.dust.meanLifetimeSeconds() : preroll) / stepSeconds);
+    s.stepIndex = -s.prerollSteps;
+    s.now.vehicle = placeBefore(s.vehicle(), s.file.scene.terrain, s.file.start, s.steering, s.prerollSteps);
+    s.now.timeSeconds = s.time();
+    s.lag = CameraLag::at(s.now.vehicle);
+}
+
+World::~World() = default;
+
+const scene::Scene& World::scene() const {
+    return state_->file.scene;
+}
+const SceneState& World::state() const {
+    return state_->now;
+}
+const particles::ParticleStore& World::dust() const {
+    return state_->dust.store();
+}
+std::int64_t World::prerollSteps() const {
+    return state_->prerollSteps;
+}
+double World::driveSeconds() const {
+    return state_->steering.drive().seconds();
+}
+const std::string& World::driveId() const {
+    return state_->driveId;
+}
+std::vector<std::filesystem::path> World::inputFiles() const {
+    return state_->file.files;
+}
+
+scene::View World::view(int width, int height) const {
+    const State& s = *state_;
+    return {cameraAt(s.camera, s.file.cameras, s.now, s.lag, s.file.scene.terrain), width, height};
+}
+
+void World::readInput() {
+    State& s = *state_;
+    s.controls = s.steering.decide(s.vehicle(), s.now.vehicle, s.time());
+}
+
+void World::simulate() {
+    State& s = *state_;
+    s.now.vehicle = step(s.vehicle(), s.now.vehicle, s.controls, s.file.scene.terrain, stepSeconds);
+    ++s.stepIndex;
+    s.now.timeSeconds = s.time();
+    s.lag = s.lag.followed(s.now.vehicle, s.file.cameras.chase.smoothingSeconds, stepSeconds);
+    s.dust.update({s.file.scene, s.now, stepSeconds, s.fixedCount});
+}
+
+std::uint64_t World::stateHash() const {
+    maths::Hash hash;
+    hash.add(state_->now.timeSeconds);
+    addVehicle(hash, state_->now.vehicle);
+    hash.add(state_->dust.stateHash());
+    return hash.value();
+}
+
+MemoryReport World::memory() const {
+    const scene::Scene& scene = state_->file.scene;
+    std::size_t meshBytes = bytesOf(*scene.vehicle->body.mesh) + bytesOf(*scene.vehicle->wheel.mesh);
+    for (const scene::Solid& solid : scene.solids) meshBytes += bytesOf(*solid.mesh);
+    MemoryReport report = state_->dust.memory();
+    report.push_back({"terrain", scene.terrain.heights().size() * sizeof(float), 0});
+    report.push_back({"meshes", meshBytes, 0});
+    return report;
+}
+
+}  // namespace dustbench::bench

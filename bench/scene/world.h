@@ -1,0 +1,62 @@
+// A scene with its vehicle on its drive and its dust: what every method is shown, stepped at the fixed rate.
+//
+// Units: SI. Threads: one at a time; the dust uses the current oneTBB arena.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "methods/shared/memory_ledger.h"
+#include "methods/shared/parameters.h"
+#include "methods/shared/particles/particle_store.h"
+#include "methods/shared/scene/scene.h"
+
+namespace dustbench::bench {
+
+/// The fixed time step of every simulation.
+inline constexpr double stepSeconds = 1.0 / 60;
+
+/// The parameters of the world itself, the same for every method: `particles`, `speed`, `preroll`, `camera`, …
+[[nodiscard]] const ParameterSet& worldParameters();
+
+class World {
+ public:
+    /// `sceneId` and `driveId` name files of data/ or are paths; an empty drive is the scene's own.
+    /// Throws InputError for whatever is wrong with them.
+    World(const std::string& sceneId, const std::string& driveId, const ParameterValues& parameters,
+          std::uint64_t seed);
+    ~World();
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+
+    [[nodiscard]] const scene::Scene& scene() const;
+    [[nodiscard]] const scene::SceneState& state() const;
+    [[nodiscard]] const particles::ParticleStore& dust() const;
+    [[nodiscard]] scene::View view(int width, int height) const;
+
+    /// Steps of the untimed preroll, so that the cloud is there when recording begins.
+    [[nodiscard]] std::int64_t prerollSteps() const;
+    /// Length of the drive; after it the last row holds.
+    [[nodiscard]] double driveSeconds() const;
+    [[nodiscard]] const std::string& driveId() const;
+
+    /// The driver decides for the next step (stage `input`).
+    void readInput();
+    /// Vehicle, then dust, one step on (stage `simulate`).
+    void simulate();
+
+    /// Of vehicle and dust: the same for every method, thread count and build.
+    [[nodiscard]] std::uint64_t stateHash() const;
+    [[nodiscard]] MemoryReport memory() const;
+    /// Every file that the world was read from, for provenance.
+    [[nodiscard]] std::vector<std::filesystem::path> inputFiles() const;
+
+ private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace dustbench::bench

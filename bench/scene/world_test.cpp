@@ -1,0 +1,166 @@
+#include "bench/scene/world.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <map>
+
+#include "bench/scene/test_folder.h"
+#include "methods/shared/files/data_folder.h"
+
+namespace dustbench::bench {
+namespace {
+
+using ::testing::HasSubstr;
+
+ParameterValues with(const std::map<std::string, std::string>& settings) {
+    ParameterValues values(worldParameters());
+    for (const auto& [name, value] : settings) values.set(name, value);
+    return values;
+}
+
+void run(World& world, std::int64_t steps) {
+    for (std::int64_t n = 0; n < steps; ++n) {
+        world.readInput();
+        world.simulate();
+    }
+}
+
+std::uint64_t hashAfter(const std::string& scene, std::uint64_t seed, std::int64_t steps) {
+    World world(scene, "", with({{"preroll", "0.5"}}), seed);
+    run(world, steps);
+    return world.stateHash();
+}
+
+TEST(World, GivesTheSameStateAtEveryNumberOfThreads) {
+    const std::uint64_t expected = hashAfter("plain", 7, 90);
+    for (const std::size_t threads : {1u, 2u, 5u}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        EXPECT_EQ(hashAfter("plain", 7, 90), expected) << threads;
+    }
+}
+
+TEST(World, GivesAnotherStateForAnotherSeedSceneOrMoment) {
+    const std::uint64_t expected = hashAfter("plain", 7, 60);
+    EXPECT_NE(hashAfter("plain", 8, 60), expected);
+    EXPECT_NE(hashAfter("dunes", 7, 60), expected);
+    EXPECT_NE(hashAfter("plain", 7, 61), expected);
+}
+
+TEST(World, PrerollEndsAtTheStartWhenTheDriveBegins) {
+    for (const char* drive : {"straight", "figure_of_eight", "slalom", "acceleration"}) {
+        World world("plain", drive, with({{"preroll", "3"}}), 1);
+        EXPECT_EQ(world.prerollSteps(), 180);
+        EXPECT_NEAR(world.state().timeSeconds, -3, 1e-12);
+        run(world, world.prerollSteps());
+        EXPECT_EQ(world.state().timeSeconds, 0) << drive;
+        EXPECT_NEAR(glm::length(world.state().vehicle.position), 0, 1e-6) << drive;
+        EXPECT_NEAR(world.state().vehicle.heading, 0, 1e-9) << drive;
+    }
+}
+
+TEST(World, PrerollHoldsTheControlsOfTimeZeroEvenInATurn) {
+    const TestFolder folder;
+    const auto drive = folder.write("turn.csv", "time_s,target_speed_mps,steer\n0,8,0.5\n60,8,0.5\n");
+    World world("plain", drive.string(), with({{"preroll", "4"}}), 1);
+    run(world, world.prerollSteps());
+    EXPECT_NEAR(world.state().vehicle.position.x, 0, 1e-6);
+    EXPECT_NEAR(world.state().vehicle.position.z, 0, 1e-6);
+    EXPECT_NEAR(world.state().vehicle.heading, 0, 1e-9);
+}
+
+TEST(World, PrerollsOneMeanLifetimeByDefault) {
+    const World world("plain", "", with({}), 1);
+    EXPECT_GT(world.prerollSteps(), 0);
+    EXPECT_GE(world.driveSeconds(), 60);
+    EXPECT_EQ(world.driveId(), "straight");
+}
+
+TEST(World, KeepsTheWantedNumberOfParticlesAlive) {
+    World world("plain", "", with({{"particles", "2000"}}), 3);
+    run(world, 2 * world.prerollSteps() + 60);
+    EXPECT_NEAR(static_cast<double>(world.dust().size()), 2000, 100);
+}
+
+TEST(World, RaisesMoreDustTheFasterItDrives) {
+    std::size_t before = 0;
+    for (const char* speed : {"5", "15", "30"}) {
+        World world("plain", "", with({{"speed", speed}, {"preroll", "2"}}), 3);
+        run(world, world.prerollSteps());
+        EXPECT_NEAR(world.state().vehicle.speed, std::stod(speed), 1e-6);
+        EXPECT_GT(world.dust().size(), before);
+        before = world.dust().size();
+    }
+}
+
+TEST(World, FollowsTheDunesWithItsWheels) {
+    World world("dunes", "", with({{"preroll", "1"}}), 3);
+    double lowest = 0, highest = 0;
+    for (int n = 0; n < 1200; ++n) {
+        run(world, 1);
+        const scene::VehicleState& vehicle = world.state().vehicle;
+        lowest = std::min(lowest, vehicle.position.y);
+        highest = std::max(highest, vehicle.position.y);
+        ASSERT_GT(vehicle.up.y, 0.9);
+        ASSERT_NEAR(vehicle.speed, 12, 1.5);
+    }
+    EXPECT_GT(highest - lowest, 0.5);
+}
+
+TEST(World, ShowsTheVehicleFromEveryCamera) {
+    for (const char* camera : {"chase", "fixed", "orbit"}) {
+        World world("plain", "", with({{"camera", camera}, {"preroll", "1"}}), 1);
+        run(world, world.prerollSteps() + 60);
+        const scene::View view = world.view(640, 480);
+        const glm::vec4 clip = view.worldToClip() * glm::vec4(glm::vec3(world.state().vehicle.position), 1);
+        EXPECT_LT(std::abs(clip.x), clip.w) << camera;
+        EXPECT_LT(std::abs(clip.y), clip.w) << camera;
+    }
+}
+
+TEST(World, NamesEveryInputFile) {
+    const World world("dunes", "slalom", with({}), 1);
+    std::string all;
+    for (const auto& file : world.inputFiles()) {
+        EXPECT_TRUE(std::filesystem::is_regular_file(file)) << file;
+        all += file.filename().string() + " ";
+    }
+    for (const char* part : {"dunes.toml", "dunes.png", "rock.obj", "slalom.csv", "wheel_dust.toml"})
+        EXPECT_THAT(all, HasSubstr(part));
+    EXPECT_FALSE(world.memory().empty());
+}
+
+TEST(World, SaysInOneLineWhatIsWrongWithItsInput) {
+    EXPECT_THAT(inputError([] { World("plainn", "", with({}), 1); }), HasSubstr("did you mean 'plain'?"));
+    EXPECT_THAT(inputError([] { World("plain", "slalon", with({}), 1); }), HasSubstr("did you mean 'slalom'?"));
+    EXPECT_THAT(inputError([] { World("none/of.toml", "", with({}), 1); }), HasSubstr("no such file"));
+    EXPECT_THAT(inputError([] { with({{"speed", "61"}}); }), HasSubstr("61"));
+    const TestFolder folder;
+    const auto pedals = folder.write("p.csv", "time_s,throttle,brake,steer\n0,0.2,0,0\n");
+    EXPECT_THAT(inputError([&] {
+                    World("plain", pedals.string(), with({{"speed", "10"}}), 1);
+                }),
+                HasSubstr("goes by pedals"));
+    const auto slow = folder.write("slow.toml", "description = \"slow\"\n[vehicle]\ntop_speed = 20\n");
+    EXPECT_THAT(inputError([&] {
+                    World(slow.string(), "", with({{"speed", "30"}}), 1);
+                }),
+                HasSubstr("top speed of 20"));
+    const auto lost = folder.write("lost.toml", "description = \"lost\"\ndust = \"wheel_dast\"\n");
+    EXPECT_THAT(inputError([&] { World(lost.string(), "", with({}), 1); }), HasSubstr("wheel_dust"));
+}
+
+TEST(World, DrivesByPedalsFromRest) {
+    const TestFolder folder;
+    const auto pedals = folder.write("p.csv", "time_s,throttle,brake,steer\n0,0,1,0\n1,0.5,0,0\n");
+    World world("plain", pedals.string(), with({{"preroll", "1"}}), 1);
+    run(world, world.prerollSteps());
+    EXPECT_EQ(world.state().vehicle.speed, 0);
+    run(world, 180);
+    EXPECT_GT(world.state().vehicle.speed, 2);
+}
+
+}  // namespace
+}  // namespace dustbench::bench

@@ -1,0 +1,107 @@
+# A method folder dropped into methods/ is listed and runs in a suite with no other edit; deleted, it leaves no trace.
+#
+# The folder and the suite are those of methods/README.md, so that the page cannot go wrong. All happens in a copy of the
+# tree below WORK, which is kept from one run to the next: only what changed is compiled again, the first time from
+# the compiler cache.
+#
+#   cmake -DSOURCE=tree -DWORK=folder -DCOMPILER=c++ -DC_COMPILER=cc -DARCH=native -P add_a_method.cmake
+cmake_minimum_required(VERSION 3.25)
+
+set(TREE ${WORK}/tree)
+set(BUILD ${TREE}/build/release) # as far below its tree as the real one, so that the compiler cache knows the files
+set(PROGRAM ${BUILD}/dustbench)
+set(ENV{CCACHE_BASEDIR} ${TREE})
+set(ENV{DUSTBENCH_DATA} "") # the copy's own data folder
+
+function(must_run RESULT)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE STATUS OUTPUT_VARIABLE OUT ERROR_VARIABLE ERROR)
+  if(NOT STATUS EQUAL 0)
+    list(JOIN ARGN " " COMMAND_LINE)
+    message(FATAL_ERROR "${COMMAND_LINE}\nended with ${STATUS}\n${OUT}\n${ERROR}")
+  endif()
+  set(${RESULT} "${OUT}" PARENT_SCOPE)
+endfunction()
+
+# The fenced block of methods/README.md that follows the line beginning with `FILE`, written to that file of the copy.
+function(write_from_page FILE)
+  file(READ ${SOURCE}/methods/README.md PAGE)
+  string(FIND "${PAGE}" "\n`${FILE}`" START)
+  if(START EQUAL -1)
+    message(FATAL_ERROR "methods/README.md: no line begins with `${FILE}`")
+  endif()
+  string(SUBSTRING "${PAGE}" ${START} -1 PAGE)
+  string(FIND "${PAGE}" "\n```" START)
+  math(EXPR START "${START} + 4")
+  string(SUBSTRING "${PAGE}" ${START} -1 PAGE)
+  string(FIND "${PAGE}" "\n" START)
+  math(EXPR START "${START} + 1")
+  string(FIND "${PAGE}" "\n```" END)
+  math(EXPR LENGTH "${END} - ${START} + 1")
+  string(SUBSTRING "${PAGE}" ${START} ${LENGTH} TEXT)
+  file(WRITE ${TREE}/${FILE} "${TEXT}")
+endfunction()
+
+function(ids_of_methods RESULT)
+  must_run(JSON ${PROGRAM} list methods --json)
+  string(JSON COUNT LENGTH "${JSON}")
+  set(IDS "")
+  if(COUNT GREATER 0)
+    math(EXPR LAST "${COUNT} - 1")
+    foreach(I RANGE ${LAST})
+      string(JSON ID GET "${JSON}" ${I} id)
+      list(APPEND IDS ${ID})
+    endforeach()
+  endif()
+  set(${RESULT} "${IDS}" PARENT_SCOPE)
+endfunction()
+
+function(build_copy)
+  must_run(IGNORED ${CMAKE_COMMAND} --build ${BUILD} --target dustbench)
+endfunction()
+
+# A fresh copy of the sources, with their times of change; the build folder in it stays.
+set(PARTS CMakeLists.txt CMakePresets.json methods bench data reports tests)
+foreach(PART ${PARTS})
+  file(REMOVE_RECURSE ${TREE}/${PART})
+endforeach()
+foreach(PART ${PARTS})
+  file(COPY ${SOURCE}/${PART} DESTINATION ${TREE} REGEX "/reports/out(/|$)" EXCLUDE)
+endforeach()
+if(EXISTS ${TREE}/methods/nothing)
+  message(FATAL_ERROR "methods/nothing is there already: the example of methods/README.md must be a new name")
+endif()
+
+write_from_page(methods/nothing/nothing.cpp)
+write_from_page(data/suites/nothing.toml)
+must_run(IGNORED ${CMAKE_COMMAND} -S ${TREE} -B ${BUILD} -G Ninja -DCMAKE_BUILD_TYPE=Release -DDUSTBENCH_ARCH=${ARCH}
+  -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_C_COMPILER=${C_COMPILER})
+build_copy()
+
+ids_of_methods(WITH)
+if(NOT "nothing" IN_LIST WITH)
+  message(FATAL_ERROR "'nothing' is not among the listed methods: ${WITH}")
+endif()
+
+file(REMOVE_RECURSE ${WORK}/results)
+must_run(IGNORED ${PROGRAM} suite nothing --out ${WORK}/results)
+file(STRINGS ${WORK}/results/summary.csv ROWS)
+list(LENGTH ROWS COUNT)
+list(GET ROWS -1 ROW)
+if(NOT COUNT EQUAL 2 OR NOT ROW MATCHES ",done,.*nothing,")
+  list(JOIN ROWS "\n" ROWS)
+  message(FATAL_ERROR "the suite should have one run of 'nothing', done:\n${ROWS}")
+endif()
+
+file(REMOVE_RECURSE ${TREE}/methods/nothing)
+file(REMOVE ${TREE}/data/suites/nothing.toml)
+build_copy()
+ids_of_methods(WITHOUT)
+list(REMOVE_ITEM WITH nothing)
+if(NOT "${WITHOUT}" STREQUAL "${WITH}")
+  message(FATAL_ERROR "with the folder deleted the methods should be '${WITH}', they are '${WITHOUT}'")
+endif()
+execute_process(COMMAND ${PROGRAM} run --method nothing --frames 1 --out ${WORK}/gone
+  RESULT_VARIABLE STATUS OUTPUT_QUIET ERROR_QUIET)
+if(NOT STATUS EQUAL 3)
+  message(FATAL_ERROR "a deleted method must be bad input (exit code 3), got ${STATUS}")
+endif()

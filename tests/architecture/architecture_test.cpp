@@ -1,0 +1,99 @@
+// The rules of the house, held against every file of the tree.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+#include "tests/architecture/source_rules.h"
+
+namespace dustbench::architecture {
+
+namespace {
+
+const std::filesystem::path root = DUSTBENCH_SOURCE_DIR;
+
+std::string textOf(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Files below a folder of the tree, by path from the root, sorted.
+std::vector<std::string> filesBelow(const std::string& folder) {
+    std::vector<std::string> paths;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+        if (entry.is_regular_file()) paths.push_back(entry.path().lexically_relative(root).generic_string());
+    }
+    std::ranges::sort(paths);
+    return paths;
+}
+
+const std::vector<SourceFile>& sources() {
+    static const std::vector<SourceFile> all = [] {
+        std::vector<SourceFile> files;
+        for (const std::string folder : {"methods", "bench", "tests"}) {
+            for (const std::string& path : filesBelow(folder)) {
+                static const std::set<std::string> kinds{".h", ".cpp", ".vert", ".frag", ".comp", ".glsl"};
+                if (kinds.contains(std::filesystem::path(path).extension()))
+                    files.push_back({path, textOf(root / path)});
+            }
+        }
+        return files;
+    }();
+    return all;
+}
+
+/// Empty where no file breaks the rule, else one fault a line.
+std::string faultsOfAll(const std::function<Faults(const SourceFile&)>& rule) {
+    std::string all;
+    for (const SourceFile& file : sources()) {
+        for (const std::string& fault : rule(file)) all += fault + "\n";
+    }
+    return all;
+}
+
+}  // namespace
+
+TEST(Architecture, HasItsSourcesWhereTheTestLooks) {
+    EXPECT_GE(sources().size(), 50u);
+}
+
+TEST(Architecture, IncludesPointOneWay) {
+    EXPECT_EQ(faultsOfAll(includeFaults), "");
+}
+
+TEST(Architecture, OpenGlStaysInTheGpuLayer) {
+    EXPECT_EQ(faultsOfAll(openGlFaults), "");
+}
+
+TEST(Architecture, FilesAreShortOrSayWhyNot) {
+    EXPECT_EQ(faultsOfAll(lengthFaults), "");
+}
+
+TEST(Architecture, HeadersSayWhatTheyAreFor) {
+    EXPECT_EQ(faultsOfAll(purposeFaults), "");
+}
+
+TEST(Architecture, EveryCitationIsInTheBibliography) {
+    const auto keys = bibliographyKeys(textOf(root / "data/references.bib"));
+    EXPECT_FALSE(keys.empty());
+    // The checker's own tests cite what does not exist.
+    const auto rule = [&keys](const SourceFile& file) {
+        return file.path.starts_with("tests/architecture/") ? Faults{} : citationFaults(file, keys);
+    };
+    EXPECT_EQ(faultsOfAll(rule), "");
+}
+
+TEST(Architecture, EveryDataFileHasItsOriginInTheReadme) {
+    const auto names = quotedNames(textOf(root / "data/README.md"));
+    std::string unnamed;
+    for (const std::string& path : filesBelow("data")) {
+        const std::string name = path.substr(std::string("data/").size());
+        if (name != "README.md" && !isNamed(name, names)) unnamed += name + "\n";
+    }
+    EXPECT_EQ(unnamed, "");
+}
+
+}  // namespace dustbench::architecture

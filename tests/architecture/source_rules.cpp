@@ -1,0 +1,195 @@
+#include "tests/architecture/source_rules.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <regex>
+#include <sstream>
+
+namespace dustbench::architecture {
+
+namespace {
+
+constexpr std::size_t mostLines = 400;
+
+std::vector<std::string> linesOf(std::string_view text) {
+    std::vector<std::string> lines;
+    std::istringstream stream{std::string(text)};
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+std::string fault(const SourceFile& file, std::size_t lineIndex, const std::string& what) {
+    return file.path + ":" + std::to_string(lineIndex + 1) + ": " + what;
+}
+
+/// `methods/billboard` of `methods/billboard/parts/a.h`, and `bench` of `bench/run/a.h`.
+std::string territoryOf(const std::string& path) {
+    const auto first = path.find('/');
+    const std::string top = path.substr(0, first);
+    if (top != "methods" || first == std::string::npos) return top;
+    return path.substr(0, path.find('/', first + 1));
+}
+
+bool mayInclude(const std::string& from, const std::string& to) {
+    if (from == to || to == "methods/shared") return true;
+    const bool toMethod = to.starts_with("methods/");
+    if (from.starts_with("methods/")) return !toMethod && to != "bench" && to != "tests";
+    if (from == "bench") return !toMethod && to != "tests";
+    return true;
+}
+
+bool isHeader(const SourceFile& file) {
+    return file.path.ends_with(".h");
+}
+bool isCxx(const SourceFile& file) {
+    return isHeader(file) || file.path.ends_with(".cpp");
+}
+
+}  // namespace
+
+Faults includeFaults(const SourceFile& file) {
+    static const std::regex include(R"re(^\s*#\s*include\s*[<"]([^>"]+)[>"])re");
+    Faults faults;
+    const auto lines = linesOf(file.text);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        std::smatch match;
+        if (!std::regex_search(lines[i], match, include)) continue;
+        const std::string target = match[1];
+        if (target.find("..") != std::string::npos) {
+            faults.push_back(fault(file, i, "includes '" + target + "': name it from the root of the tree"));
+        } else if (!mayInclude(territoryOf(file.path), territoryOf(target))) {
+            faults.push_back(fault(file, i, "must not include '" + target + "'"));
+        }
+    }
+    return faults;
+}
+
+Faults openGlFaults(const SourceFile& file) {
+    static const std::array rules{
+        std::regex(R"re(\bgl[A-Z]\w*\s*\()re"),
+        std::regex(R"re(\bGL(u?int(64)?|enum|sizei(ptr)?|intptr|bitfield|boolean|u?byte|u?short|sync|char)\b)re"),
+        std::regex(R"re(^\s*#\s*include\s*[<"](epoxy|GL|GLES\d?|EGL)/)re")};
+    if (!isCxx(file) || file.path.starts_with("methods/shared/gpu/")) return {};
+    Faults faults;
+    const auto lines = linesOf(codeOnly(file.text));
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        for (const std::regex& rule : rules) {
+            std::smatch match;
+            if (std::regex_search(lines[i], match, rule)) {
+                faults.push_back(fault(file, i, "raw OpenGL outside methods/shared/gpu: '" + match.str() + "'"));
+            }
+        }
+    }
+    return faults;
+}
+
+Faults lengthFaults(const SourceFile& file) {
+    static const std::regex excuse(R"re(Over 400 lines: \w+)re");
+    const auto lines = linesOf(file.text);
+    if (lines.size() <= mostLines) return {};
+    const bool excused =
+        std::ranges::any_of(lines, [](const std::string& line) { return std::regex_search(line, excuse); });
+    if (excused) return {};
+    return {fault(file, mostLines, std::to_string(lines.size()) + " lines: divide it, or say 'Over 400 lines: why'")};
+}
+
+Faults purposeFaults(const SourceFile& file) {
+    static const std::regex sentence(R"re(^// \w+.*)re");
+    if (!isHeader(file)) return {};
+    const auto lines = linesOf(file.text);
+    if (!lines.empty() && std::regex_match(lines.front(), sentence)) return {};
+    return {fault(file, 0, "a header begins with one sentence on what it is for")};
+}
+
+Faults citationFaults(const SourceFile& file, const std::set<std::string>& keys) {
+    static const std::regex citation(R"re((//.*\bSource: *|\bsource = ")([A-Za-z][\w:+-]*))re");
+    static const std::regex further(R"re(; ([A-Z][A-Za-z]+[12]\d\d\d[a-z]?)\b)re");
+    Faults faults;
+    const auto lines = linesOf(file.text);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const auto demand = [&](const std::string& key) {
+            if (!keys.contains(key)) faults.push_back(fault(file, i, "'" + key + "' is not in data/references.bib"));
+        };
+        std::smatch match;
+        if (!std::regex_search(lines[i], match, citation)) continue;
+        demand(match[2]);
+        for (std::sregex_iterator next(lines[i].begin(), lines[i].end(), further), end; next != end; ++next) {
+            demand((*next)[1]);
+        }
+    }
+    return faults;
+}
+
+std::set<std::string> bibliographyKeys(std::string_view bibtex) {
+    static const std::regex entry(R"re(^\s*@\w+\s*\{\s*([^,\s]+)\s*,)re");
+    std::set<std::string> keys;
+    for (const std::string& line : linesOf(bibtex)) {
+        std::smatch match;
+        if (std::regex_search(line, match, entry)) keys.insert(match[1]);
+    }
+    return keys;
+}
+
+std::vector<std::string> quotedNames(std::string_view markdown) {
+    static const std::regex quoted("`([^`]+)`");
+    std::vector<std::string> names;
+    for (const std::string& line : linesOf(markdown)) {
+        for (std::sregex_iterator match(line.begin(), line.end(), quoted), end; match != end; ++match) {
+            names.push_back((*match)[1]);
+        }
+    }
+    return names;
+}
+
+bool isNamed(const std::string& path, const std::vector<std::string>& names) {
+    return std::ranges::any_of(names, [&path](const std::string& name) {
+        return fnmatch(name.c_str(), path.c_str(), FNM_PATHNAME | FNM_PERIOD) == 0;
+    });
+}
+
+std::string codeOnly(std::string_view text) {
+    static constexpr std::string_view rawStart = "R\"";
+    std::string code(text);
+    const auto blank = [&code](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < std::min(end, code.size()); ++i) {
+            if (code[i] != '\n') code[i] = ' ';
+        }
+    };
+    const auto after = [&text](std::string_view what, std::size_t from) {
+        const auto found = text.find(what, from);
+        return found == std::string_view::npos ? text.size() : found + what.size();
+    };
+    for (std::size_t i = 0; i < text.size();) {
+        const std::string_view rest = text.substr(i);
+        std::size_t end = i + 1;
+        if (rest.starts_with("//")) {
+            end = std::min(text.find('\n', i), text.size());
+            blank(i, end);
+        } else if (rest.starts_with("/*")) {
+            end = after("*/", i + 2);
+            blank(i, end);
+        } else if (rest.starts_with(rawStart)) {
+            const auto open = std::min(text.find('(', i), text.size());
+            std::string close(")");
+            close.append(text.substr(i + 2, open - i - 2)).push_back('"');
+            end = after(close, open);
+            blank(i, end);
+        } else if (rest.starts_with("#include")) {
+            end = std::min(text.find('\n', i), text.size());
+        } else if (rest.front() == '"' ||
+                   (rest.front() == '\'' && (i == 0 || !std::isalnum(static_cast<unsigned char>(text[i - 1]))))) {
+            // Apostrophes inside numbers (1'000) follow a digit and open nothing.
+            while (end < text.size() && text[end] != rest.front() && text[end] != '\n')
+                end += text[end] == '\\' ? 2 : 1;
+            ++end;
+            blank(i + 1, end - 1);
+        }
+        i = end;
+    }
+    return code;
+}
+
+}  // namespace dustbench::architecture

@@ -1,0 +1,123 @@
+// The checker itself: every rule finds a file that breaks it, and leaves one alone that does not.
+#include "tests/architecture/source_rules.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace dustbench::architecture {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+namespace {
+
+Faults includesOf(const std::string& path, const std::string& target) {
+    return includeFaults({path, "// Sorts.\n#include \"" + target + "\"\n"});
+}
+
+}  // namespace
+
+TEST(SourceRules, RefuseAMethodThatIncludesAnother) {
+    EXPECT_THAT(includesOf("methods/billboard/a.cpp", "methods/relief/b.h"),
+                ElementsAre("methods/billboard/a.cpp:2: must not include 'methods/relief/b.h'"));
+    EXPECT_THAT(includesOf("methods/billboard/a_test.cpp", "methods/relief/b.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("methods/billboard/parts/a.cpp", "methods/billboards/b.h"), SizeIs(1));
+}
+
+TEST(SourceRules, LetAMethodIncludeItselfAndWhatIsShared) {
+    EXPECT_THAT(includesOf("methods/billboard/a.cpp", "methods/billboard/parts/b.h"), IsEmpty());
+    EXPECT_THAT(includesOf("methods/billboard/a.cpp", "methods/shared/gpu/device.h"), IsEmpty());
+    EXPECT_THAT(includesOf("methods/billboard/a.cpp", "billboard_shaders.h"), IsEmpty());
+    EXPECT_THAT(includeFaults({"methods/billboard/a.cpp", "#include <vector>\n"}), IsEmpty());
+}
+
+TEST(SourceRules, RefuseTheHarnessInMethods) {
+    EXPECT_THAT(includesOf("methods/billboard/a.cpp", "bench/scene/world.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("methods/shared/a.h", "bench/scene/world.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("methods/shared/a.h", "tests/architecture/source_rules.h"), SizeIs(1));
+}
+
+TEST(SourceRules, RefuseAMethodInWhatIsShared) {
+    EXPECT_THAT(includesOf("methods/shared/draw/a.cpp", "methods/billboard/b.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("methods/shared/draw/a.cpp", "methods/shared/gpu/b.h"), IsEmpty());
+}
+
+TEST(SourceRules, LetTheHarnessKnowMethodsThroughTheRegistryAlone) {
+    EXPECT_THAT(includesOf("bench/run/a.cpp", "methods/billboard/b.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("bench/run/a.cpp", "methods/shared/registry.h"), IsEmpty());
+    EXPECT_THAT(includesOf("bench/run/a.cpp", "bench/scene/world.h"), IsEmpty());
+}
+
+TEST(SourceRules, RefusePathsThatClimb) {
+    EXPECT_THAT(includesOf("methods/billboard/a.cpp", "../relief/b.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("bench/run/a.cpp", "methods/shared/../relief/b.h"), SizeIs(1));
+}
+
+TEST(SourceRules, FindRawOpenGlInCode) {
+    const auto faults = [](const std::string& text) { return openGlFaults({"methods/billboard/a.cpp", text}); };
+    EXPECT_THAT(faults("void f() {\n    glDrawArrays (0, 0, 3);\n}\n"),
+                ElementsAre(HasSubstr("methods/billboard/a.cpp:2: ")));
+    EXPECT_THAT(faults("GLuint name = 0;"), SizeIs(1));
+    EXPECT_THAT(faults("GLsizeiptr size = 0;"), SizeIs(1));
+    EXPECT_THAT(faults("#include <epoxy/gl.h>\n"), SizeIs(1));
+    EXPECT_THAT(faults("/* a */ glFinish();"), SizeIs(1));
+    EXPECT_THAT(faults("f(\"// \"); glFinish();"), SizeIs(1));
+    EXPECT_THAT(faults("f('\"'); glFinish(); f('\"');"), SizeIs(1));
+    EXPECT_THAT(faults("f(1'000); glFinish(); f(2'000);"), SizeIs(1));
+}
+
+TEST(SourceRules, LeaveOpenGlAloneInCommentsTextsAndTheGpuLayer) {
+    const auto faults = [](const std::string& text) { return openGlFaults({"bench/run/a.cpp", text}); };
+    EXPECT_THAT(faults("// as glDrawArrays() would\n"), IsEmpty());
+    EXPECT_THAT(faults("/* GLuint\n glFinish() */ int a;"), IsEmpty());
+    EXPECT_THAT(faults("f(\"glFinish() \\\" GLuint\");"), IsEmpty());
+    EXPECT_THAT(faults("f(R\"x(glFinish() \" )\" )x\");"), IsEmpty());
+    EXPECT_THAT(faults("glm::vec3 globalGLuint; eglue(); angle(2);"), IsEmpty());
+    EXPECT_THAT(openGlFaults({"methods/shared/gpu/a.cpp", "glFinish();"}), IsEmpty());
+}
+
+TEST(SourceRules, WantAReasonPast400Lines) {
+    std::string text;
+    for (int i = 0; i < 400; ++i) text += "int a;\n";
+    EXPECT_THAT(lengthFaults({"bench/a.cpp", text}), IsEmpty());
+    EXPECT_THAT(lengthFaults({"bench/a.cpp", text + "int b;\n"}), ElementsAre(HasSubstr("401 lines")));
+    EXPECT_THAT(lengthFaults({"bench/a.cpp", "// Over 400 lines: one table, easier to read whole.\n" + text}),
+                IsEmpty());
+    EXPECT_THAT(lengthFaults({"bench/a.cpp", "// Over 400 lines: \n" + text}), SizeIs(1));
+}
+
+TEST(SourceRules, WantAHeaderToSayWhatItIsFor) {
+    EXPECT_THAT(purposeFaults({"bench/a.h", "// Sorts by distance.\n#pragma once\n"}), IsEmpty());
+    EXPECT_THAT(purposeFaults({"bench/a.h", "#pragma once\n"}), SizeIs(1));
+    EXPECT_THAT(purposeFaults({"bench/a.h", ""}), SizeIs(1));
+    EXPECT_THAT(purposeFaults({"bench/a.cpp", "int a;\n"}), IsEmpty());
+}
+
+TEST(SourceRules, WantEveryCitationInTheBibliography) {
+    const auto keys =
+        bibliographyKeys("% a comment\n@article{Wang2004,\n  title = {SSIM},\n}\n @misc { Carr:2006 , a}\n");
+    EXPECT_THAT(keys, ElementsAre("Carr:2006", "Wang2004"));
+    EXPECT_THAT(citationFaults({"bench/a.h", "// Source: Wang2004, Eq. 13. Departs: no mask.\n"}, keys), IsEmpty());
+    EXPECT_THAT(citationFaults({"bench/a.h", "// Source: Carr:2006.\n"}, keys), IsEmpty());
+    EXPECT_THAT(citationFaults({"bench/a.h", "int a;  ///< Source: Wang2005, Eq. 13.\n"}, keys),
+                ElementsAre("bench/a.h:1: 'Wang2005' is not in data/references.bib"));
+    EXPECT_THAT(citationFaults({"bench/a.h", "// Source: Wang2004, Eq. 13; Wang2005, ch. 2; no mask.\n"}, keys),
+                SizeIs(1));
+    EXPECT_THAT(citationFaults({"methods/a/a.cpp", "info.source = \"Wang2005\";\n"}, keys), SizeIs(1));
+    EXPECT_THAT(citationFaults({"methods/a/a.cpp", "info.source = \"Wang2004\";\n"}, keys), IsEmpty());
+}
+
+TEST(SourceRules, MatchPatternsWithinOneFolder) {
+    const auto names = quotedNames("| `scenes/*.toml` | ours |\n`references.bib`, `papers/*/paper.toml`\n");
+    EXPECT_THAT(names, ElementsAre("scenes/*.toml", "references.bib", "papers/*/paper.toml"));
+    EXPECT_TRUE(isNamed("scenes/flat.toml", names));
+    EXPECT_TRUE(isNamed("references.bib", names));
+    EXPECT_TRUE(isNamed("papers/carr2006/paper.toml", names));
+    EXPECT_FALSE(isNamed("scenes/deep/flat.toml", names));
+    EXPECT_FALSE(isNamed("scenes/flat.png", names));
+    EXPECT_FALSE(isNamed("papers/carr2006/more/paper.toml", names));
+}
+
+}  // namespace dustbench::architecture
