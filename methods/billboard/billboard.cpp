@@ -1,9 +1,7 @@
 #include "methods/billboard/billboard.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include "methods/shared/files/data_folder.h"
+#include "methods/shared/parallel/for_each_block.h"
 #include "methods/shared/particles/particle_store.h"
 
 namespace dustbench::billboard {
@@ -57,9 +55,9 @@ void Billboard::upload(const particles::ParticleStore& dust, std::span<const std
     const draw::Billboards::Layout layout = quads_->layout(!dust.uniformColour);
     const std::span<float> memory = quads_->map(order.size(), layout);
     const int frames = pictures_ ? pictures_->frames() : 0;
-    const auto fill = [&](const tbb::blocked_range<std::size_t>& places) {
-        float* value = memory.data() + places.begin() * layout.floats;
-        for (std::size_t place = places.begin(); place < places.end(); ++place) {
+    const auto fill = [&](std::size_t first, std::size_t count) {
+        float* value = memory.data() + first * layout.floats;
+        for (std::size_t place = first; place < first + count; ++place) {
             const std::uint32_t i = order[place];
             *value++ = dust.x[i];
             *value++ = dust.y[i];
@@ -75,7 +73,7 @@ void Billboard::upload(const particles::ParticleStore& dust, std::span<const std
         }
     };
     // The reads jump through memory in depth order, which is what a second thread helps with.
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 16'384), fill);
+    parallel::forEachBlock(order.size(), 16'384, fill);
     quads_->unmap();
 }
 

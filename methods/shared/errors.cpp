@@ -7,17 +7,21 @@
 namespace dustbench {
 namespace {
 
-/// Levenshtein distance, two rows of the table at a time.
+/// Letters left out, put in, changed or swapped with their neighbour (optimal string alignment), by three table rows.
 std::size_t editDistance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> previous(b.size() + 1), current(b.size() + 1);
-    std::iota(previous.begin(), previous.end(), std::size_t{0});
+    std::vector<std::size_t> beforeLast(b.size() + 1), last(b.size() + 1), current(b.size() + 1);
+    std::iota(last.begin(), last.end(), std::size_t{0});
     for (std::size_t i = 0; i < a.size(); ++i) {
         current[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j)
-            current[j + 1] = std::min({previous[j + 1] + 1, current[j] + 1, previous[j] + (a[i] == b[j] ? 0 : 1)});
-        std::swap(previous, current);
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            current[j + 1] = std::min({last[j + 1] + 1, current[j] + 1, last[j] + (a[i] == b[j] ? 0 : 1)});
+            if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j])
+                current[j + 1] = std::min(current[j + 1], beforeLast[j - 1] + 1);
+        }
+        std::swap(beforeLast, last);
+        std::swap(last, current);
     }
-    return previous.back();
+    return last.back();
 }
 
 }  // namespace

@@ -5,8 +5,6 @@
 // Threads: works over the current oneTBB arena in `blocks`; a stable sort has one result, whatever the blocks.
 #pragma once
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -15,6 +13,7 @@
 #include <utility>
 
 #include "methods/shared/draw/depth_sort_key.h"
+#include "methods/shared/parallel/for_each_block.h"
 
 namespace dustbench::draw {
 
@@ -76,10 +75,7 @@ class RadixSort {
 
     template <typename Work>
     void forBlocks(const Work& work) const {
-        if (blocks_ == 1)
-            work(std::size_t{0});
-        else
-            tbb::parallel_for(std::size_t{0}, blocks_, work, tbb::simple_partitioner());
+        parallel::forEachBlock(blocks_, 1, [&](std::size_t block, std::size_t) { work(block); });
     }
 
     template <typename Depth>

@@ -65,7 +65,7 @@ float brightness(const glm::vec4& pixel) {
 }
 
 TEST_F(OpaqueSceneTest, FlatGroundsDepthIsTheRaysDistanceToThePlane) {
-    const scene::Scene scene;
+    const scene::Scene scene = test::underAHighSun();
     for (const scene::View& view : {test::viewFrom({3, 1.7, 5}, {0, 1, 0}, 160, 120),
                                     test::viewFrom({-500.3, 40, 7000.7}, {-480, 10, 6950}, 160, 120),
                                     test::viewFrom({0.2, 0.4, 0.1}, {9, 0.4, 2}, 160, 120)}) {
@@ -88,7 +88,7 @@ TEST_F(OpaqueSceneTest, FlatGroundsDepthIsTheRaysDistanceToThePlane) {
 }
 
 TEST_F(OpaqueSceneTest, ReliefsDepthIsTheRaysDistanceToTheTerrain) {
-    scene::Scene scene;
+    scene::Scene scene = test::underAHighSun();
     scene.terrain = test::dunes(129, 2.0f);
     const scene::View view = test::viewFrom({4, 9, 11}, {0, 1, 0}, 80, 60);
     const Pictures got = draw(scene, {}, view);
@@ -105,7 +105,7 @@ TEST_F(OpaqueSceneTest, ReliefsDepthIsTheRaysDistanceToTheTerrain) {
 }
 
 TEST_F(OpaqueSceneTest, BoxHidesWhatIsBehindIt) {
-    scene::Scene scene;
+    scene::Scene scene = test::underAHighSun();
     const Box box{{-2, 0, -1}, {1, 2.5, 1.5}};
     scene.solids = {test::boxSolid(glm::vec3(box.least), glm::vec3(box.most), {0.9f, 0.1f, 0.9f})};
     scene.solidPoses.resize(1);
@@ -131,7 +131,7 @@ TEST_F(OpaqueSceneTest, BoxHidesWhatIsBehindIt) {
 }
 
 TEST_F(OpaqueSceneTest, GroundIsDarkWhereTheRayToTheSunHitsABox) {
-    scene::Scene bare, withBox;
+    scene::Scene bare = test::underAHighSun(), withBox = bare;
     const Box box{{-2, 0, -1}, {1, 2.5, 1.5}};
     withBox.solids = {test::boxSolid(glm::vec3(box.least), glm::vec3(box.most), {0.5f, 0.5f, 0.5f})};
     withBox.solidPoses.resize(1);
@@ -159,7 +159,7 @@ TEST_F(OpaqueSceneTest, GroundIsDarkWhereTheRayToTheSunHitsABox) {
 
 TEST_F(OpaqueSceneTest, EveryPieceOfALongMeshThrowsItsShadow) {
     // One solid of 1.2 km: posts 30 m apart, 5 m across.
-    scene::Scene bare, withPosts;
+    scene::Scene bare = test::underAHighSun(), withPosts = bare;
     auto posts = std::make_shared<scene::Mesh>();
     for (int n = 0; n < 40; ++n)
         posts->append(test::box({30.0f * static_cast<float>(n) - 1, 0, -1}, {30.0f * static_cast<float>(n) + 1, 3, 1},
@@ -178,7 +178,7 @@ TEST_F(OpaqueSceneTest, EveryPieceOfALongMeshThrowsItsShadow) {
 }
 
 TEST_F(OpaqueSceneTest, VehicleThrowsItsShadowWhereverItStands) {
-    scene::Scene scene;
+    scene::Scene scene = test::underAHighSun();
     scene.vehicle = test::boxVehicle();
     const glm::dvec3 toSun = glm::normalize(glm::dvec3(scene.lights.toSun));
     for (const double at : {0.0, 37.3, 7000.2}) {
@@ -209,7 +209,7 @@ TEST_F(OpaqueSceneTest, VehicleThrowsItsShadowWhereverItStands) {
 }
 
 TEST_F(OpaqueSceneTest, SunIsTheBrightestPixelAndStandsWhereTheLightsSay) {
-    const scene::Scene scene;
+    const scene::Scene scene = test::underAHighSun();
     const glm::dvec3 toSun = glm::normalize(glm::dvec3(scene.lights.toSun));
     const scene::View view = test::viewFrom({0, 2, 0}, glm::dvec3(0, 2, 0) + toSun, 201, 151);
     const Image got = draw(scene, {}, view).colour;
@@ -219,7 +219,7 @@ TEST_F(OpaqueSceneTest, SunIsTheBrightestPixelAndStandsWhereTheLightsSay) {
 }
 
 TEST_F(OpaqueSceneTest, SameStateGivesTheSameBits) {
-    scene::Scene scene;
+    scene::Scene scene = test::underAHighSun();
     scene.vehicle = test::boxVehicle();
     scene.solids = {test::boxSolid({-1, 0, -1}, {1, 1, 1}, {0.5f, 0.5f, 0.5f})};
     scene.solidPoses.resize(1);
@@ -242,7 +242,7 @@ TEST_F(OpaqueSceneTest, SameStateGivesTheSameBits) {
 }
 
 TEST_F(OpaqueSceneTest, EveryPixelIsCoveredAndOpaque) {
-    scene::Scene scene;
+    scene::Scene scene = test::underAHighSun();
     scene.vehicle = test::boxVehicle();
     for (const glm::dvec3& eye : {glm::dvec3(9, 0.3, 4), glm::dvec3(0, 300, 1), glm::dvec3(-40, 3, 0)}) {
         const Image got = draw(scene, test::vehicleAt(scene, 0, 0), test::viewFrom(eye, {0, 1, 0}, 97, 61)).colour;
@@ -254,7 +254,7 @@ TEST_F(OpaqueSceneTest, EveryPixelIsCoveredAndOpaque) {
 }
 
 TEST_F(OpaqueSceneTest, LooksTheSameSevenKilometresOn) {
-    scene::Scene scene;
+    scene::Scene scene = test::underAHighSun();
     scene.vehicle = test::boxVehicle();
     constexpr double far = 28 * 256;  // a whole number of the ground's tiles
     const auto drawAt = [&](double x) {
@@ -275,7 +275,7 @@ TEST_F(OpaqueSceneTest, LooksTheSameSevenKilometresOn) {
 }
 
 TEST_F(OpaqueSceneTest, BooksEverythingOnTheLedger) {
-    scene::Scene scene;
+    scene::Scene scene = test::underAHighSun();
     scene.vehicle = test::boxVehicle();
     {
         const OpaqueScene opaque(scene, device_, 640, 480);
@@ -290,7 +290,7 @@ TEST_F(OpaqueSceneTest, BooksEverythingOnTheLedger) {
 }
 
 TEST_F(OpaqueSceneTest, RefusesAViewOfAnotherSizeAndSolidsWithoutPoses) {
-    scene::Scene scene;
+    scene::Scene scene = test::underAHighSun();
     OpaqueScene opaque(scene, device_, 64, 48);
     EXPECT_THROW(opaque.draw({}, test::viewFrom({1, 2, 3}, {0, 0, 0}, 48, 64)), std::invalid_argument);
     scene.solids = {test::boxSolid({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};

@@ -45,6 +45,14 @@ inline scene::VehicleModel boxVehicle() {
     return model;
 }
 
+/// An empty scene whose sun stands so high, over so dim a sky, that shadows are short and dark.
+inline scene::Scene underAHighSun() {
+    scene::Scene scene;
+    scene.lights.toSun = {0.45f, 0.62f, 0.64f};
+    scene.lights.ambient = {0.30f, 0.34f, 0.42f};
+    return scene;
+}
+
 /// The vehicle standing on the ground at (x, z), looking along +X.
 inline scene::SceneState vehicleAt(const scene::Scene& scene, double x, double z) {
     const auto ground = [&](double a, double b) {

@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <cstdlib>
 #include <optional>
 #include <vector>
 
@@ -84,6 +85,7 @@ std::vector<EGLDeviceEXT> eglDevices() {
 }  // namespace
 
 Device::Device() {
+    setenv("EGL_LOG_LEVEL", "fatal", 0);  // a failure is told once, by the exception
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base"))
         throw InputError(
             "OpenGL 4.5 is needed: this machine's EGL has no EGL_EXT_platform_base; install Mesa's EGL and DRI "

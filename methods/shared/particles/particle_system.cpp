@@ -1,14 +1,12 @@
 #include "methods/shared/particles/particle_system.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
 
 #include "methods/shared/errors.h"
 #include "methods/shared/maths/hash.h"
+#include "methods/shared/parallel/for_each_block.h"
 #include "methods/shared/particles/chunk_update.h"
 #include "methods/shared/particles/death_list.h"
 #include "methods/shared/particles/emitter_tracker.h"
@@ -18,20 +16,7 @@
 namespace dustbench::particles {
 namespace {
 
-/// Runs `work(first, count)` over blocks of 0..total, a few of them one after another, many in parallel.
-template <typename Work>
-void forEachBlock(std::size_t total, std::size_t blockSize, const Work& work) {
-    const auto block = [&](std::size_t b) { work(b * blockSize, std::min(blockSize, total - b * blockSize)); };
-    const std::size_t blocks = (total + blockSize - 1) / blockSize;
-    constexpr std::size_t fewBlocks = 4;
-    if (blocks <= fewBlocks) {
-        for (std::size_t b = 0; b < blocks; ++b) block(b);
-        return;
-    }
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks, 2), [&](const auto& range) {
-        for (std::size_t b = range.begin(); b != range.end(); ++b) block(b);
-    });
-}
+constexpr std::size_t fewChunks = 4;  // below, a second thread does not pay
 
 }  // namespace
 
@@ -55,13 +40,16 @@ struct ParticleSystem::State {
 
 void ParticleSystem::State::live(const Step& step) {
     deaths.prepare(store.size());
-    forEachBlock(store.size(), chunkSize, [&](std::size_t first, std::size_t count) {
-        ChunkScratch scratch;
-        Chunk chunk = store.chunk(first, count);
-        scratch.lend(chunk, !parts->shadings().empty());
-        updateChunk(chunk, *parts, step);
-        deaths.note(first / chunkSize, chunk.dead, count);
-    });
+    parallel::forEachBlock(
+        store.size(), chunkSize,
+        [&](std::size_t first, std::size_t count) {
+            ChunkScratch scratch;
+            Chunk chunk = store.chunk(first, count);
+            scratch.lend(chunk, !parts->shadings().empty());
+            updateChunk(chunk, *parts, step);
+            deaths.note(first / chunkSize, chunk.dead, count);
+        },
+        fewChunks);
 }
 
 /// Closes the holes (ascending) that no newborn has filled: the last survivors move into them, in order.
@@ -77,9 +65,12 @@ void ParticleSystem::State::bury(std::span<const std::uint32_t> holes) {
         else
             survivors.push_back(static_cast<std::uint32_t>(i));
     }
-    forEachBlock(survivors.size(), chunkSize, [&](std::size_t first, std::size_t count) {
-        for (std::size_t k = first; k < first + count; ++k) store.move(survivors[k], holes[k]);
-    });
+    parallel::forEachBlock(
+        survivors.size(), chunkSize,
+        [&](std::size_t first, std::size_t count) {
+            for (std::size_t k = first; k < first + count; ++k) store.move(survivors[k], holes[k]);
+        },
+        fewChunks);
     store.resize(left);
 }
 
@@ -89,17 +80,20 @@ void ParticleSystem::State::giveBirth(const Births& births, std::span<const Emit
     const std::size_t born = static_cast<std::size_t>(births.count);
     const std::size_t before = store.size();
     if (born > holes.size()) store.resize(before + born - holes.size());
-    forEachBlock(born, NewbornBlock::size, [&](std::size_t first, std::size_t count) {
-        ChunkScratch scratch;
-        NewbornBlock block;
-        Newborns newborns = block.newborns(first, count, nextSerial + first, births, emitters, step.seconds);
-        scratch.lend(newborns.chunk, !parts->shadings().empty());
-        initialiseNewborns(newborns, *parts, step);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t k = first + i;
-            store.put(newborns.chunk, i, k < holes.size() ? holes[k] : before + (k - holes.size()));
-        }
-    });
+    parallel::forEachBlock(
+        born, NewbornBlock::size,
+        [&](std::size_t first, std::size_t count) {
+            ChunkScratch scratch;
+            NewbornBlock block;
+            Newborns newborns = block.newborns(first, count, nextSerial + first, births, emitters, step.seconds);
+            scratch.lend(newborns.chunk, !parts->shadings().empty());
+            initialiseNewborns(newborns, *parts, step);
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::size_t k = first + i;
+                store.put(newborns.chunk, i, k < holes.size() ? holes[k] : before + (k - holes.size()));
+            }
+        },
+        fewChunks);
     nextSerial += born;
     if (born < holes.size()) bury(holes.subspan(born));
 }
