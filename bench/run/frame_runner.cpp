@@ -118,6 +118,7 @@ void FrameRunner::waitForGpu() {
 
 void FrameRunner::frame(std::int64_t index) {
     recorder_.clear();
+    lastIndex_ = index;
     const StageClock clock(&recorder_);
     const bool timeGpu = useGpuTimers_ && index >= 0;
     gpu::TimerQuery gpuTime = timeGpu ? gpu::TimerQuery(device_) : gpu::TimerQuery();
@@ -165,6 +166,7 @@ void FrameRunner::keepRecord(std::int64_t index, std::int64_t elapsedNs) {
         record.details.push_back({detail.stage, std::string(detail.name), milliseconds(detail.ns)});
     record.particles = static_cast<std::int64_t>(world_.dust().size());
     record.primitives = method_->primitives();
+    record.clipped = method_->clipped();
     record.cpuBytes = cpuBytes(world_.memory()) + cpuBytes(method_->memory());
     record.gpuBytes = static_cast<std::int64_t>(device_.ledger().totalBytes());
     record.rssBytes = residentBytes();
@@ -185,6 +187,18 @@ void FrameRunner::drain() {
     lastFrame_ = gpu::Fence();
     lastEndNs_ = 0;
     collectGpuTimes();
+}
+
+std::optional<double> FrameRunner::massKept() const {
+    const scene::View view = world_.view(spec_.size.width, spec_.size.height);
+    const StageClock unheard;
+    return method_->massKept({lastIndex_, stepSeconds, world_.state(), world_.dust(), view, unheard});
+}
+
+void FrameRunner::volume(VolumeVisitor& visitor) const {
+    const scene::View view = world_.view(spec_.size.width, spec_.size.height);
+    const StageClock unheard;
+    method_->volume({lastIndex_, stepSeconds, world_.state(), world_.dust(), view, unheard}, visitor);
 }
 
 draw::Image FrameRunner::picture() {

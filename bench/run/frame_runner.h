@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -43,6 +44,9 @@ class FrameRunner {
 
     /// The last frame over its scene, linear.
     [[nodiscard]] draw::Image picture();
+    /// What the method says of the last frame's cloud (Method::massKept, Method::volume).
+    [[nodiscard]] std::optional<double> massKept() const;
+    void volume(VolumeVisitor& visitor) const;
     [[nodiscard]] std::span<const FrameRecord> records() const { return records_; }
     [[nodiscard]] const Method& method() const { return *method_; }
 
@@ -62,6 +66,7 @@ class FrameRunner {
     StageRecorder recorder_;
     gpu::Fence lastFrame_;
     std::int64_t lastEndNs_ = 0;  ///< where the next frame begins that overlaps this one; 0: nothing is in flight
+    std::int64_t lastIndex_ = 0;
     bool useGpuTimers_;
     std::deque<std::pair<std::size_t, gpu::TimerQuery>> pendingGpuTimes_;  ///< by index into records_
     std::vector<FrameRecord> records_;

@@ -90,6 +90,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     record.summary = identityColumns(record, threads);
     for (auto& column : measuredColumns(runner.records(), peakResidentBytes()))
         record.summary.push_back(std::move(column));
+    if (const auto kept = runner.massKept()) record.summary.emplace_back("mass_kept", *kept);
     if (spec.imagesEvery > 0) record.summary.emplace_back("FILE_image", "runs/" + runId(spec) + "/images/f000000.png");
     writeWhole(folder / "frames.csv", framesCsv(runner.records()));
     writeWhole(folder / "stages.csv", stagesCsv(runner.records()));

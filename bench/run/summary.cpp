@@ -103,6 +103,10 @@ Columns measuredColumns(std::span<const FrameRecord> frames, std::int64_t peakRe
     columns.emplace_back(
         "primitives_median",
         median(column(frames, [](const FrameRecord& frame) { return static_cast<double>(frame.primitives); })));
+    std::optional<std::int64_t> clipped;
+    for (const FrameRecord& frame : frames)
+        if (frame.clipped) clipped = std::max(clipped.value_or(0), *frame.clipped);
+    if (clipped) columns.emplace_back("clipped", *clipped);
     std::vector<double> gpuMs;
     for (const FrameRecord& frame : frames)
         if (frame.gpuMs) gpuMs.push_back(*frame.gpuMs);

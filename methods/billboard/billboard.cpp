@@ -3,6 +3,7 @@
 #include "methods/shared/files/data_folder.h"
 #include "methods/shared/parallel/for_each_block.h"
 #include "methods/shared/particles/particle_store.h"
+#include "methods/shared/volume.h"
 
 namespace dustbench::billboard {
 namespace {
@@ -79,6 +80,10 @@ void Billboard::upload(const particles::ParticleStore& dust, std::span<const std
 
 void Billboard::draw(const Frame& frame, gpu::Layer& layer) {
     quads_->draw(frame.view, frame.dust.colourOfAll, layer);
+}
+
+void Billboard::volume(const Frame& frame, VolumeVisitor& visitor) const {
+    visitor.puffs(frame.dust);
 }
 
 MemoryReport Billboard::memory() const {

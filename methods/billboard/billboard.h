@@ -29,6 +29,7 @@ class Billboard final : public Method {
     void prepare(const scene::Scene& scene, gpu::Device& device) override;
     void update(const Frame& frame) override;
     void draw(const Frame& frame, gpu::Layer& layer) override;
+    void volume(const Frame& frame, VolumeVisitor& visitor) const override;
     [[nodiscard]] MemoryReport memory() const override;
     [[nodiscard]] std::int64_t primitives() const override;
 

@@ -52,8 +52,14 @@ class Method {
     /// Called once a frame, and again for untimed pictures of the same state; it must draw the same again.
     virtual void draw(const Frame& frame, gpu::Layer& layer) = 0;
 
-    /// Hands over what the method thinks the cloud is, for export and metrics. Default: nothing to hand over.
-    virtual void volume(VolumeVisitor&) const {}
+    /// Hands over what the method thinks the cloud is after `update(frame)`, for export and metrics; never timed.
+    /// Default: nothing to hand over.
+    virtual void volume(const Frame&, VolumeVisitor&) const {}
+    /// Particles of the last update that lay outside the method's world; empty where it has no bounds.
+    [[nodiscard]] virtual std::optional<std::int64_t> clipped() const { return std::nullopt; }
+    /// Share of the particles' optical mass that is left in the volume after `update(frame)`, never timed; empty where
+    /// nothing can get lost.
+    [[nodiscard]] virtual std::optional<double> massKept(const Frame&) const { return std::nullopt; }
     /// Bytes by structure, CPU and GPU, that the method holds now.
     [[nodiscard]] virtual MemoryReport memory() const { return {}; }
     /// How many primitives (billboards, voxels, rays …) the last `draw` handed to the GPU.

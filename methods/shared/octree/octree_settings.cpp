@@ -1,0 +1,31 @@
+#include "methods/shared/octree/octree_settings.h"
+
+#include "methods/shared/errors.h"
+#include "methods/shared/octree/lattice.h"
+
+namespace dustbench::octree {
+
+void declareOctreeParameters(ParameterSet& parameters) {
+    parameters
+        .integer("depth", 8, minimumDepth, maximumDepth, "levels",
+                 "levels below the root; the finest voxels have edge world / 2^depth")
+        .integer("levels", 4, 1, maximumDepth, "levels", "levels that particles use, counted from the finest")
+        .choice("policy", "max", {"max", "youngest", "accumulate"},
+                "several particles in a voxel: the most opaque one, the youngest one, or the sum of their masses")
+        .choice("level_rule", "age", {"age", "radius"},
+                "a particle's level: by its age, or the voxel edge nearest 1.253 times its radius");
+}
+
+OctreeSettings octreeSettings(const ParameterValues& values) {
+    OctreeSettings settings;
+    settings.depth = static_cast<int>(values.integer("depth"));
+    settings.levels = static_cast<int>(values.integer("levels"));
+    settings.policy = values.choiceAs<OpacityPolicy>("policy");
+    settings.levelRule = values.choiceAs<LevelRule>("level_rule");
+    if (settings.levels > settings.depth)
+        throw InputError("parameter levels: got " + std::to_string(settings.levels) + ", allowed: 1.." +
+                         std::to_string(settings.depth) + " (the depth)");
+    return settings;
+}
+
+}  // namespace dustbench::octree
