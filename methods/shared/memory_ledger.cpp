@@ -1,6 +1,12 @@
 #include "methods/shared/memory_ledger.h"
 
+#include <sys/mman.h>
+
 namespace dustbench {
+
+void askForLargePages(void* memory, std::size_t bytes) {
+    madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: where it is not granted, all works as well
+}
 
 MemoryAccount& MemoryLedger::account(std::string_view structure) {
     const std::lock_guard lock(mutex_);

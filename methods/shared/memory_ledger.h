@@ -50,27 +50,32 @@ class MemoryLedger {
     std::list<MemoryAccount> accounts_;
 };
 
-/// Standard allocator that books on an account. Memory is aligned to a cache line (64 bytes) for the vector units.
+/// Tells the system that the memory is used as a whole: large pages, where there are any, save address look-ups.
+void askForLargePages(void* memory, std::size_t bytes);
+
+/// Standard allocator that books on an account. Memory is aligned to a cache line (64 bytes) for the vector units, and
+/// large arrays to large pages.
 template <typename T>
 class LedgerAllocator {
  public:
     using value_type = T;
     using propagate_on_container_move_assignment = std::true_type;
     using propagate_on_container_swap = std::true_type;
-    static constexpr std::align_val_t alignment{64};
+    static constexpr std::size_t largePage = std::size_t{2} << 20;
 
     explicit LedgerAllocator(MemoryAccount& account) : account_(&account) {}
     template <typename U>
     LedgerAllocator(const LedgerAllocator<U>& other) : account_(other.account()) {}  // NOLINT: standard conversion
 
     [[nodiscard]] T* allocate(std::size_t count) {
-        T* memory = static_cast<T*>(::operator new(count * sizeof(T), alignment));
+        void* memory = ::operator new(count * sizeof(T), alignment(count));
+        if (count * sizeof(T) >= largePage) askForLargePages(memory, count * sizeof(T));
         account_->book(count * sizeof(T));
-        return memory;
+        return static_cast<T*>(memory);
     }
     void deallocate(T* memory, std::size_t count) {
         account_->release(count * sizeof(T));
-        ::operator delete(memory, alignment);
+        ::operator delete(memory, alignment(count));
     }
     [[nodiscard]] MemoryAccount* account() const { return account_; }
 
@@ -80,6 +85,10 @@ class LedgerAllocator {
     }
 
  private:
+    static std::align_val_t alignment(std::size_t count) {
+        return std::align_val_t{count * sizeof(T) >= largePage ? largePage : 64};
+    }
+
     MemoryAccount* account_;
 };
 

@@ -1,0 +1,25 @@
+// Recursive construction: a node's list of particles is split into the lists of its eight children, voxels are put down
+// where the level is right, and the walk that splits also lists the voxels.
+//
+// Owns: the lists, on a ledger, as one stack: a node's lists lie above its parent's. Threads: one, as the paper's.
+// Source: Carr2006, 3.3 and 3.5.
+#pragma once
+
+#include "methods/shared/octree/octree_builder.h"
+#include "methods/shared/octree/particle_cells.h"
+
+namespace dustbench::octree_recursive {
+
+class ListBuilder final : public octree::OctreeBuilder {
+ public:
+    explicit ListBuilder(MemoryLedger& ledger) : cells_(ledger), lists_(ledger.account("octree particle lists")) {}
+
+    std::int64_t build(const particles::ParticleStore& store, const octree::Lattice& lattice,
+                       const octree::OctreeSettings& settings, octree::Octree& tree) override;
+
+ private:
+    octree::ParticleCells cells_;
+    octree::Room<octree::CellEntry> lists_;
+};
+
+}  // namespace dustbench::octree_recursive

@@ -1,0 +1,32 @@
+// A brick's particles to its voxels by looking each cell up in a small dense grid: the search principle, whose path is
+// one address.
+//
+// Threads: one at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "methods/shared/octree/brick_assembly.h"
+
+namespace dustbench::octree_search {
+
+class GridReducer {
+ public:
+    static constexpr bool needsSpare = false;
+
+    explicit GridReducer(const octree::VoxelRule& rule) : rule_(rule) {}
+
+    /// As BrickBuilder asks for it.
+    void reduce(const octree::BrickPartition& partition, const octree::Brick& brick,
+                const octree::BrickVoxels& voxels);
+
+ private:
+    octree::VoxelRule rule_;
+    /// By location code: the best particle's priority above, its index with all bits turned below; 0: none yet.
+    std::array<std::uint64_t, octree::brickCodes> best_{};
+    std::array<std::uint16_t, octree::brickCodes> touched_;
+    std::array<double, octree::brickCodes> sums_;
+};
+
+}  // namespace dustbench::octree_search

@@ -1,0 +1,33 @@
+// The search principle: each particle's path is read off its coordinates and walked from the root, missing nodes are
+// added, and one separate traversal lists the voxels.
+//
+// Owns: the voxels in the order of their discovery, on a ledger. Threads: one, as the paper's.
+// Source: Carr2006, 3.4 and 3.5.
+#pragma once
+
+#include "methods/shared/octree/octree_builder.h"
+#include "methods/shared/octree/particle_cells.h"
+#include "methods/shared/octree/voxel_rule.h"
+
+namespace dustbench::octree_search {
+
+class InsertionBuilder final : public octree::OctreeBuilder {
+ public:
+    explicit InsertionBuilder(MemoryLedger& ledger)
+        : cells_(ledger),
+          found_(ledger.account("octree voxels found")),
+          foundMasses_(ledger.account("octree voxels found")) {}
+
+    std::int64_t build(const particles::ParticleStore& store, const octree::Lattice& lattice,
+                       const octree::OctreeSettings& settings, octree::Octree& tree) override;
+
+ private:
+    std::size_t insertAll(const octree::VoxelRule& rule, octree::Octree& tree);
+    void list(std::size_t count, bool withMasses, octree::Octree& tree) const;
+
+    octree::ParticleCells cells_;
+    octree::Room<octree::CellEntry> found_;
+    octree::Room<double> foundMasses_;
+};
+
+}  // namespace dustbench::octree_search

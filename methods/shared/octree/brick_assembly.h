@@ -1,0 +1,61 @@
+// Puts the voxels of bricks, and those larger than a brick, together into one tree.
+//
+// Owns: what is found in each brick, on a ledger. Threads: parallel over bricks; the same tree at any number.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "methods/shared/octree/brick_nodes.h"
+#include "methods/shared/octree/brick_partition.h"
+#include "methods/shared/octree/octree.h"
+#include "methods/shared/octree/voxel_rule.h"
+
+namespace dustbench::octree {
+
+/// A voxel of a brick and the particle that it stands for.
+struct BrickVoxel {
+    std::uint32_t location;
+    std::uint32_t particle;
+};
+
+/// Where one brick's voxels are left, in any order.
+struct BrickVoxels {
+    BrickVoxel* voxels;  ///< room for as many as the brick has particles
+    BrickVoxel* spare;   ///< working memory of the same size; null: not wanted
+    double* masses;      ///< beside them; null: not wanted
+    BrickNodes& nodes;   ///< to be completed
+};
+
+class BrickAssembly {
+ public:
+    explicit BrickAssembly(MemoryLedger& ledger);
+
+    void hold(const BrickPartition& partition, bool withMasses, bool withSpare);
+    /// For brick number `i` of the partition.
+    [[nodiscard]] BrickVoxels room(const Brick& brick, std::size_t i) {
+        return {found_.data() + brick.first, withSpare_ ? spare_.data() + brick.first : nullptr,
+                withMasses_ ? masses_.data() + brick.first : nullptr, nodes_.data()[i]};
+    }
+    void assemble(BrickPartition& partition, const VoxelRule& rule, int depth, Octree& tree);
+
+ private:
+    struct Place {
+        std::uint32_t firstVoxel = 0, firstBlock = 0;
+    };
+
+    std::size_t reduceUpper(std::span<CellEntry> upper, const VoxelRule& rule);
+    void numberVoxels(std::span<const Brick> bricks, std::span<const CellEntry> upper);
+    void writeBricks(std::span<const Brick> bricks, Octree& tree);
+    void addTop(std::span<const Brick> bricks, std::span<const CellEntry> upper, Octree& tree);
+
+    bool withMasses_ = false, withSpare_ = false;
+    Room<BrickVoxel> found_, spare_;
+    Room<double> masses_, upperMasses_;
+    Room<BrickNodes> nodes_;
+    Room<Place> places_;
+    Room<std::uint32_t> upperPlaces_;
+    std::uint32_t voxels_ = 0, blocks_ = 0;
+};
+
+}  // namespace dustbench::octree

@@ -1,0 +1,62 @@
+// The nodes of one brick: a cell that holds 16³ finest cells, and the four levels between.
+//
+// A cell of a brick is named by its location code: the Morton code inside the brick with a leading 1, which tells the
+// level. 1 is the brick itself, 8..15 its children … 4096..8191 the finest cells; a cell's parent is code >> 3.
+//
+// Threads: pure.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "methods/shared/octree/node_block.h"
+
+namespace dustbench::octree {
+
+/// A brick lies so many levels above the finest cells.
+inline constexpr int brickRise = 4;
+inline constexpr std::uint32_t brickCodes = 8192;
+inline constexpr int brickCodeBits = 13;
+
+/// Location code of the cell that lies `rise` (at most `brickRise`) levels above a finest cell.
+[[nodiscard]] inline std::uint32_t locationCode(std::uint32_t localCode, std::uint32_t rise) {
+    return (4096u | localCode) >> 3 * rise;
+}
+/// Levels that a location code's cell lies above the finest.
+[[nodiscard]] inline int riseOf(std::uint32_t location) {
+    return brickRise - (std::bit_width(location) - 1) / 3;
+}
+
+class BrickNodes {
+ public:
+    void clear() { bits_.fill(0); }
+    void setVoxel(std::uint32_t location) { bits_[location >> 6] |= std::uint64_t{1} << (location & 63); }
+    /// After the last voxel: counts what will be there.
+    void complete();
+
+    [[nodiscard]] std::uint32_t voxelCount() const { return voxelCount_; }
+    /// Blocks of eight, the one of the brick's own children included.
+    [[nodiscard]] std::uint32_t blockCount() const { return blockCount_; }
+    /// Whether the brick as a whole is a voxel.
+    [[nodiscard]] bool isVoxel() const { return isSet(1); }
+
+    /// Numbers by location code.
+    using Ranks = std::array<std::uint16_t, brickCodes>;
+    /// Writes the brick's blocks: that of its own children to `first`, the others from `next` on. Numbers the voxels in
+    /// pre-order: in `ranks` from 0, in the blocks from `firstVoxel`.
+    void write(NodeBlock* blocks, std::uint32_t first, std::uint32_t next, std::uint32_t firstVoxel,
+               Ranks& ranks) const;
+
+ private:
+    struct Writer;
+    using Bits = std::array<std::uint64_t, brickCodes / 64>;
+
+    [[nodiscard]] bool isSet(std::uint32_t location) const { return bits_[location >> 6] >> (location & 63) & 1; }
+    static Bits withParents(const Bits& bits);
+
+    Bits bits_;  ///< a bit for each voxel
+    std::uint32_t voxelCount_ = 0, blockCount_ = 0;
+};
+
+}  // namespace dustbench::octree

@@ -1,0 +1,25 @@
+#include "methods/shared/octree/cell_kernel.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "methods/shared/errors.h"
+#include "methods/shared/octree/cell_entry.h"
+
+namespace dustbench::octree {
+
+void checkPositions(const particles::ParticleStore& store) {
+    for (std::size_t i = 0; i < store.size(); ++i)
+        if (std::isnan(store.x[i]) || std::isnan(store.y[i]) || std::isnan(store.z[i]))
+            throw std::runtime_error("octree: the position of the particle with serial " +
+                                     std::to_string(store.serial[i]) + " is not a number");
+}
+
+void checkCount(const particles::ParticleStore& store) {
+    if (store.size() > CellEntry::maximumIndex)
+        throw InputError("octree: got " + std::to_string(store.size()) + " particles, allowed: up to " +
+                         std::to_string(CellEntry::maximumIndex));
+}
+
+}  // namespace dustbench::octree

@@ -1,0 +1,105 @@
+// Which cell and which level a particle belongs to: the one computation behind every build.
+//
+// Units: metres. Frame: world. Threads: pure.
+// Source: Carr2006, 3.2 (older particles, larger voxels). Departs: the formulas are ours; the paper gives none.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numbers>
+
+#include "methods/shared/octree/lattice.h"
+#include "methods/shared/octree/octree_settings.h"
+#include "methods/shared/particles/particle_store.h"
+
+namespace dustbench::octree {
+
+/// √(π/2): a cube of this edge per radius keeps the puff's τ, edge² = 2π(r/2)².
+inline constexpr float edgePerRadius = 1.2533141f;
+
+/// Number of the cell of a coordinate, floor(x / edge). What is not a number, or too far away for an integer, lands
+/// outside any world.
+[[nodiscard]] inline std::int32_t cellNumber(float metres, float cellsPerMetre) {
+    const float number = std::min(std::max(-1e9f, metres * cellsPerMetre), 1e9f);
+    const auto towardsZero = static_cast<std::int32_t>(number);
+    return towardsZero - (static_cast<float>(towardsZero) > number ? 1 : 0);
+}
+
+/// Levels above the finest, by age: min(L − 1, floor(L·age/lifetime)).
+[[nodiscard]] inline std::uint32_t riseByAge(float age, float lifetime, float levels) {
+    return static_cast<std::uint32_t>(
+        static_cast<std::int32_t>(std::min(std::max(0.0f, levels * age / lifetime), levels - 1)));
+}
+
+/// By radius: the edge `finest·2^k` nearest 1.253·r on the scale of doubling, k below `levels`.
+[[nodiscard]] inline std::uint32_t riseByRadius(float radiusMetres, float finestEdgeMetres, std::uint32_t levels) {
+    const float edges = edgePerRadius / std::numbers::sqrt2_v<float> * radiusMetres / finestEdgeMetres;
+    std::uint32_t rise = 0;
+    for (std::uint32_t step = 1; step < levels; ++step) rise += edges >= static_cast<float>(1u << (step - 1)) ? 1 : 0;
+    return rise;
+}
+
+/// Bit k of a number below 2^8 to bit 3·k, in 32 bits.
+[[nodiscard]] inline std::uint32_t spreadByte(std::uint32_t x) {
+    x = (x | x << 8) & 0x0000f00fu;
+    x = (x | x << 4) & 0x000c30c3u;
+    x = (x | x << 2) & 0x00249249u;
+    return x;
+}
+
+/// Where one particle belongs. The Morton code comes in two halves, so that all is 32 bits wide and vectorises.
+struct ParticleCell {
+    std::uint32_t brickCode;  ///< of the brick, a cell of 16³ finest cells
+    std::uint32_t localCode;  ///< of the finest cell inside the brick, 12 bits
+    std::uint32_t rise;       ///< of the particle's voxel above the finest cells
+    std::uint32_t outside;    ///< the world: all bits set, and the rest is meaningless; else 0
+    std::uint32_t aboveBricks;  ///< all bits set where the voxel is larger than a brick; else 0
+};
+
+/// Maps particles of one store to the cells of one lattice.
+template <LevelRule rule>
+class CellKernel {
+ public:
+    CellKernel(const particles::ParticleStore& store, const Lattice& lattice, const OctreeSettings& settings)
+        : x_(store.x.data()),
+          y_(store.y.data()),
+          z_(store.z.data()),
+          age_(store.age.data()),
+          lifetime_(store.lifetime.data()),
+          radius_(store.radius.data()),
+          cellsPerMetre_(static_cast<float>(lattice.cellsPerEdge() / lattice.edgeMetres)),
+          finestEdge_(static_cast<float>(lattice.cellEdgeMetres(lattice.depth))),
+          firstX_(static_cast<std::uint32_t>(lattice.firstCell().x)),
+          firstY_(static_cast<std::uint32_t>(lattice.firstCell().y)),
+          firstZ_(static_cast<std::uint32_t>(lattice.firstCell().z)),
+          cells_(lattice.cellsPerEdge()),
+          levels_(static_cast<std::uint32_t>(settings.levels)) {}
+
+    [[nodiscard]] ParticleCell operator()(std::size_t i) const {
+        const std::uint32_t x = static_cast<std::uint32_t>(cellNumber(x_[i], cellsPerMetre_)) - firstX_;
+        const std::uint32_t y = static_cast<std::uint32_t>(cellNumber(y_[i], cellsPerMetre_)) - firstY_;
+        const std::uint32_t z = static_cast<std::uint32_t>(cellNumber(z_[i], cellsPerMetre_)) - firstZ_;
+        ParticleCell cell;
+        cell.outside = -static_cast<std::uint32_t>((x | y | z) >= cells_);
+        cell.localCode = spreadByte(x & 15) << 2 | spreadByte(y & 15) << 1 | spreadByte(z & 15);
+        cell.brickCode = spreadByte(x >> 4 & 255) << 2 | spreadByte(y >> 4 & 255) << 1 | spreadByte(z >> 4 & 255);
+        if constexpr (rule == LevelRule::age)
+            cell.rise = riseByAge(age_[i], lifetime_[i], static_cast<float>(levels_));
+        else
+            cell.rise = riseByRadius(radius_[i], finestEdge_, levels_);
+        cell.aboveBricks = -static_cast<std::uint32_t>(cell.rise > 4);
+        return cell;
+    }
+
+ private:
+    const float *x_, *y_, *z_, *age_, *lifetime_, *radius_;
+    float cellsPerMetre_, finestEdge_;
+    std::uint32_t firstX_, firstY_, firstZ_, cells_, levels_;
+};
+
+/// Throws std::runtime_error with the serial of the first particle whose position is not a number, and InputError where
+/// there are more particles than a voxel can name. For builders, who call it where particles lie outside the world.
+void checkPositions(const particles::ParticleStore& store);
+void checkCount(const particles::ParticleStore& store);
+
+}  // namespace dustbench::octree
