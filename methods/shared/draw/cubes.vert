@@ -29,7 +29,8 @@ void main() {
     vec3 towards = mix(vec3(-halfEdge), vec3(halfEdge), lessThan(centre, vec3(0)));
     bvec3 bits = bvec3(ivec3(gl_VertexID) & ivec3(1, 2, 4));
     vec3 position = mat3(worldToEye) * (centre + mix(-towards, towards, bits));
-    gl_Position = vec4(position.xy * projection.xy, projection.z, -position.z);
+    // A face in the plane of the ground must not flicker: all count as nearer by less than a pixel is wide.
+    gl_Position = vec4(position.xy * projection.xy, projection.z * (1.0 + 1.0 / 1024), -position.z);
 
     float alpha = opacityOf(0.5 * values[base + 4]);
 #ifdef COLOURED

@@ -48,6 +48,20 @@ class Canvas {
         depth_.write(std::span<const float>(depths));
         layer_.emplace(device(), depth_);
     }
+    /// Opaque flat ground so far below the eye, as exact as its depths can be.
+    void setGround(double below) {
+        wall_.reset();
+        const glm::dvec3 forward = glm::normalize(view.camera.target - view.camera.eye);
+        std::vector<float> depths;
+        for (int y = view.height - 1; y >= 0; --y)
+            for (int x = 0; x < view.width; ++x) {
+                const glm::dvec3 ray = view.rayDirection(x + 0.5, y + 0.5);
+                const double along = below / -ray.y * glm::dot(ray, forward);
+                depths.push_back(ray.y < 0 ? static_cast<float>(view.camera.nearMetres / along) : 0.0f);
+            }
+        depth_.write(std::span<const float>(depths));
+        layer_.emplace(device(), depth_);
+    }
     [[nodiscard]] bool isWalled(int x) const { return wall_ && x >= view.width / 2; }
 
     [[nodiscard]] glm::vec3 at(const glm::vec3& fromEye) const { return glm::vec3(view.camera.eye) + fromEye; }
@@ -90,7 +104,7 @@ class Canvas {
                 if (!std::isfinite(t) || t <= 0) continue;
                 const glm::dvec3 hit = t * ray - centre;
                 const double u = std::abs(hit[(axis + 1) % 3]), v = std::abs(hit[(axis + 2) % 3]);
-                const double along = t * glm::dot(ray, forward);
+                const double along = t * glm::dot(ray, forward) / (1 + 1.0 / 1024);  // as the depth test takes it
                 // Rasterisers round corners to 1/256 of a pixel, here 8e-3 wide at unit distance.
                 const double fromEdge = std::max(u, v) - half, margin = 5e-5 * t / std::abs(ray[axis]);
                 const double fromNear = along - view.camera.nearMetres, fromWall = last - along;
@@ -244,6 +258,23 @@ TEST(Cubes, AreHiddenBehindWhatIsSolid) {
         EXPECT_EQ(image.at(78, 60), free.at(78, 60));
         const double faces = wall > 11 ? 2 : wall > 9 ? 1 : 0;
         EXPECT_NEAR(image.at(82, 60).a, opacityOf(0.4 * faces), 1e-6) << wall;
+    }
+}
+
+TEST(Cubes, OnTheGroundShowTheFaceThatLiesInIt) {
+    Canvas canvas;
+    Cubes cubes(Canvas::device());
+    for (const glm::dvec3& along : {glm::dvec3(0.2, -0.15, -1), glm::dvec3(1, -0.5, 0.3), glm::dvec3(0.1, -1, 0.1)}) {
+        canvas.view.camera.target = canvas.view.camera.eye + along;
+        canvas.setGround(2.25);
+        int filled = 0;
+        for (const float edge : {0.25f, 1.0f, 2.0f})
+            for (const double distance : {2.5, 5.0, 9.0}) {
+                const glm::vec3 place(distance * glm::normalize(glm::dvec3(along.x, 0, along.z)));
+                const Cube cube{canvas.at({place.x, edge / 2 - 2.25f, place.z}), edge, 0.8f};
+                filled += expectFaces(canvas, canvas.draw(cubes, {cube}), {cube}, false);
+            }
+        EXPECT_GT(filled, 300);
     }
 }
 
