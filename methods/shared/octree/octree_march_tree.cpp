@@ -1,12 +1,20 @@
 #include "methods/shared/octree/octree_march_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
 namespace dustbench::octree {
+namespace {
+
+glm::vec4 meanColour(const glm::vec3& weighted, float extinction) {
+    return extinction > 0 ? glm::vec4(weighted / extinction, 1) : glm::vec4(0);
+}
+
+}  // namespace
 
 void OctreeMarchTree::set(const MarchedTree& tree) {
     const int depth = tree.lattice.depth;
@@ -34,8 +42,13 @@ void OctreeMarchTree::set(const MarchedTree& tree) {
 void OctreeMarchTree::write(const MarchedTree& tree, const Pending& pending, std::size_t slot) {
     const int depth = tree.lattice.depth, cells = 1 << (depth - pending.level);
     const float scale = -static_cast<float>(tree.lattice.cellEdgeMetres(depth) * std::numbers::log2e);
-    int octant = 0;
-    for (const NodeSlot& node : tree.blocks[pending.block].slots) {
+    for (int octant = 0; octant < 8; ++octant, ++slot) {
+        const NodeSlot& node = tree.blocks[pending.block].slots[static_cast<std::size_t>(octant)];
+        if (node.voxel == 0 && node.children == 0) {  // as most are
+            slots_[slot] = scale * pending.extinctionPerMetre;
+            if (!tree.colours.empty()) colours_[slot] = meanColour(pending.weightedColour, pending.extinctionPerMetre);
+            continue;
+        }
         const glm::ivec3 least = pending.least + cells * glm::ivec3(octant >> 2, octant >> 1 & 1, octant & 1);
         float extinction = pending.extinctionPerMetre;
         glm::vec3 colour = pending.weightedColour;
@@ -44,7 +57,7 @@ void OctreeMarchTree::write(const MarchedTree& tree, const Pending& pending, std
             if (voxel >= tree.extinctionPerMetre.size())
                 throw std::invalid_argument("octree node with voxel " + std::to_string(voxel) + " of " +
                                             std::to_string(tree.extinctionPerMetre.size()));
-            if (!(tree.extinctionPerMetre[voxel] >= 0))
+            if (!(tree.extinctionPerMetre[voxel] >= 0 && std::isfinite(tree.extinctionPerMetre[voxel])))
                 throw std::invalid_argument("octree voxel " + std::to_string(voxel) + " with extinction " +
                                             std::to_string(tree.extinctionPerMetre[voxel]) + " per metre");
             extinction += tree.extinctionPerMetre[voxel];
@@ -62,11 +75,8 @@ void OctreeMarchTree::write(const MarchedTree& tree, const Pending& pending, std
             queue_.push_back({node.children, pending.level + 1, least, extinction, colour});
         } else {
             slots_[slot] = scale * extinction;
-            if (!tree.colours.empty())
-                colours_[slot] = extinction > 0 ? glm::vec4(colour / extinction, 1) : glm::vec4(0);
+            if (!tree.colours.empty()) colours_[slot] = meanColour(colour, extinction);
         }
-        ++octant;
-        ++slot;
     }
 }
 
