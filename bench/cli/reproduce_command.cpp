@@ -10,10 +10,9 @@
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
-#include "bench/cli/text_table.h"
+#include "bench/cli/suite_report.h"
 #include "bench/run/paper.h"
 #include "bench/run/suite.h"
-#include "bench/run/suite_table.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::cli {
@@ -47,10 +46,7 @@ int reproduce(const ReproduceOptions& options) {
             const int suiteCode = runPlan(plan, suite.repetitions, results, planOptions);
             if (suiteCode == exitAborted) return suiteCode;
             code = std::max(code, suiteCode);
-
-            bench::SuiteTable table = bench::tabulate(suite, results.runs());
-            table.rows.insert(table.rows.begin(), table.header);
-            std::cout << "\n" << suite.title << "\n" << textTable(table.rows);
+            std::cout << "\n" << suiteReport(suite, results.runs()) << std::flush;
         }
         std::cout << "\n" << (results.path() / "summary.csv").string() << "\n";
     }

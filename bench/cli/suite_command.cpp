@@ -6,6 +6,7 @@
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
+#include "bench/cli/suite_report.h"
 #include "bench/run/suite.h"
 
 namespace dustbench::cli {
@@ -37,6 +38,7 @@ int runSuite(const SuiteOptions& options) {
     planOptions.retryFailed = options.retryFailed;
     planOptions.timeoutSeconds = options.timeoutSeconds > 0 ? options.timeoutSeconds : suite.timeoutSeconds;
     const int code = runPlan(plan, suite.repetitions, results, planOptions);
+    if (code != exitAborted) std::cout << suiteReport(suite, results.runs()) << "\n";
     std::cout << (results.path() / "summary.csv").string() << "\n";
     return code;
 }

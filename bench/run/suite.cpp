@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 
+#include "bench/run/suite_comparison.h"
 #include "bench/run/value_list.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/files/data_folder.h"
@@ -137,6 +138,7 @@ void readDraft(files::TomlReader& table, Draft& draft) {
         }
         perMethod.finish();
     }
+    if (table.has("compare")) suite.comparisons = readComparisons(table, draft.methods);
 }
 
 Suite multiplyOut(Draft draft) {
@@ -161,21 +163,23 @@ Suite multiplyOut(Draft draft) {
                     }
                 }
     }
+    for (const PlannedComparison& comparison : suite.comparisons) (void)matchCells(suite, comparison);
     return suite;
 }
 
 Suite readSuite(files::TomlReader file, std::string id, bool quick) {
     Draft draft;
     readDraft(file, draft);
+    Suite suite = multiplyOut(draft);
     if (file.has("quick")) {
-        Draft shorter = draft;  // read in any case, so that a mistake in it shows early
+        // Read in any case, so that a mistake in it shows early.
         files::TomlReader table = file.table("quick");
-        readDraft(table, shorter);
+        readDraft(table, draft);
         table.finish();
-        if (quick) draft = std::move(shorter);
+        Suite shorter = multiplyOut(std::move(draft));
+        if (quick) suite = std::move(shorter);
     }
     file.finish();
-    Suite suite = multiplyOut(std::move(draft));
     suite.id = std::move(id);
     return suite;
 }

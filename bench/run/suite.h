@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/run/planned_comparison.h"
 #include "bench/run/run_spec.h"
 
 namespace dustbench::bench {
@@ -32,6 +33,7 @@ struct Suite {
     int repetitions = 1;
     Order order = Order::interleaved;
     double timeoutSeconds = 600;  ///< of one run
+    std::vector<PlannedComparison> comparisons;
 };
 
 /// `id` of a suite in the data folder, or a path. `quick` takes the file's `[quick]` values. Throws InputError with

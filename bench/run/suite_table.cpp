@@ -4,90 +4,96 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <set>
 
 #include "bench/measure/statistics.h"
+#include "bench/run/suite_axes.h"
 #include "methods/shared/stage_clock.h"
 
 namespace dustbench::bench {
 namespace {
 
-struct Axis {
-    std::string name;
-    std::function<std::string(const RunSpec&)> of;
-};
+using Row = std::vector<std::string>;
 
-/// The method, and whatever else is not the same in all cells.
-std::vector<Axis> varyingAxes(const Suite& suite) {
-    std::vector<Axis> axes{
-        {"scene", [](const RunSpec& spec) { return spec.scene; }},
-        {"drive", [](const RunSpec& spec) { return spec.drive; }},
-        {"size", [](const RunSpec& spec) { return fmt::format("{}x{}", spec.size.width, spec.size.height); }}};
-    std::set<std::string> names;
-    for (const PlannedRun& cell : suite.cells)
-        for (const auto& [name, text] : cell.spec.parameters) names.insert(name);
-    for (const std::string& name : names)
-        axes.push_back({name, [name](const RunSpec& spec) {
-                            const auto found = spec.parameters.find(name);
-                            return found == spec.parameters.end() ? std::string() : found->second;
-                        }});
-    std::erase_if(axes, [&suite](const Axis& axis) {
-        return std::ranges::all_of(suite.cells, [&](const PlannedRun& cell) {
-            return axis.of(cell.spec) == axis.of(suite.cells.front().spec);
-        });
-    });
-    axes.insert(axes.begin(), {"method", [](const RunSpec& spec) { return spec.method; }});
-    return axes;
+std::string oneDecimal(double value) {
+    return std::isfinite(value) ? fmt::format("{:.1f}", value) : "";
 }
 
-std::string fixed(double value, int digits) {
-    return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "";
+Row numberHeader() {
+    Row names{"fps", "min", "max", "frame"};
+    for (const std::string_view stage : stageNames) names.emplace_back(stage);
+    return names;
 }
 
-/// A cell's runs that are done.
-std::vector<const StoredRun*> doneRuns(const PlannedRun& cell, int repetitions,
-                                       const std::map<std::string, StoredRun>& runs) {
-    std::vector<const StoredRun*> done;
-    for (int repetition = 1; repetition <= repetitions; ++repetition) {
-        RunSpec spec = cell.spec;
-        spec.repetition = repetition;
-        const auto found = runs.find(runId(spec));
-        if (found != runs.end() && found->second.status == RunStatus::done) done.push_back(&found->second);
+Row numbersOf(const std::vector<const StoredRun*>& done) {
+    const auto fps = numbersIn(done, "fps_avg");
+    Row row;
+    for (const double value : {median(fps), quantile(fps, 0), quantile(fps, 1)}) row.push_back(oneDecimal(value));
+    row.push_back(fourDigits(median(numbersIn(done, "frame_ms_median"))));
+    for (const std::string_view stage : stageNames)
+        row.push_back(fourDigits(median(numbersIn(done, fmt::format("{}_ms_median", stage)))));
+    return row;
+}
+
+Row joined(Row row, Row more) {
+    row.insert(row.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    return row;
+}
+
+/// The cells by the world that they show, in the order in which the suite first names it.
+std::vector<std::pair<std::string, std::vector<const PlannedRun*>>> groupByWorld(
+    const std::vector<const PlannedRun*>& cells, const std::vector<Axis>& world) {
+    std::vector<std::pair<std::string, std::vector<const PlannedRun*>>> groups;
+    for (const PlannedRun* cell : cells) {
+        const std::string label = labelOf(world, cell->spec);
+        auto group = std::ranges::find(groups, label, [](const auto& entry) { return entry.first; });
+        if (group == groups.end()) group = groups.insert(group, {label, {}});
+        group->second.push_back(cell);
     }
-    return done;
-}
-
-std::vector<double> columnOf(const std::vector<const StoredRun*>& runs, const std::string& column) {
-    std::vector<double> values;
-    for (const StoredRun* run : runs)
-        if (const auto found = run->cells.find(column); found != run->cells.end() && !found->second.empty())
-            values.push_back(std::stod(found->second));
-    return values;
+    return groups;
 }
 
 }  // namespace
 
-SuiteTable tabulate(const Suite& suite, const std::map<std::string, StoredRun>& runs) {
-    SuiteTable table;
-    if (suite.cells.empty()) return table;
-    const std::vector<Axis> axes = varyingAxes(suite);
-    for (const Axis& axis : axes) table.header.push_back(axis.name);
-    for (const char* name : {"runs", "fps", "min", "max", "frame_ms", "p95_ms"}) table.header.emplace_back(name);
-    for (const std::string_view stage : stageNames) table.header.push_back(std::string(stage) + "_ms");
+std::string fourDigits(double value) {
+    if (!std::isfinite(value)) return "";
+    const double size = std::abs(value);
+    return fmt::format("{:.{}f}", value, size < 9.9995 ? 3 : size < 99.995 ? 2 : size < 999.95 ? 1 : 0);
+}
 
-    for (const PlannedRun& cell : suite.cells) {
-        const auto done = doneRuns(cell, suite.repetitions, runs);
-        const auto fps = columnOf(done, "fps_avg");
-        std::vector<std::string> row;
-        for (const Axis& axis : axes) row.push_back(axis.of(cell.spec));
-        row.push_back(fmt::format("{}/{}", done.size(), suite.repetitions));
-        for (const double value : {median(fps), quantile(fps, 0), quantile(fps, 1)}) row.push_back(fixed(value, 1));
-        row.push_back(fixed(median(columnOf(done, "frame_ms_median")), 2));
-        row.push_back(fixed(median(columnOf(done, "frame_ms_p95")), 2));
-        for (const std::string_view stage : stageNames)
-            row.push_back(fixed(median(columnOf(done, std::string(stage) + "_ms_median")), 2));
-        table.rows.push_back(std::move(row));
+TextRows tabulate(const Suite& suite, const StoredRuns& runs) {
+    TextRows table;
+    const auto cells = cellsOf(suite);
+    if (cells.empty()) return table;
+    const auto world = worldAxes(cells);
+    const auto settings = methodAxes(cells);
+    const auto nameOf = [&](const PlannedRun& cell, std::size_t done) {
+        std::string name = cell.spec.method;
+        if (const std::string setting = labelOf(settings, cell.spec); !setting.empty()) name += " " + setting;
+        if (done < static_cast<std::size_t>(suite.repetitions))
+            name += fmt::format(" ({} of {} runs)", done, suite.repetitions);
+        return name;
+    };
+    const auto groups = groupByWorld(cells, world);
+    const bool inColumns = std::ranges::all_of(groups, [](const auto& group) { return group.second.size() == 1; });
+
+    table.header.emplace_back("method");
+    if (inColumns)
+        for (const Axis& axis : world) table.header.push_back(axis.name);
+    table.header = joined(std::move(table.header), numberHeader());
+
+    for (const auto& [label, members] : groups) {
+        const bool headed = !inColumns && !label.empty();
+        if (headed) {
+            table.rows.push_back({label});
+            table.rows.back().resize(table.header.size());
+        }
+        for (const PlannedRun* cell : members) {
+            const auto done = doneRuns(*cell, suite.repetitions, runs);
+            Row row{(headed ? "  " : "") + nameOf(*cell, done.size())};
+            if (inColumns)
+                for (const Axis& axis : world) row.push_back(axis.of(cell->spec));
+            table.rows.push_back(joined(std::move(row), numbersOf(done)));
+        }
     }
     return table;
 }

@@ -1,22 +1,29 @@
-// A suite's results, one row a cell: medians over its repetitions.
+// A suite's results for people: FPS and the stages of a frame, medians over the repetitions of each cell.
+//
+// Cells that show their methods the same world stand together, so that the methods can be read against each other.
+// Units: ms, and frames per second.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
-#include "bench/run/run_record.h"
+#include "bench/run/cell_results.h"
 #include "bench/run/suite.h"
 
 namespace dustbench::bench {
 
-struct SuiteTable {
+struct TextRows {
     std::vector<std::string> header;
-    std::vector<std::vector<std::string>> rows;
+    std::vector<std::vector<std::string>> rows;  ///< each as long as the header
 };
 
-/// What varies in the suite, then how many repetitions were done, median FPS with its spread over them, median frame
-/// time and stages (ms). In the order of the suite's cells.
-[[nodiscard]] SuiteTable tabulate(const Suite& suite, const std::map<std::string, StoredRun>& runs);
+/// FPS (median, least and greatest run), frame time and stages. Where the suite has one method in one setting, a row
+/// says in columns of its own what varies; otherwise a row `particles=500 speed=20`, empty but for that, heads the
+/// rows of the methods, and these say which settings vary: `octree_search layout=morton`. Rows whose runs are not
+/// all done tell so: `billboard (4 of 6 runs)`.
+[[nodiscard]] TextRows tabulate(const Suite& suite, const StoredRuns& runs);
+
+/// Four digits, three of them behind the point at most: `0.047`, `12.35`, `123.5`; empty for NaN.
+[[nodiscard]] std::string fourDigits(double value);
 
 }  // namespace dustbench::bench

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "bench/measure/paired_comparison.h"
 #include "bench/scene/world.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/registry.h"
@@ -138,6 +139,9 @@ TEST(Suite, EverySuiteOfTheProjectCanBePlanned) {
             const Suite suite = loadSuite(file.id, quick);
             EXPECT_FALSE(planRuns(suite).empty()) << file.id;
             EXPECT_FALSE(suite.title.empty()) << file.id;
+            if (suite.comparisons.empty()) continue;
+            EXPECT_GE(suite.repetitions, static_cast<int>(fewestPairs)) << file.id << ": could resolve nothing";
+            EXPECT_EQ(suite.order, Order::interleaved) << file.id;
         }
 }
 

@@ -1,0 +1,34 @@
+#include "bench/cli/suite_report.h"
+
+#include <fmt/format.h>
+
+#include "bench/cli/text_table.h"
+#include "bench/run/suite_comparison.h"
+#include "bench/run/suite_table.h"
+
+namespace dustbench::cli {
+namespace {
+
+std::string textOf(bench::TextRows table) {
+    table.rows.insert(table.rows.begin(), std::move(table.header));
+    return textTable(table.rows);
+}
+
+}  // namespace
+
+std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs) {
+    std::string text =
+        fmt::format("{}\nframes per second; ms of a frame and of its stages; {}\n", suite.title,
+                    suite.repetitions == 1 ? std::string("one run each")
+                                           : fmt::format("medians over {} runs each", suite.repetitions));
+    text += textOf(bench::tabulate(suite, runs));
+    for (const bench::ComparisonResult& comparison : bench::compareSuite(suite, runs)) {
+        text += fmt::format("\n{} against {}: ratio of their times, 95 % interval over paired runs\n", comparison.of,
+                            comparison.with);
+        text += textOf(bench::tabulate(comparison));
+        for (const std::string& sentence : bench::conclusions(comparison)) text += sentence + "\n";
+    }
+    return text;
+}
+
+}  // namespace dustbench::cli
