@@ -19,8 +19,8 @@ class Construction {
           voxels_(tree.mutableVoxels()),
           masses_(rule.accumulates() ? tree.mutableMasses() : nullptr) {}
 
-    /// Subdivides the node whose children lie in `block` and whose list is [begin, end) of the stack, which is in use up
-    /// to `top`; `shift` brings a child's octant to the lowest bits of a code.
+    /// Subdivides the node whose children lie in `block` and whose list is [begin, end) of the stack, which is in use
+    /// up to `top`; `shift` brings a child's octant to the lowest bits of a code.
     void subdivide(std::uint32_t block, std::size_t begin, std::size_t end, std::size_t top, int shift) {
         const int childRise = shift / 3;
         std::array<std::size_t, 8> lengths{};

@@ -17,8 +17,7 @@ class SortingReducer {
     explicit SortingReducer(const octree::VoxelRule& rule) : rule_(rule) {}
 
     /// As BrickBuilder asks for it.
-    void reduce(const octree::BrickPartition& partition, const octree::Brick& brick,
-                const octree::BrickVoxels& voxels);
+    void reduce(const octree::BrickPartition& partition, const octree::Brick& brick, const octree::BrickVoxels& voxels);
 
  private:
     octree::VoxelRule rule_;

@@ -18,8 +18,7 @@ class GridReducer {
     explicit GridReducer(const octree::VoxelRule& rule) : rule_(rule) {}
 
     /// As BrickBuilder asks for it.
-    void reduce(const octree::BrickPartition& partition, const octree::Brick& brick,
-                const octree::BrickVoxels& voxels);
+    void reduce(const octree::BrickPartition& partition, const octree::Brick& brick, const octree::BrickVoxels& voxels);
 
  private:
     octree::VoxelRule rule_;

@@ -1,5 +1,5 @@
-// The layout of today for both methods: particles are sorted into bricks of 16³ cells once, each brick is reduced to its
-// voxels by itself, in parallel, and the bricks are put together.
+// The layout of today for both methods: particles are sorted into bricks of 16³ cells once, each brick is reduced to
+// its voxels by itself, in parallel, and the bricks are put together.
 //
 // Threads: uses the current oneTBB arena; the same tree at any number of threads.
 #pragma once

@@ -73,7 +73,7 @@ void BrickPartition::startBins() {
 /// A function of its own, so that the compiler sees that the keys lie apart from what they are made of.
 template <LevelRule rule>
 [[gnu::noinline]] void makeNarrowKeys(const CellKernel<rule>& kernel, std::size_t first, std::size_t count,
-                           std::uint32_t brickBins, std::uint32_t* __restrict keys) {
+                                      std::uint32_t brickBins, std::uint32_t* __restrict keys) {
     const CellKernel<rule> cellOf = kernel;
     for (std::size_t i = 0; i < count; ++i) {
         const ParticleCell cell = cellOf(first + i);

@@ -1,7 +1,7 @@
 // Sorts particles into bricks, keeping the order of the store inside each.
 //
-// Owns: its working memory, on a ledger, kept from frame to frame. Threads: parallel over fixed chunks of the store; the
-// same result at any number of threads.
+// Owns: its working memory, on a ledger, kept from frame to frame. Threads: parallel over fixed chunks of the store;
+// the same result at any number of threads.
 #pragma once
 
 #include <cstdint>

@@ -49,10 +49,10 @@ inline constexpr float edgePerRadius = 1.2533141f;
 
 /// Where one particle belongs. The Morton code comes in two halves, so that all is 32 bits wide and vectorises.
 struct ParticleCell {
-    std::uint32_t brickCode;  ///< of the brick, a cell of 16³ finest cells
-    std::uint32_t localCode;  ///< of the finest cell inside the brick, 12 bits
-    std::uint32_t rise;       ///< of the particle's voxel above the finest cells
-    std::uint32_t outside;    ///< the world: all bits set, and the rest is meaningless; else 0
+    std::uint32_t brickCode;    ///< of the brick, a cell of 16³ finest cells
+    std::uint32_t localCode;    ///< of the finest cell inside the brick, 12 bits
+    std::uint32_t rise;         ///< of the particle's voxel above the finest cells
+    std::uint32_t outside;      ///< the world: all bits set, and the rest is meaningless; else 0
     std::uint32_t aboveBricks;  ///< all bits set where the voxel is larger than a brick; else 0
 };
 

@@ -91,8 +91,8 @@ class Octree {
         blocks_.extend(blockCount_ + 1, blockCount_)[blockCount_] = NodeBlock{};
         return static_cast<std::uint32_t>(blockCount_++);
     }
-    /// The node that lies `rise` levels above the finest and holds the finest cell `code`; nodes that are missing on its
-    /// path are added. May move all blocks.
+    /// The node that lies `rise` levels above the finest and holds the finest cell `code`; nodes that are missing on
+    /// its path are added. May move all blocks.
     NodeSlot& makeNode(std::uint64_t code, int rise) {
         std::uint32_t block = 0;
         int shift = 3 * (depth_ - 1);

@@ -33,7 +33,8 @@ void ParticleCells::fill(const particles::ParticleStore& store, const Lattice& l
             for (std::size_t i = 0; i < here; ++i) {
                 const ParticleCell cell = kernel(strip + i);
                 const std::uint32_t high = cell.brickCode << 8 | cell.localCode >> 4;
-                const std::uint32_t low = cell.localCode << 28 | cell.rise << 24 | static_cast<std::uint32_t>(strip + i);
+                const std::uint32_t low =
+                    cell.localCode << 28 | cell.rise << 24 | static_cast<std::uint32_t>(strip + i);
                 words[i] = static_cast<std::uint64_t>(high) << 32 | low;
                 inside[i] = cell.outside + 1;
             }

@@ -1,0 +1,30 @@
+// Octree dust built recursively.
+#include "methods/octree_recursive/list_builder.h"
+#include "methods/octree_recursive/sorting_reducer.h"
+#include "methods/shared/octree/brick_builder.h"
+#include "methods/shared/octree/octree_dust.h"
+
+namespace dustbench::octree_recursive {
+
+MethodInfo describe() {
+    MethodInfo info;
+    info.title = "Octree dust, recursive";
+    info.summary =
+        "Voxels of an octree that lists of particles are split down into: one recursion that also lists the voxels.";
+    info.source = "Carr2006";
+    octree::declareDustParameters(info.parameters);
+    info.parameters.choice("layout", "faithful", {"faithful", "morton"},
+                           "the paper's construction, or one of today: bricks of 16³ cells, Morton codes sorted in "
+                           "each, in parallel");
+    info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
+        const bool faithful = values.choice("layout") == "faithful";
+        return std::make_unique<octree::OctreeDust>(
+            octree::dustSettings(values), [faithful](MemoryLedger& ledger) -> std::unique_ptr<octree::OctreeBuilder> {
+                if (faithful) return std::make_unique<ListBuilder>(ledger);
+                return std::make_unique<octree::BrickBuilder<SortingReducer>>(ledger);
+            });
+    };
+    return info;
+}
+
+}  // namespace dustbench::octree_recursive

@@ -1,0 +1,30 @@
+// Octree dust built by the search principle.
+#include "methods/octree_search/grid_reducer.h"
+#include "methods/octree_search/insertion_builder.h"
+#include "methods/shared/octree/brick_builder.h"
+#include "methods/shared/octree/octree_dust.h"
+
+namespace dustbench::octree_search {
+
+MethodInfo describe() {
+    MethodInfo info;
+    info.title = "Octree dust, search";
+    info.summary =
+        "Voxels of an octree that each particle is searched a place in: one pass from the root, one traversal.";
+    info.source = "Carr2006";
+    octree::declareDustParameters(info.parameters);
+    info.parameters.choice("layout", "faithful", {"faithful", "morton"},
+                           "the paper's construction, or one of today: bricks of 16³ cells, a small grid each, in "
+                           "parallel");
+    info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
+        const bool faithful = values.choice("layout") == "faithful";
+        return std::make_unique<octree::OctreeDust>(
+            octree::dustSettings(values), [faithful](MemoryLedger& ledger) -> std::unique_ptr<octree::OctreeBuilder> {
+                if (faithful) return std::make_unique<InsertionBuilder>(ledger);
+                return std::make_unique<octree::BrickBuilder<GridReducer>>(ledger);
+            });
+    };
+    return info;
+}
+
+}  // namespace dustbench::octree_search

@@ -1,0 +1,209 @@
+#include "methods/shared/octree/octree_dust.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "methods/shared/maths/transmittance.h"
+#include "methods/shared/octree/cell_kernel.h"
+#include "methods/shared/parallel/for_each_block.h"
+#include "methods/shared/scene/octree_world.h"
+#include "methods/shared/scene/scene.h"
+#include "methods/shared/volume.h"
+
+namespace dustbench::octree {
+namespace {
+
+constexpr std::size_t voxelsPerBlock = 16'384;
+/// A billboard's opacity stays below 1, whose optical depth has no end.
+constexpr float mostOpacity = 0.99999f;
+
+}  // namespace
+
+void declareDustParameters(ParameterSet& parameters) {
+    declareOctreeParameters(parameters);
+    parameters
+        .choice("render", "billboards", {"billboards", "cubes", "raycast"},
+                "a voxel as a smoothly faded circle, as six faces, or a march through the tree along each pixel's ray")
+        .choice("sort", "radix", {"quicksort", "radix", "none"},
+                "order in which billboards and cubes are blended: far to near by the paper's quicksort or by a radix "
+                "sort, or as the tree gives them")
+        .boolean("crossfade", false, "let voxels fade in and out instead of popping")
+        .real("crossfade_time", 0.1, 0.001, 10, "s", "time constant of that fading");
+}
+
+DustSettings dustSettings(const ParameterValues& values) {
+    DustSettings settings;
+    settings.tree = octreeSettings(values);
+    settings.render = values.choiceAs<Render>("render");
+    settings.sort = values.choiceAs<draw::SortKind>("sort");
+    settings.crossFade = values.boolean("crossfade");
+    settings.crossFadeSeconds = values.real("crossfade_time");
+    return settings;
+}
+
+OctreeDust::OctreeDust(const DustSettings& settings, const MakeBuilder& makeBuilder)
+    : settings_(settings),
+      builder_(makeBuilder(ledger_)),
+      tree_(ledger_),
+      shownTree_(ledger_),
+      cloud_(ledger_),
+      sort_(ledger_),
+      extinctions_(ledger_.account("voxel list")),
+      colours_(ledger_.account("voxel list")) {
+    if (settings.crossFade) fade_.emplace(ledger_, settings.crossFadeSeconds);
+}
+
+void OctreeDust::prepare(const scene::Scene& scene, gpu::Device& device) {
+    worldEdgeMetres_ = scene.octreeEdgeMetres;
+    tree_.clear(settings_.tree.depth);
+    switch (settings_.render) {
+        case Render::billboards:
+            billboards_.emplace(device, draw::BillboardStyle{});
+            break;
+        case Render::cubes:
+            cubes_.emplace(device);
+            break;
+        case Render::raycast:
+            march_.emplace(device);
+            break;
+    }
+}
+
+void OctreeDust::build(const Frame& frame) {
+    Lattice lattice;
+    lattice.edgeMetres = worldEdgeMetres_;
+    lattice.depth = settings_.tree.depth;
+    lattice.origin = scene::octreeWorldOrigin(frame.state.vehicle.position, worldEdgeMetres_,
+                                              lattice.cellEdgeMetres(lattice.depth - settings_.tree.levels + 1));
+    {
+        const auto detail = frame.clock.measureDetail("tree");
+        clipped_ = builder_->build(frame.dust, lattice, settings_.tree, tree_);
+    }
+    {
+        const auto detail = frame.clock.measureDetail("list");
+        cloud_.take(tree_, frame.dust, VoxelRule(frame.dust, settings_.tree.policy), lattice);
+    }
+    if (!fade_) return;
+    const auto detail = frame.clock.measureDetail("crossfade");
+    shown_ = &fade_->follow(cloud_, frame.stepSeconds);
+}
+
+void OctreeDust::update(const Frame& frame) {
+    build(frame);
+    if (settings_.render == Render::raycast) {
+        const auto timing = frame.clock.measure(Stage::upload);
+        uploadTree();
+        return;
+    }
+    std::span<const std::uint32_t> order;
+    {
+        const auto timing = frame.clock.measure(Stage::sort);
+        order = sort_.farToNear(settings_.sort, {shown().x, shown().y, shown().z}, glm::vec3(frame.view.camera.eye));
+    }
+    const auto timing = frame.clock.measure(Stage::upload);
+    if (settings_.render == Render::billboards)
+        uploadBillboards(order);
+    else
+        uploadCubes(order);
+}
+
+/// r = edge/√(π/2) and τ = mass/edge²: the Gaussian puff of the voxel's mass and of the optical depth across it.
+void OctreeDust::uploadBillboards(std::span<const std::uint32_t> order) {
+    const VoxelCloud& cloud = shown();
+    const draw::Billboards::Layout layout = billboards_->layout(cloud.coloured());
+    const std::span<float> memory = billboards_->map(order.size(), layout);
+    parallel::forEachBlock(order.size(), voxelsPerBlock, [&](std::size_t first, std::size_t count) {
+        float* value = memory.data() + first * layout.floats;
+        for (std::size_t k = first; k < first + count; ++k) {
+            const std::uint32_t i = order[k];
+            *value++ = cloud.x[i];
+            *value++ = cloud.y[i];
+            *value++ = cloud.z[i];
+            *value++ = cloud.edge[i] / edgePerRadius;
+            *value++ = std::min(-std::expm1(-cloud.opticalDepth(i)), mostOpacity);
+            if (!layout.coloured) continue;
+            *value++ = cloud.red[i];
+            *value++ = cloud.green[i];
+            *value++ = cloud.blue[i];
+        }
+    });
+    billboards_->unmap();
+}
+
+void OctreeDust::uploadCubes(std::span<const std::uint32_t> order) {
+    const VoxelCloud& cloud = shown();
+    const draw::Cubes::Layout layout = draw::Cubes::layout(cloud.coloured());
+    const std::span<float> memory = cubes_->map(order.size(), layout);
+    parallel::forEachBlock(order.size(), voxelsPerBlock, [&](std::size_t first, std::size_t count) {
+        float* value = memory.data() + first * layout.floats;
+        for (std::size_t k = first; k < first + count; ++k) {
+            const std::uint32_t i = order[k];
+            *value++ = cloud.x[i];
+            *value++ = cloud.y[i];
+            *value++ = cloud.z[i];
+            *value++ = cloud.edge[i];
+            *value++ = cloud.opticalDepth(i);
+            if (!layout.coloured) continue;
+            *value++ = cloud.red[i];
+            *value++ = cloud.green[i];
+            *value++ = cloud.blue[i];
+        }
+    });
+    cubes_->unmap();
+}
+
+void OctreeDust::uploadTree() {
+    const VoxelCloud& cloud = shown();
+    const Octree* tree = &tree_;
+    if (fade_) {  // fading voxels are in no tree yet
+        shownTree_.clear(cloud.lattice.depth);
+        for (std::size_t i = 0; i < cloud.size(); ++i)
+            shownTree_.makeNode(cloud.code(i), cloud.rise(i)).voxel = static_cast<std::uint32_t>(i + 1);
+        tree = &shownTree_;
+    }
+    extinctions_.resize(cloud.size());
+    colours_.resize(cloud.coloured() ? cloud.size() : 0);
+    for (std::size_t i = 0; i < cloud.size(); ++i) extinctions_[i] = cloud.extinctionPerMetre(i);
+    for (std::size_t i = 0; i < colours_.size(); ++i) colours_[i] = {cloud.red[i], cloud.green[i], cloud.blue[i]};
+    march_->upload({cloud.lattice, tree->blocks(), extinctions_, colours_});
+}
+
+void OctreeDust::draw(const Frame& frame, gpu::Layer& layer) {
+    if (billboards_) billboards_->draw(frame.view, frame.dust.colourOfAll, layer);
+    if (cubes_) cubes_->draw(frame.view, frame.dust.colourOfAll, layer);
+    if (march_) march_->draw(frame.view, frame.dust.colourOfAll, layer);
+}
+
+void OctreeDust::volume(const Frame&, VolumeVisitor& visitor) const {
+    const VoxelCloud& cloud = shown();
+    std::vector<OctreeVoxel> voxels;
+    voxels.reserve(cloud.size());
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const glm::uvec3 cell = mortonCell(cloud.code(i)) >> static_cast<unsigned>(cloud.rise(i));
+        voxels.push_back(
+            {cell.x, cell.y, cell.z, cloud.lattice.depth - cloud.rise(i), cloud.extinctionPerMetre(i), cloud.age[i]});
+    }
+    visitor.octree({cloud.lattice.origin, cloud.lattice.edgeMetres, cloud.lattice.depth, voxels});
+}
+
+std::optional<double> OctreeDust::massKept(const Frame& frame) const {
+    double ofParticles = 0, ofVoxels = 0;
+    for (std::size_t i = 0; i < frame.dust.size(); ++i)
+        ofParticles += maths::puffMassSquareMetres(static_cast<double>(frame.dust.opacity[i]),
+                                                   static_cast<double>(frame.dust.radius[i]));
+    for (const float mass : shown().mass) ofVoxels += static_cast<double>(mass);
+    if (!(ofParticles > 0)) return std::nullopt;
+    return ofVoxels / ofParticles;
+}
+
+MemoryReport OctreeDust::memory() const {
+    MemoryReport report;
+    for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
+    if (billboards_) report.push_back({"billboards", 0, billboards_->gpuBytes()});
+    if (cubes_) report.push_back({"cubes", 0, cubes_->gpuBytes()});
+    if (march_) report.push_back({"octree march", march_->cpuBytes(), march_->gpuBytes()});
+    return report;
+}
+
+}  // namespace dustbench::octree
