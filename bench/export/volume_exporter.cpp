@@ -34,11 +34,15 @@ std::string whyNotWritable(const CollectedVolume& volume, VolumeFormat format) {
     return {};
 }
 
-std::vector<VolumeFormat> writableFormats(const CollectedVolume& volume) {
-    std::vector<VolumeFormat> formats;
-    for (const VolumeFormat format : {VolumeFormat::vti, VolumeFormat::htg, VolumeFormat::vtp, VolumeFormat::vdb})
-        if (whyNotWritable(volume, format).empty()) formats.push_back(format);
-    return formats;
+void requireWritable(const CollectedVolume& volume, const std::vector<VolumeFormat>& formats, std::string_view method) {
+    for (const VolumeFormat format : formats) {
+        const std::string reason = whyNotWritable(volume, format);
+        if (reason.empty()) continue;
+        std::vector<VolumeFormat> possible{VolumeFormat::vti, VolumeFormat::htg, VolumeFormat::vtp, VolumeFormat::vdb};
+        std::erase_if(possible, [&](VolumeFormat each) { return !whyNotWritable(volume, each).empty(); });
+        throw InputError(fmt::format("format {}: method {} {}; formats it can be written as: {}", formatName(format),
+                                     method, reason, formatsText(possible)));
+    }
 }
 
 VolumeExporter::VolumeExporter(VolumeSettings settings, fs::path folder)
@@ -102,10 +106,7 @@ void VolumeExporter::writeGrids(const ExportedMoment& moment) {
 }
 
 void VolumeExporter::write(const ExportedMoment& moment) {
-    for (const VolumeFormat format : settings_.formats)
-        if (const std::string reason = whyNotWritable(moment.volume, format); !reason.empty())
-            throw InputError(fmt::format("format {}: the method {}; formats it can be written as: {}",
-                                         formatName(format), reason, formatsText(writableFormats(moment.volume))));
+    requireWritable(moment.volume, settings_.formats, moment.method);
     const double time = moment.state.timeSeconds;
     if (settings_.wants(VolumeFormat::vti) || settings_.wants(VolumeFormat::vdb)) writeGrids(moment);
     if (settings_.wants(VolumeFormat::htg)) {

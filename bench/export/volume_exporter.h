@@ -22,11 +22,13 @@ namespace dustbench::bench {
 
 /// Why this cloud cannot be written so (`hands over no octree`), or empty: it can.
 [[nodiscard]] std::string whyNotWritable(const CollectedVolume& volume, VolumeFormat format);
-[[nodiscard]] std::vector<VolumeFormat> writableFormats(const CollectedVolume& volume);
+/// Throws InputError naming the method, the reason and what is possible where one of the formats is not.
+void requireWritable(const CollectedVolume& volume, const std::vector<VolumeFormat>& formats, std::string_view method);
 
 /// What there is of a run at one moment.
 struct ExportedMoment {
     std::int64_t frame;
+    std::string_view method;  ///< its id
     const CollectedVolume& volume;
     const scene::Scene& scene;
     const scene::SceneState& state;

@@ -27,6 +27,7 @@ void writeVtk(vtkXMLWriter& writer, vtkDataObject& data, const std::filesystem::
     writer.SetFileName(file.c_str());
     writer.SetInputDataObject(&data);
     writer.SetCompressorTypeToLZ4();
+    writer.SetHeaderTypeToUInt64();
     writer.SetDataModeToAppended();
     writer.EncodeAppendedDataOff();
     const int written = writer.Write();
