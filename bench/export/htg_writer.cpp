@@ -125,7 +125,8 @@ void writeHtg(const CollectedOctree& octree, double timeSeconds, const std::file
 
     WholeFile whole(file);
     vtkNew<vtkXMLHyperTreeGridWriter> writer;
-    writeVtk(*writer, *grid, whole.beside());
+    // Not appended: VTK 9.1 then writes every cell array but the last over the file's beginning.
+    writeVtk(*writer, *grid, whole.beside(), Numbers::within);
     whole.publish();
 }
 

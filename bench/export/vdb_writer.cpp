@@ -1,10 +1,14 @@
 #include "bench/export/vdb_writer.h"
 
 #include <fmt/format.h>
+#include <openvdb/io/Archive.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 
 #include "bench/export/whole_file.h"
 
@@ -12,6 +16,18 @@ namespace dustbench::bench {
 namespace {
 
 constexpr float largestHalf = 65504;
+
+/// OpenVDB's own file object does not notice a full disk: the stream is ours, and asked.
+class File final : public openvdb::io::Archive {
+ public:
+    void write(const std::filesystem::path& path, const openvdb::GridPtrVec& grids) const {
+        std::ofstream stream(path, std::ios::binary | std::ios::trunc);
+        if (!stream) throw cannotWrite(path, std::strerror(errno));
+        Archive::write(stream, grids, /*seekable=*/true);
+        stream.flush();
+        if (!stream) throw cannotWrite(path, std::strerror(errno));
+    }
+};
 
 openvdb::FloatGrid::Ptr sparse(const ExtinctionGrid& grid) {
     const GridPlan& plan = grid.plan;
@@ -51,9 +67,7 @@ void writeVdb(const ExtinctionGrid& grid, VdbPrecision precision, std::int64_t f
 
     WholeFile whole(file);
     try {
-        openvdb::io::File output(whole.beside().string());
-        output.write({density});
-        output.close();
+        File().write(whole.beside(), {density});
     } catch (const openvdb::Exception& error) {
         throw cannotWrite(file, error.what());
     }

@@ -4,6 +4,7 @@
 #include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
+#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkXMLWriter.h>
@@ -15,7 +16,7 @@
 
 namespace dustbench::bench {
 
-void writeVtk(vtkXMLWriter& writer, vtkDataObject& data, const std::filesystem::path& file) {
+void writeVtk(vtkXMLWriter& writer, vtkDataObject& data, const std::filesystem::path& file, Numbers numbers) {
     std::string complaint;
     vtkNew<vtkCallbackCommand> listener;
     listener->SetClientData(&complaint);
@@ -24,11 +25,12 @@ void writeVtk(vtkXMLWriter& writer, vtkDataObject& data, const std::filesystem::
         if (first.empty() && text) first = static_cast<const char*>(text);
     });
     writer.AddObserver("ErrorEvent", listener);
+    writer.GetExecutive()->AddObserver("ErrorEvent", listener);
     writer.SetFileName(file.c_str());
     writer.SetInputDataObject(&data);
     writer.SetCompressorTypeToLZ4();
     writer.SetHeaderTypeToUInt64();
-    writer.SetDataModeToAppended();
+    numbers == Numbers::appended ? writer.SetDataModeToAppended() : writer.SetDataModeToBinary();
     writer.EncodeAppendedDataOff();
     const int written = writer.Write();
     if (written != 0 && writer.GetErrorCode() == vtkErrorCode::NoError && complaint.empty()) return;

@@ -220,7 +220,9 @@ TEST_P(HtgFile, LeavesHoldAllVoxelsOverThemAndEveryDepthKeepsTheMass) {
         for (const Node& node : nodesOf(*grid)) {
             const double volume = std::pow(node.edge, 3);
             own += node.values.at("own_extinction") * volume;
-            if (node.depth == 0) EXPECT_NEAR(node.values.at("extinction") * volume, mass, 1e-6 * mass);
+            if (node.depth == 0) {
+                EXPECT_NEAR(node.values.at("extinction") * volume, mass, 1e-6 * mass);
+            }
             if (!node.leaf) continue;
             leaves += node.values.at("extinction") * volume;
             expectLeaf(octree, node);
