@@ -46,6 +46,11 @@ int exportVolumes(const ExportOptions& options) {
         bench::exportVolumes(run.spec, options.out, bench::commandLine(), progress, [] { return interrupted(); });
     printer.ended(run, bench::RunStatus::done, "");
     for (const std::filesystem::path& series : result.series) std::cout << series.string() << "\n";
+    if (result.gridsDiffer)
+        std::cerr
+            << "every frame has a grid of its own, which extinction.pvd can show and a .vti.series cannot: for one, "
+               "give --region"
+            << std::endl;
     if (!result.aborted) return exitOk;
     std::cerr << "aborted; the frames that are there are whole" << std::endl;
     return exitAborted;

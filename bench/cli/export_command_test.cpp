@@ -84,7 +84,7 @@ double particleMass(const fs::path& vtp) {
 }
 
 TEST_F(ExportCommand, WritesEveryFrameAndSeriesWithTheSimulationsTimes) {
-    const Called called = shortExport("--frames 0:9:4 --format vti,vtp,vdb --resolution 40");
+    const Called called = shortExport("--frames 0:9:4 --format vti,vtp,vdb --resolution 40 --region -5,-2,-5,9,4,5");
     ASSERT_EQ(called.code, 0) << called.err;
     EXPECT_THAT(names(out()), testing::UnorderedElementsAre(
                                   "f000000.vti", "f000000.vtp", "f000000.vdb", "f000000.vtm", "f000000", "f000004.vti",
@@ -110,6 +110,17 @@ TEST_F(ExportCommand, WritesEveryFrameAndSeriesWithTheSimulationsTimes) {
         "assert [round(f['time']*60) for f in s['files']]==[3,7,11]\" '{}/extinction.vti.series'",
         out());
     EXPECT_EQ(std::system(check.c_str()), 0);
+}
+
+TEST_F(ExportCommand, GridsOfDifferentPlacesHaveNoSeriesThatTakesThemForOne) {
+    // One frame is a series; the next lies elsewhere.
+    ASSERT_EQ(shortExport("--frames 0").code, 0);
+    EXPECT_THAT(names(out()), testing::Contains("extinction.vti.series"));
+    const Called called = shortExport("--frames 0:9:4");
+    ASSERT_EQ(called.code, 0);
+    EXPECT_THAT(names(out()), testing::Not(testing::Contains("extinction.vti.series")));
+    EXPECT_EQ(called.out, out() + "/extinction.pvd\n" + out() + "/scene.pvd\n");
+    EXPECT_THAT(called.err, HasSubstr("give --region"));
 }
 
 TEST_F(ExportCommand, TheGridHoldsTheMassOfTheParticles) {

@@ -22,7 +22,7 @@ void VolumeOptions::declareRest(Arguments& arguments) {
                       "cells along the longest edge of a grid, at most 2048; 0: 128, or as the suite says", resolution_,
                       0, bench::mostCellsPerEdge);
     arguments.text("--region", "x0,y0,z0,x1,y1,z1",
-                   "what a grid covers, metres; as far as the cloud reaches unless given", region_);
+                   "what grids cover, metres; unless given, every frame's as far as its cloud reaches", region_);
     arguments.text("--vdb-precision", "half|float", "of .vdb; half unless given", precision_);
 }
 

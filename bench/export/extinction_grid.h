@@ -23,6 +23,7 @@ struct GridPlan {
     double spacingMetres = 1;
     std::array<int, 3> cells{1, 1, 1};
 
+    bool operator==(const GridPlan&) const = default;
     [[nodiscard]] std::int64_t cellCount() const { return std::int64_t{cells[0]} * cells[1] * cells[2]; }
     [[nodiscard]] std::int64_t bytes() const { return cellCount() * static_cast<std::int64_t>(sizeof(float)); }
 };

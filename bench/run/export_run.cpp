@@ -61,6 +61,7 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
         result.aborted = interrupted();
     }
     result.series = exporter.seriesFiles();
+    result.gridsDiffer = exporter.gridsDiffer();
     if (result.aborted) return result;
     progress("frames", frames.last + 1, frames.last + 1);
     for (const fs::path& series : result.series) record.series.push_back(series.filename());

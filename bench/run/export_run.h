@@ -17,7 +17,8 @@ namespace dustbench::bench {
 
 struct ExportResult {
     std::vector<std::filesystem::path> series;
-    bool aborted = false;  ///< `interrupted` said so; what was written is whole
+    bool gridsDiffer = false;  ///< so there is no .vti.series (VolumeExporter)
+    bool aborted = false;      ///< `interrupted` said so; what was written is whole
 };
 
 /// Writes what `spec.volumes` asks for, and export.json, into `folder`. At each of its frames the world and the method
