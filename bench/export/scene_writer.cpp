@@ -119,9 +119,14 @@ void addBlock(vtkMultiBlockDataSet& blocks, const std::string& name, vtkPolyData
 
 }  // namespace
 
-Box groundAround(const std::optional<Box>& cloud, const scene::SceneState& state) {
+Box groundAround(const std::optional<Box>& cloud, const scene::Scene& scene, const scene::SceneState& state) {
     Box box{state.vehicle.position, state.vehicle.position};
     if (cloud) box.include(*cloud);
+    for (std::size_t i = 0; scene.terrain.isFlat() && i < scene.solids.size(); ++i)
+        for (const glm::vec3& position : scene.solids[i].mesh->positions) {
+            const glm::dvec3 place(scene.solidPoses[i].toWorld * glm::vec4(position, 1));
+            box.include({place, place});
+        }
     return {box.least - groundMarginMetres, box.most + groundMarginMetres};
 }
 

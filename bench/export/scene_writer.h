@@ -9,8 +9,10 @@
 
 namespace dustbench::bench {
 
-/// The part of the ground that lies under a cloud and under the vehicle, with a margin around.
-[[nodiscard]] Box groundAround(const std::optional<Box>& cloud, const scene::SceneState& state);
+/// The part of the ground that lies under a cloud and under the vehicle, with a margin around; of a plane, which costs
+/// nothing, also what lies under the solids.
+[[nodiscard]] Box groundAround(const std::optional<Box>& cloud, const scene::Scene& scene,
+                               const scene::SceneState& state);
 
 /// Blocks `terrain`, `body`, `wheel_front_left` … and the solids by their names, in world coordinates, with normals and
 /// (but for the ground) 8-bit sRGB `colour`. `ground` says which part of it, by x and z. The pieces lie in a folder

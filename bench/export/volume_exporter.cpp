@@ -132,7 +132,8 @@ void VolumeExporter::write(const ExportedMoment& moment) {
     }
     if (settings_.formats == std::vector{VolumeFormat::vdb}) return;
     const std::string name = nameOf(moment.frame, "vtm");
-    writeScene(moment.scene, moment.state, groundAround(moment.volume.bounds(), moment.state), time, folder_ / name);
+    writeScene(moment.scene, moment.state, groundAround(moment.volume.bounds(), moment.scene, moment.state), time,
+               folder_ / name);
     addTo("scene.pvd", Series::Kind::pvd, name, time);
 }
 

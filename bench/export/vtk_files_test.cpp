@@ -277,7 +277,7 @@ TEST(SceneFile, BlocksStandWhereTheSceneHasThem) {
     const SmallWorld world;
     const Box cloud{{-20, 0, -10}, {30, 5, 12}};
     for (int again = 0; again < 2; ++again)  // over an older one, too
-        writeScene(world.scene, world.state, groundAround(cloud, world.state), someSeconds,
+        writeScene(world.scene, world.state, groundAround(cloud, world.scene, world.state), someSeconds,
                    folder.path() / "f000007.vtm");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);  // the file and the folder of its pieces
 
@@ -328,6 +328,15 @@ TEST(SceneFile, BlocksStandWhereTheSceneHasThem) {
     EXPECT_LE(bounds[4], -10);
     EXPECT_GE(bounds[5], 12);
     EXPECT_LT(bounds[1] - bounds[0], 50 + 2 * 20 + 2 * 2 + 1e-6);
+}
+
+TEST(SceneFile, APlaneReachesUnderTheSolids) {
+    SmallWorld world;
+    world.scene.solidPoses[0].toWorld[3] = {900, 0, -700, 1};
+    EXPECT_LT(groundAround({}, world.scene, world.state).most.x, 100);
+    world.scene.terrain = {};
+    EXPECT_GT(groundAround({}, world.scene, world.state).most.x, 900);
+    EXPECT_LT(groundAround({}, world.scene, world.state).least.z, -700);
 }
 
 TEST(SceneFile, AVastGroundIsThinnedOut) {
