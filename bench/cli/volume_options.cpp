@@ -18,9 +18,8 @@ void VolumeOptions::declareOptional(Arguments& arguments) {
 void VolumeOptions::declareRest(Arguments& arguments) {
     arguments.text("--format", "NAME,NAME…",
                    "of volumes: vti (grid), htg (octree), vtp (particles), vdb (OpenVDB); vti unless given", formats_);
-    arguments.integer("--resolution",
-                      "cells along the longest edge of a grid, at most 2048; 0: 128, or as the suite says", resolution_,
-                      0, bench::mostCellsPerEdge);
+    arguments.text("--resolution", "N", "cells along the longest edge of a grid, at most 2048; 128 unless given",
+                   resolution_);
     arguments.text("--region", "x0,y0,z0,x1,y1,z1",
                    "what grids cover, metres; unless given, every frame's as far as its cloud reaches", region_);
     arguments.text("--vdb-precision", "half|float", "of .vdb; half unless given", precision_);
@@ -29,7 +28,7 @@ void VolumeOptions::declareRest(Arguments& arguments) {
 std::optional<bench::VolumeSettings> VolumeOptions::over(const std::optional<bench::VolumeSettings>& base) const {
     if (!base && frames_.empty()) {
         for (const auto& [name, given] : {std::pair("--format", !formats_.empty()),
-                                          {"--resolution", resolution_ != 0},
+                                          {"--resolution", !resolution_.empty()},
                                           {"--region", !region_.empty()},
                                           {"--vdb-precision", !precision_.empty()}})
             if (given)
@@ -39,7 +38,7 @@ std::optional<bench::VolumeSettings> VolumeOptions::over(const std::optional<ben
     bench::VolumeSettings settings = base.value_or(bench::VolumeSettings());
     if (!frames_.empty()) settings.frames = bench::parseFrameRange(framesName_, frames_);
     if (!formats_.empty()) settings.formats = bench::parseFormats(formats_);
-    if (resolution_ != 0) settings.resolution = static_cast<int>(resolution_);
+    if (!resolution_.empty()) settings.resolution = bench::parseResolution(resolution_);
     if (!region_.empty()) settings.region = bench::parseRegion(region_);
     if (!precision_.empty()) settings.vdbPrecision = bench::parsePrecision(precision_);
     return settings;

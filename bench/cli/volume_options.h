@@ -1,7 +1,6 @@
 // The options by which `export`, `run` and `suite` say which volumes they write.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -25,8 +24,7 @@ class VolumeOptions {
     void declareRest(Arguments& arguments);
 
     std::string framesName_;
-    std::string frames_, formats_, region_, precision_;
-    std::int64_t resolution_ = 0;
+    std::string frames_, formats_, resolution_, region_, precision_;
 };
 
 }  // namespace dustbench::cli

@@ -95,6 +95,14 @@ std::string regionText(const Box& region) {
     return text;
 }
 
+int parseResolution(std::string_view text) {
+    int cells = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), cells);
+    if (error != std::errc() || end != text.data() + text.size() || cells < 1 || cells > mostCellsPerEdge)
+        throw InputError(fmt::format("resolution: got '{}', allowed: integer 1..{}", text, mostCellsPerEdge));
+    return cells;
+}
+
 bool VolumeSettings::wants(VolumeFormat format) const {
     return std::ranges::find(formats, format) != formats.end();
 }

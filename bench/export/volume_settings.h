@@ -41,7 +41,9 @@ struct Box {
 [[nodiscard]] Box parseRegion(std::string_view text);
 [[nodiscard]] std::string regionText(const Box& region);
 
-inline constexpr std::int64_t mostCellsPerEdge = 2048;
+inline constexpr int mostCellsPerEdge = 2048;
+/// Throws InputError.
+[[nodiscard]] int parseResolution(std::string_view text);
 
 struct VolumeSettings {
     FrameRange frames;
