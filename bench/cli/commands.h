@@ -11,6 +11,7 @@ namespace dustbench::cli {
 [[nodiscard]] Command listCommand();
 [[nodiscard]] Command envCommand();
 [[nodiscard]] Command runCommand();
+[[nodiscard]] Command exportCommand();
 [[nodiscard]] Command suiteCommand();
 [[nodiscard]] Command reproduceCommand();
 

@@ -21,7 +21,7 @@ std::string oneLine(std::string message) {
 
 int run(const std::vector<std::string>& argv) {
     if (!argv.empty() && argv.front() == childCommandName) return measureRunCommand(argv);
-    return dispatch({listCommand(), envCommand(), runCommand(), suiteCommand(), reproduceCommand()},
+    return dispatch({listCommand(), envCommand(), runCommand(), exportCommand(), suiteCommand(), reproduceCommand()},
                     "dustbench " + bench::buildFacts().version, argv);
 }
 

@@ -1,34 +1,16 @@
 #include "bench/cli/plan_runner.h"
 
-#include <signal.h>
-
 #include <algorithm>
 #include <iostream>
 
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
+#include "bench/cli/interruption.h"
 #include "bench/cli/progress_printer.h"
 #include "bench/measure/provenance.h"
 #include "methods/shared/gpu/device.h"
 
 namespace dustbench::cli {
-namespace {
-
-volatile sig_atomic_t interruptions = 0;
-
-void countInterruption(int) {
-    interruptions = interruptions + 1;
-}
-
-/// Ctrl-C and `kill` are asked for between two looks at the child, so that nothing is left half done.
-void listenForInterruption() {
-    struct sigaction action {};
-    action.sa_handler = countInterruption;
-    for (const int signalNumber : {SIGINT, SIGTERM, SIGHUP}) sigaction(signalNumber, &action, nullptr);
-}
-
-}  // namespace
-
 int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,
             const PlanOptions& options) {
     { const gpu::Device mustExist; }
@@ -40,7 +22,7 @@ int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::
     execution.timeoutSeconds = options.timeoutSeconds;
     execution.badInputEnds = options.badInputEnds;
     execution.argv = bench::commandLine();
-    execution.interrupted = [] { return interruptions != 0; };
+    execution.interrupted = [] { return interrupted(); };
     execution.command = [&execution](const std::filesystem::path& spec, const std::filesystem::path& folder) {
         std::vector<std::string> command{"/proc/self/exe", childCommandName, spec.string(), folder.string(), "--"};
         command.insert(command.end(), execution.argv.begin(), execution.argv.end());

@@ -9,8 +9,8 @@
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/text_table.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/data_folder.h"
+#include "bench/cli/volume_options.h"
+#include "bench/cli/world_options.h"
 #include "methods/shared/registry.h"
 #include "methods/shared/stage_clock.h"
 
@@ -18,28 +18,19 @@ namespace dustbench::cli {
 namespace {
 
 struct RunOptions {
-    std::string method, out;
-    std::string scene = bench::RunSpec().scene, drive;
-    std::vector<std::string> parameters;
-    std::int64_t frames = bench::RunSpec().frames, warmup = bench::RunSpec().warmup;
-    std::string size = "640x480", sync = "frame";
-    std::int64_t seed = 1, threads = 0, images = 0;
+    WorldOptions world;
+    VolumeOptions volumes{"--volumes"};
+    std::int64_t frames = bench::RunSpec().frames, images = 0;
+    std::string sync = "frame", out;
 };
 
 bench::RunSpec toSpec(const RunOptions& options) {
-    bench::RunSpec spec;
-    spec.method = findMethod(options.method).id;
-    spec.scene = options.scene;
-    spec.drive = options.drive;
-    (void)files::findData("scene", "scenes", spec.scene, ".toml");
-    if (!spec.drive.empty()) (void)files::findData("drive", "drives", spec.drive, ".csv");
+    bench::RunSpec spec = options.world.toSpec();
     spec.frames = options.frames;
-    spec.warmup = options.warmup;
-    spec.size = bench::parseSize(options.size);
-    spec.seed = static_cast<std::uint64_t>(options.seed);
-    spec.threads = static_cast<int>(options.threads);
     spec.sync = bench::parseSync(options.sync);
     spec.imagesEvery = options.images;
+    spec.volumes = options.volumes.over({});
+    bench::requireVolumesWithinRun(spec);
     return spec;
 }
 
@@ -68,7 +59,7 @@ void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results)
 
 int run(const RunOptions& options) {
     const bench::RunSpec spec = toSpec(options);
-    const auto plan = bench::expandParameters(spec, findMethod(spec.method), parseParameters(options.parameters));
+    const auto plan = bench::expandParameters(spec, findMethod(spec.method), parseParameters(options.world.parameters));
     checkWorlds(plan);
     bench::ResultsFolder results(options.out);
     PlanOptions planOptions;
@@ -84,31 +75,21 @@ int run(const RunOptions& options) {
 
 Command runCommand() {
     auto options = std::make_shared<RunOptions>();
-    return {
-        "run", "Measure one method in one scene",
-        "Parameters with their defaults and what is allowed: `dustbench list methods`.\n"
-        "A list `a,b,c` or a range `a:b:step` (b included) makes one run of each value.",
-        [options](Arguments& arguments) {
-            arguments.required("--method", "ID", "one of `dustbench list methods`", options->method);
-            arguments.text("--scene", "ID", "one of `dustbench list scenes`, or a .toml file", options->scene);
-            arguments.text("--drive", "ID",
-                           "one of `dustbench list drives`, or a .csv file; the scene's own unless given",
-                           options->drive);
-            arguments.texts("-P", "name=value", "sets a parameter of the method or of the world", options->parameters);
-            arguments.integer("--frames", "frames to record", options->frames, 1, 10'000'000);
-            arguments.integer("--warmup", "frames before them that are not recorded", options->warmup, 0, 10'000'000);
-            arguments.text("--size", "WxH", "of the picture, pixels", options->size);
-            arguments.integer("--seed", "of all randomness", options->seed, 0);
-            arguments.integer("--threads", "CPU threads, a software rasteriser's too; 0: one a core", options->threads,
-                              0, 1024);
-            arguments.text("--sync", "frame|stage|none",
-                           "wait for the GPU after every frame, after every stage, or keep two frames in flight",
-                           options->sync);
-            arguments.integer("--images", "save every N-th frame from frame 0 on as PNG and EXR; 0: none",
-                              options->images, 0);
-            arguments.required("--out", "DIR", "folder for the results; made where it is missing", options->out);
-        },
-        [options] { return run(*options); }};
+    return {"run", "Measure one method in one scene",
+            "Parameters with their defaults and what is allowed: `dustbench list methods`.\n"
+            "A list `a,b,c` or a range `a:b:step` (b included) makes one run of each value.",
+            [options](Arguments& arguments) {
+                options->world.declare(arguments);
+                arguments.integer("--frames", "frames to record", options->frames, 1, 10'000'000);
+                arguments.text("--sync", "frame|stage|none",
+                               "wait for the GPU after every frame, after every stage, or keep two frames in flight",
+                               options->sync);
+                arguments.integer("--images", "save every N-th frame from frame 0 on as PNG and EXR; 0: none",
+                                  options->images, 0);
+                options->volumes.declareOptional(arguments);
+                arguments.required("--out", "DIR", "folder for the results; made where it is missing", options->out);
+            },
+            [options] { return run(*options); }};
 }
 
 }  // namespace dustbench::cli

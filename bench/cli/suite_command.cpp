@@ -7,6 +7,7 @@
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/suite_report.h"
+#include "bench/cli/volume_options.h"
 #include "bench/run/suite.h"
 
 namespace dustbench::cli {
@@ -17,12 +18,17 @@ struct SuiteOptions {
     bool quick = false, force = false, retryFailed = false, dryRun = false;
     std::int64_t repetitions = 0;
     double timeoutSeconds = 0;
+    VolumeOptions volumes{"--volumes"};
 };
 
 int runSuite(const SuiteOptions& options) {
     bench::Suite suite = bench::loadSuite(options.suite, options.quick);
     if (!options.order.empty()) suite.order = bench::parseOrder(options.order);
     if (options.repetitions > 0) suite.repetitions = static_cast<int>(options.repetitions);
+    for (bench::PlannedRun& cell : suite.cells) {
+        cell.spec.volumes = options.volumes.over(cell.spec.volumes);
+        bench::requireVolumesWithinRun(cell.spec);
+    }
     const auto plan = bench::planRuns(suite);
     if (options.dryRun) {
         for (const bench::PlannedRun& run : plan)
@@ -63,6 +69,7 @@ Command suiteCommand() {
                                options->order);
                 arguments.number("--timeout", "seconds that one run may take; 0: as the suite says",
                                  options->timeoutSeconds, 0, 1e6);
+                options->volumes.declareOptional(arguments);
                 arguments.flag("--dry-run", "only print the list of runs", options->dryRun);
             },
             [options] { return runSuite(*options); }};

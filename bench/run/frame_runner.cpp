@@ -40,6 +40,10 @@ float largestDifference(const draw::Image& a, const draw::Image& b) {
 
 }  // namespace
 
+std::int64_t stepsBeforeWarmup(const World& world) {
+    return std::max<std::int64_t>(world.prerollSteps(), 1);
+}
+
 FrameRunner::FrameRunner(const RunSpec& spec, World& world, gpu::Device& device, std::unique_ptr<Method> method,
                          bool useGpuTimers)
     : spec_(spec),
@@ -61,6 +65,16 @@ void FrameRunner::stepWithoutPicture(std::int64_t index) {
     if (!method_->wantsPreroll()) return;
     const scene::View view = world_.view(spec_.size.width, spec_.size.height);
     method_->update({index, stepSeconds, world_.state(), world_.dust(), view, StageClock()});
+    device_.finish();
+}
+
+void FrameRunner::updateOnly(std::int64_t index) {
+    world_.readInput();
+    world_.simulate();
+    lastIndex_ = index;
+    const scene::View view = world_.view(spec_.size.width, spec_.size.height);
+    const StageClock unheard;
+    method_->update({index, stepSeconds, world_.state(), world_.dust(), view, unheard});
     device_.finish();
 }
 

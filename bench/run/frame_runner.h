@@ -26,6 +26,9 @@
 
 namespace dustbench::bench {
 
+/// Steps of the world before the warm-up: the preroll, and one at least, to be verified.
+[[nodiscard]] std::int64_t stepsBeforeWarmup(const World& world);
+
 class FrameRunner {
  public:
     /// `useGpuTimers`: only where they were found to be true. `world` and `device` must outlive the runner.
@@ -37,6 +40,8 @@ class FrameRunner {
     /// One step whose picture is drawn twice: right away, as a timed frame is, and again with every stage waited for.
     /// Throws std::runtime_error where the two differ.
     void verifiedStep(std::int64_t index);
+    /// One step of the world and of the method, which sees what it would see in a frame but is not drawn. For exports.
+    void updateOnly(std::int64_t index);
     /// One frame as it is measured; recorded where `index` is 0 or more.
     void frame(std::int64_t index);
     /// Waits for all frames in flight and completes their records.
@@ -44,7 +49,7 @@ class FrameRunner {
 
     /// The last frame over its scene, linear.
     [[nodiscard]] draw::Image picture();
-    /// What the method says of the last frame's cloud (Method::massKept, Method::volume).
+    /// What the method says of the cloud of the last `frame` or `updateOnly` (Method::massKept, Method::volume).
     [[nodiscard]] std::optional<double> massKept() const;
     void volume(VolumeVisitor& visitor) const;
     [[nodiscard]] std::span<const FrameRecord> records() const { return records_; }

@@ -1,16 +1,15 @@
 #include "bench/run/measured_run.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <cstdlib>
-
+#include "bench/export/volume_exporter.h"
 #include "bench/measure/memory_probe.h"
 #include "bench/run/frame_files.h"
 #include "bench/run/frame_runner.h"
 #include "bench/run/results_folder.h"
 #include "bench/run/summary.h"
+#include "bench/run/thread_limit.h"
 #include "methods/shared/registry.h"
 
 namespace dustbench::bench {
@@ -32,10 +31,54 @@ void addMemory(RunRecord& record, const std::string& owner, const MemoryReport& 
     for (const MemoryUse& use : report) record.memory.emplace_back(owner, use);
 }
 
+/// The volumes of a run, which are written between two frames.
+class RunVolumes {
+ public:
+    RunVolumes(const RunSpec& spec, const fs::path& folder, const World& world, std::vector<std::string>& warnings)
+        : spec_(spec), world_(world), warnings_(warnings) {
+        if (spec.volumes) exporter_.emplace(*spec.volumes, folder / "volumes");
+    }
+
+    /// After frame `index`, if its volume was asked for.
+    void write(FrameRunner& runner, std::int64_t index) {
+        if (!exporter_ || !exporter_->settings().frames.contains(index)) return;
+        runner.drain();
+        CollectedVolume volume;
+        runner.volume(volume);
+        if (index == exporter_->settings().frames.first) leaveOutImpossible(volume);
+        exporter_->write({index, spec_.method, volume, world_.scene(), world_.state(), world_.dust()});
+    }
+    /// As summary.csv shows it; empty where no volume was asked for.
+    [[nodiscard]] std::string firstSeries() const {
+        if (!exporter_ || exporter_->seriesFiles().empty()) return {};
+        return "runs/" + runId(spec_) + "/volumes/" + exporter_->seriesFiles().front().filename().string();
+    }
+
+ private:
+    /// A suite asks the same of all its methods: what one of them cannot give is no failure, unless nothing is left.
+    void leaveOutImpossible(const CollectedVolume& volume) {
+        const std::vector<VolumeFormat> asked = exporter_->settings().formats;
+        std::vector<std::string> reasons;
+        for (const VolumeFormat format : asked)
+            if (const std::string reason = whyNotWritable(volume, format); !reason.empty()) {
+                reasons.push_back(
+                    fmt::format("no .{} was written: method {} {}", formatName(format), spec_.method, reason));
+                exporter_->leaveOut(format);
+            }
+        if (exporter_->settings().formats.empty()) requireWritable(volume, asked, spec_.method);
+        warnings_.insert(warnings_.end(), reasons.begin(), reasons.end());
+    }
+
+    const RunSpec& spec_;
+    const World& world_;
+    std::vector<std::string>& warnings_;
+    std::optional<VolumeExporter> exporter_;
+};
+
 /// The untimed steps, of which the last is verified, then warm-up and recorded frames.
 void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, const fs::path& folder,
-               const RunProgress& progress) {
-    const std::int64_t preroll = std::max<std::int64_t>(world.prerollSteps(), 1);
+               RunVolumes& volumes, const RunProgress& progress) {
+    const std::int64_t preroll = stepsBeforeWarmup(world);
     for (std::int64_t step = 0; step < preroll; ++step) {
         progress("preroll", step, preroll);
         const std::int64_t index = step - preroll - spec.warmup;
@@ -49,6 +92,7 @@ void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, con
             progress("frames", index, spec.frames);
         runner.frame(index);
         if (spec.imagesEvery > 0 && index >= 0 && index % spec.imagesEvery == 0) savePicture(runner, folder, index);
+        volumes.write(runner, index);
     }
     runner.drain();
     progress("frames", spec.frames, spec.frames);
@@ -73,7 +117,8 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     record.provenance.device = device.info();
     record.provenance.gpuTimersTrusted = gpu::timerQueriesAreTrue(device);
     FrameRunner runner(spec, world, device, info.create(parameters.method), record.provenance.gpuTimersTrusted);
-    runFrames(spec, world, runner, folder, progress);
+    RunVolumes volumes(spec, folder, world, record.provenance.warnings);
+    runFrames(spec, world, runner, folder, volumes, progress);
 
     if (world.state().timeSeconds > world.driveSeconds() + 0.5 * stepSeconds)
         record.provenance.warnings.push_back(
@@ -92,6 +137,8 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
         record.summary.push_back(std::move(column));
     if (const auto kept = runner.massKept()) record.summary.emplace_back("mass_kept", *kept);
     if (spec.imagesEvery > 0) record.summary.emplace_back("FILE_image", "runs/" + runId(spec) + "/images/f000000.png");
+    if (const std::string series = volumes.firstSeries(); !series.empty())
+        record.summary.emplace_back("FILE_volume", series);
     writeWhole(folder / "frames.csv", framesCsv(runner.records()));
     writeWhole(folder / "stages.csv", stagesCsv(runner.records()));
 }
@@ -104,16 +151,7 @@ RunRecord measureRun(const RunSpec& spec, const fs::path& folder, std::vector<st
     record.spec = spec;
     record.drive = spec.drive;
     record.provenance = startProvenance(std::move(argv));
-    if (spec.threads == 0) {
-        measure(spec, folder, progress, record);
-        return record;
-    }
-    // A software rasteriser counts as well: the run shall use so many threads, not so many and some more.
-    setenv("LP_NUM_THREADS", std::to_string(spec.threads).c_str(), 0);
-    const auto threads = static_cast<std::size_t>(spec.threads);
-    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
-    oneapi::tbb::task_arena arena(spec.threads);
-    arena.execute([&] { measure(spec, folder, progress, record); });
+    withThreads(spec.threads, [&] { measure(spec, folder, progress, record); });
     return record;
 }
 

@@ -7,7 +7,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <set>
 
 #include "bench/run/summary.h"
@@ -21,24 +20,7 @@ namespace {
 constexpr std::string_view hiddenStart = ".unfinished-";
 constexpr std::string_view oldStart = ".replaced-";
 
-InputError cannotWrite(const fs::path& path, const std::string& reason) {
-    return InputError("output folder '" + path.string() + "' cannot be written: " + reason);
-}
-
 }  // namespace
-
-void writeWhole(const fs::path& file, std::string_view content) {
-    const fs::path beside = file.parent_path() / fmt::format(".{}.new", file.filename().string());
-    {
-        std::ofstream stream(beside, std::ios::binary | std::ios::trunc);
-        stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-        stream.flush();
-        if (!stream) throw cannotWrite(file, std::strerror(errno));
-    }
-    std::error_code error;
-    fs::rename(beside, file, error);
-    if (error) throw cannotWrite(file, error.message());
-}
 
 ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)) {
     const fs::path runs = folder_ / "runs";

@@ -7,12 +7,10 @@
 #include <map>
 #include <string>
 
+#include "bench/export/whole_file.h"
 #include "bench/run/run_record.h"
 
 namespace dustbench::bench {
-
-/// Writes beside and renames, so that the file is never half there. Throws InputError where it cannot be written.
-void writeWhole(const std::filesystem::path& file, std::string_view content);
 
 class ResultsFolder {
  public:

@@ -90,6 +90,26 @@ Json provenanceObject(const Provenance& provenance) {
             {"inputs", inputs}};
 }
 
+Json volumesObject(const std::optional<VolumeSettings>& volumes) {
+    if (!volumes) return nullptr;
+    return {{"frames", volumes->frames.text()},
+            {"formats", formatsText(volumes->formats)},
+            {"resolution", volumes->resolution},
+            {"region", volumes->region ? Json(regionText(*volumes->region)) : Json(nullptr)},
+            {"vdb_precision", precisionName(volumes->vdbPrecision)}};
+}
+
+std::optional<VolumeSettings> readVolumes(const Json& json) {
+    if (json.is_null()) return std::nullopt;
+    VolumeSettings volumes;
+    volumes.frames = parseFrameRange("volumes", json.at("frames").get<std::string>());
+    volumes.formats = parseFormats(json.at("formats").get<std::string>());
+    volumes.resolution = json.at("resolution").get<int>();
+    if (!json.at("region").is_null()) volumes.region = parseRegion(json.at("region").get<std::string>());
+    volumes.vdbPrecision = parsePrecision(json.at("vdb_precision").get<std::string>());
+    return volumes;
+}
+
 /// Text that is no UTF-8 (a file name, a child's last words) must not keep a result from being written.
 std::string text(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -128,6 +148,7 @@ std::string toJson(const RunRecord& record) {
                  {"sync", syncName(spec.sync)},
                  {"threads", spec.threads},
                  {"images", spec.imagesEvery},
+                 {"volumes", volumesObject(spec.volumes)},
                  {"parameters", parametersObject(spec.parameters)},
                  {"state_hash", record.stateHash},
                  {"method_hash", record.methodHash.empty() ? Json(nullptr) : Json(record.methodHash)},
@@ -135,6 +156,26 @@ std::string toJson(const RunRecord& record) {
                  {"memory", memory},
                  {"provenance", provenance},
                  {"warnings", record.provenance.warnings}});
+}
+
+std::string toJson(const ExportRecord& record) {
+    const RunSpec& spec = record.spec;
+    Json frames = Json::array();
+    for (const ExportRecord::Moment& moment : record.moments)
+        frames.push_back({{"frame", moment.frame}, {"time_s", moment.timeSeconds}, {"state_hash", moment.stateHash}});
+    return text({{"method", spec.method},
+                 {"scene", spec.scene},
+                 {"drive", record.drive},
+                 {"seed", spec.seed},
+                 {"warmup", spec.warmup},
+                 {"width", spec.size.width},
+                 {"height", spec.size.height},
+                 {"threads", spec.threads},
+                 {"volumes", volumesObject(spec.volumes)},
+                 {"parameters", parametersObject(spec.parameters)},
+                 {"frames", frames},
+                 {"series", record.series},
+                 {"provenance", provenanceObject(record.provenance)}});
 }
 
 StoredRun readRunFile(const std::filesystem::path& file) {
@@ -171,6 +212,7 @@ std::string specToJson(const RunSpec& spec) {
                  {"threads", spec.threads},
                  {"sync", syncName(spec.sync)},
                  {"images", spec.imagesEvery},
+                 {"volumes", volumesObject(spec.volumes)},
                  {"repetition", spec.repetition}});
 }
 
@@ -190,6 +232,7 @@ RunSpec specFromJson(std::string_view text) {
         spec.threads = json.at("threads").get<int>();
         spec.sync = parseSync(json.at("sync").get<std::string>());
         spec.imagesEvery = json.at("images").get<std::int64_t>();
+        spec.volumes = readVolumes(json.at("volumes"));
         spec.repetition = json.at("repetition").get<int>();
         return spec;
     } catch (const nlohmann::json::exception& error) {

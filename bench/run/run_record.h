@@ -43,6 +43,22 @@ struct RunRecord {
 /// run.json as text.
 [[nodiscard]] std::string toJson(const RunRecord& record);
 
+/// What is kept of an export beside its files.
+struct ExportRecord {
+    struct Moment {
+        std::int64_t frame;
+        double timeSeconds;
+        std::string stateHash;
+    };
+    RunSpec spec;
+    std::string drive;  ///< the resolved one
+    std::vector<Moment> moments;
+    std::vector<std::string> series;  ///< names beside it
+    Provenance provenance;
+};
+/// export.json as text.
+[[nodiscard]] std::string toJson(const ExportRecord& record);
+
 /// What a run.json says, as far as summary.csv and resuming need it.
 struct StoredRun {
     std::string runId;

@@ -33,6 +33,11 @@ RunSpec spec() {
 TEST(RunRecord, SpecificationSurvivesItsFile) {
     EXPECT_EQ(canonicalKey(specFromJson(specToJson(spec()))), canonicalKey(spec()));
     EXPECT_EQ(runId(specFromJson(specToJson(spec()))), runId(spec()));
+    RunSpec withVolumes = spec();
+    withVolumes.volumes = VolumeSettings{
+        {2, 10, 4}, {VolumeFormat::htg, VolumeFormat::vdb}, 77, Box{{-1.5, 0.1, 2}, {3, 4, 5}}, VdbPrecision::single};
+    EXPECT_EQ(canonicalKey(specFromJson(specToJson(withVolumes))), canonicalKey(withVolumes));
+    EXPECT_NE(canonicalKey(withVolumes), canonicalKey(spec()));
     EXPECT_THROW((void)specFromJson("{}"), InputError);
     EXPECT_THROW((void)specFromJson("not json"), InputError);
 }

@@ -72,12 +72,24 @@ ParameterTexts canonicalParameters(const MethodInfo& method, const ParameterText
     return all;
 }
 
+void requireVolumesWithinRun(const RunSpec& spec) {
+    if (!spec.volumes || spec.volumes->frames.last < spec.frames) return;
+    throw InputError(fmt::format("volumes: frame {} is beyond the run's end, allowed: frames 0..{} (--frames {})",
+                                 spec.volumes->frames.last, spec.frames - 1, spec.frames));
+}
+
 std::string canonicalKey(const RunSpec& spec) {
     std::string key = fmt::format("method={}\nscene={}\ndrive={}\n", spec.method, spec.scene, spec.drive);
     for (const auto& [name, text] : spec.parameters) key += fmt::format("p.{}={}\n", name, text);
     key += fmt::format("frames={}\nwarmup={}\nsize={}x{}\nseed={}\nthreads={}\nsync={}\nimages={}\nrepetition={}\n",
                        spec.frames, spec.warmup, spec.size.width, spec.size.height, spec.seed, spec.threads,
                        syncName(spec.sync), spec.imagesEvery, spec.repetition);
+    if (spec.volumes) {
+        const VolumeSettings& volumes = *spec.volumes;
+        key += fmt::format("volumes={}\nformats={}\nresolution={}\nregion={}\nvdb_precision={}\n",
+                           volumes.frames.text(), formatsText(volumes.formats), volumes.resolution,
+                           volumes.region ? regionText(*volumes.region) : "", precisionName(volumes.vdbPrecision));
+    }
     return key;
 }
 

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "bench/export/volume_settings.h"
 #include "methods/shared/method.h"
 #include "methods/shared/parameters.h"
 
@@ -38,9 +40,13 @@ struct RunSpec {
     std::uint64_t seed = 1;
     int threads = 0;  ///< 0: as many as there are cores
     Sync sync = Sync::frame;
-    std::int64_t imagesEvery = 0;  ///< 0: no images
-    int repetition = 1;            ///< from 1
+    std::int64_t imagesEvery = 0;           ///< 0: no images
+    std::optional<VolumeSettings> volumes;  ///< what is exported besides; none: nothing
+    int repetition = 1;                     ///< from 1
 };
+
+/// Throws InputError where a volume is asked for of a frame that the run does not record.
+void requireVolumesWithinRun(const RunSpec& spec);
 
 /// A specification's values, sorted out into the world's and the method's.
 struct ResolvedParameters {

@@ -43,7 +43,7 @@ TEST(RunSpec, EveryFieldTellsRunsApart) {
     RunSpec base;
     base.method = "haze";
     base.parameters = canonicalParameters(haze(), {});
-    std::vector<RunSpec> specs(13, base);
+    std::vector<RunSpec> specs(19, base);
     specs[1].method = "mist";
     specs[2].scene = "hills";
     specs[3].drive = "slalom";
@@ -56,9 +56,30 @@ TEST(RunSpec, EveryFieldTellsRunsApart) {
     specs[10].sync = Sync::stage;
     specs[11].imagesEvery = 60;
     specs[12].repetition = 2;
+    for (std::size_t i = 13; i < specs.size(); ++i) specs[i].volumes.emplace();
+    specs[14].volumes->frames = {0, 8, 4};
+    specs[15].volumes->formats = {VolumeFormat::vti, VolumeFormat::vtp};
+    specs[16].volumes->resolution = 64;
+    specs[17].volumes->region = Box{{0, 0, 0}, {1, 2, 3}};
+    specs[18].volumes->vdbPrecision = VdbPrecision::single;
     std::set<std::string> ids;
     for (const RunSpec& spec : specs) ids.insert(runId(spec));
     EXPECT_EQ(ids.size(), specs.size());
+}
+
+TEST(RunSpec, VolumesOfFramesThatAreNotRecordedAreRefused) {
+    RunSpec spec;
+    spec.frames = 9;
+    EXPECT_NO_THROW(requireVolumesWithinRun(spec));
+    spec.volumes.emplace().frames = {0, 8, 4};
+    EXPECT_NO_THROW(requireVolumesWithinRun(spec));
+    spec.frames = 8;
+    EXPECT_THAT(messageOf([&] { requireVolumesWithinRun(spec); }),
+                testing::AllOf(testing::HasSubstr("frame 8"), testing::HasSubstr("0..7")));
+}
+
+TEST(RunSpec, ARunWithoutVolumesSaysNothingOfThem) {
+    EXPECT_THAT(canonicalKey(RunSpec()), testing::Not(testing::HasSubstr("volume")));
 }
 
 TEST(RunSpec, IdIsAReadablePlainFolderName) {

@@ -89,6 +89,34 @@ std::vector<std::string> allMethods() {
     return ids;
 }
 
+/// `volumes` asks for them; the other keys say more about it.
+void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volumes) {
+    const auto read = [&](const std::string& key, const auto& apply) {
+        if (!table.has(key)) return;
+        if (!volumes)
+            throw InputError(table.where(key) + "key '" + key +
+                             "': got it without 'volumes', which says of which frames");
+        try {
+            apply(key);
+        } catch (const InputError& error) {
+            const std::string message = error.what();
+            throw message.starts_with(table.where(key)) ? error : at(table.where(key), error);
+        }
+    };
+    if (table.has("volumes") && !volumes) volumes.emplace();
+    read("volumes", [&](const std::string& key) { volumes->frames = parseFrameRange(key, table.text(key, "")); });
+    read("formats", [&](const std::string& key) {
+        std::string joined;
+        for (const std::string& name : table.texts(key)) joined.append(joined.empty() ? "" : ",").append(name);
+        volumes->formats = parseFormats(joined);
+    });
+    read("resolution", [&](const std::string& key) {
+        volumes->resolution = static_cast<int>(table.integer(key, 1, mostCellsPerEdge, volumes->resolution));
+    });
+    read("region", [&](const std::string& key) { volumes->region = parseRegion(table.text(key, "")); });
+    read("vdb_precision", [&](const std::string& key) { volumes->vdbPrecision = parsePrecision(table.text(key, "")); });
+}
+
 void readDraft(files::TomlReader& table, Draft& draft) {
     readNames(table, "methods", draft.methods, [](const std::string& id) {
         if (id != "all") (void)findMethod(id);
@@ -108,6 +136,7 @@ void readDraft(files::TomlReader& table, Draft& draft) {
         table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), static_cast<std::int64_t>(base.seed)));
     base.threads = static_cast<int>(table.integer("threads", 0, 1024, base.threads));
     base.imagesEvery = table.integer("images", 0, mostFrames, base.imagesEvery);
+    readVolumes(table, base.volumes);
     if (table.has("sync")) base.sync = parseSync(table.choice("sync", {"frame", "stage", "none"}));
 
     Suite& suite = draft.suite;
@@ -142,6 +171,7 @@ void readDraft(files::TomlReader& table, Draft& draft) {
 }
 
 Suite multiplyOut(Draft draft) {
+    requireVolumesWithinRun(draft.base);
     Suite suite = std::move(draft.suite);
     for (const std::string& id : draft.methods) {
         ParameterLists lists = draft.parameters;

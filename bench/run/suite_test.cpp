@@ -145,5 +145,47 @@ TEST(Suite, EverySuiteOfTheProjectCanBePlanned) {
         }
 }
 
+TEST(Suite, AsksForVolumesOfEveryRun) {
+    const char* text = R"(
+methods = ["billboard"]
+frames = 20
+volumes = "0:20:10"
+formats = ["vtp", "vti"]
+resolution = 64
+region = "0,0,0,1,2,3"
+vdb_precision = "float"
+[quick]
+frames = 4
+volumes = "0:4:2"
+)";
+    const Suite whole = parseSuite(text, "s.toml", false);
+    ASSERT_TRUE(whole.cells.at(0).spec.volumes);
+    const VolumeSettings& volumes = *whole.cells.at(0).spec.volumes;
+    EXPECT_EQ(volumes.frames.text(), "0:11:10");
+    EXPECT_EQ(formatsText(volumes.formats), "vti,vtp");
+    EXPECT_EQ(volumes.resolution, 64);
+    EXPECT_EQ(regionText(volumes.region.value()), "0,0,0,1,2,3");
+    EXPECT_EQ(volumes.vdbPrecision, VdbPrecision::single);
+    const Suite quick = parseSuite(text, "s.toml", true);
+    EXPECT_EQ(quick.cells.at(0).spec.volumes.value().frames.last, 2);
+    EXPECT_EQ(quick.cells.at(0).spec.volumes.value().resolution, 64);
+    EXPECT_FALSE(parseSuite("methods = [\"billboard\"]", "s.toml", false).cells.at(0).spec.volumes);
+}
+
+TEST(Suite, SaysWhereVolumesAreAskedForWrongly) {
+    const std::vector<std::pair<std::string, std::string>> mistakes{
+        {"volumes = \"5:1\"", "reversed"},
+        {"volumes = 5", "volumes"},
+        {"volumes = \"0\"\nformats = [\"vtk\"]", "'vtk'"},
+        {"volumes = \"0\"\nresolution = 4096", "2048"},
+        {"volumes = \"0\"\nregion = \"0,0,0\"", "3 numbers"},
+        {"volumes = \"0\"\nvdb_precision = \"double\"", "half|float"},
+        {"formats = [\"vti\"]", "without 'volumes'"},
+    };
+    for (const auto& [lines, expected] : mistakes)
+        EXPECT_THAT(messageOf(lines), AllOf(HasSubstr("s.toml:"), HasSubstr(expected))) << lines;
+    EXPECT_THAT(messageOf("frames = 4\nvolumes = \"4\""), HasSubstr("frame 4 is beyond"));
+}
+
 }  // namespace
 }  // namespace dustbench::bench

@@ -1,0 +1,74 @@
+// `dustbench export`: the volumes of one method's run, without measuring it.
+#include <iostream>
+#include <memory>
+
+#include "bench/cli/commands.h"
+#include "bench/cli/exit_codes.h"
+#include "bench/cli/interruption.h"
+#include "bench/cli/progress_printer.h"
+#include "bench/cli/shared_options.h"
+#include "bench/cli/volume_options.h"
+#include "bench/cli/world_options.h"
+#include "bench/measure/provenance.h"
+#include "bench/run/export_run.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/registry.h"
+
+namespace dustbench::cli {
+namespace {
+
+struct ExportOptions {
+    WorldOptions world;
+    VolumeOptions volumes{"--frames"};
+    std::string out;
+};
+
+bench::PlannedRun plannedExport(const ExportOptions& options) {
+    bench::RunSpec spec = options.world.toSpec();
+    spec.volumes = options.volumes.over(bench::VolumeSettings());
+    spec.frames = spec.volumes->frames.last + 1;
+    const auto runs = bench::expandParameters(spec, findMethod(spec.method), parseParameters(options.world.parameters));
+    if (runs.size() != 1)
+        throw InputError("-P: got " + std::to_string(runs.size()) +
+                         " combinations of values, allowed for an export: one value for each parameter");
+    return runs.front();
+}
+
+int exportVolumes(const ExportOptions& options) {
+    const bench::PlannedRun run = plannedExport(options);
+    listenForInterruption();
+    ProgressPrinter printer;
+    printer.started(1, 1, run, 1, -1);
+    const auto progress = [&printer](std::string_view phase, std::int64_t done, std::int64_t total) {
+        printer.heard(std::string(phase) + " " + std::to_string(done) + " " + std::to_string(total));
+    };
+    const bench::ExportResult result =
+        bench::exportVolumes(run.spec, options.out, bench::commandLine(), progress, [] { return interrupted(); });
+    printer.ended(run, bench::RunStatus::done, "");
+    for (const std::filesystem::path& series : result.series) std::cout << series.string() << "\n";
+    if (result.gridsDiffer)
+        std::cerr
+            << "every frame has a grid of its own, which extinction.pvd can show and a .vti.series cannot: for one, "
+               "give --region"
+            << std::endl;
+    if (!result.aborted) return exitOk;
+    std::cerr << "aborted; the frames that are there are whole" << std::endl;
+    return exitAborted;
+}
+
+}  // namespace
+
+Command exportCommand() {
+    auto options = std::make_shared<ExportOptions>();
+    return {"export", "Write a method's volumes for ParaView, Blender, Houdini …",
+            "The state at a frame is the very one that `run` has there. The files, and what they hold:\n"
+            "reports/SCHEMA.md. Prints the series: what to open.",
+            [options](Arguments& arguments) {
+                options->world.declare(arguments);
+                options->volumes.declareRequired(arguments);
+                arguments.required("--out", "DIR", "folder for the files; made where it is missing", options->out);
+            },
+            [options] { return exportVolumes(*options); }};
+}
+
+}  // namespace dustbench::cli

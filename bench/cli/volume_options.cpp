@@ -1,0 +1,47 @@
+#include "bench/cli/volume_options.h"
+
+#include "methods/shared/errors.h"
+
+namespace dustbench::cli {
+
+void VolumeOptions::declareRequired(Arguments& arguments) {
+    arguments.required(framesName_, "A:B:STEP", "every STEP-th frame from A on, without B; also A:B, or A alone",
+                       frames_);
+    declareRest(arguments);
+}
+
+void VolumeOptions::declareOptional(Arguments& arguments) {
+    arguments.text(framesName_, "A:B:STEP", "write volumes of every STEP-th frame from A on, without B", frames_);
+    declareRest(arguments);
+}
+
+void VolumeOptions::declareRest(Arguments& arguments) {
+    arguments.text("--format", "NAME,NAME…",
+                   "of volumes: vti (grid), htg (octree), vtp (particles), vdb (OpenVDB); vti unless given", formats_);
+    arguments.text("--resolution", "N", "cells along the longest edge of a grid, at most 2048; 128 unless given",
+                   resolution_);
+    arguments.text("--region", "x0,y0,z0,x1,y1,z1",
+                   "what grids cover, metres; unless given, every frame's as far as its cloud reaches", region_);
+    arguments.text("--vdb-precision", "half|float", "of .vdb; half unless given", precision_);
+}
+
+std::optional<bench::VolumeSettings> VolumeOptions::over(const std::optional<bench::VolumeSettings>& base) const {
+    if (!base && frames_.empty()) {
+        for (const auto& [name, given] : {std::pair("--format", !formats_.empty()),
+                                          {"--resolution", !resolution_.empty()},
+                                          {"--region", !region_.empty()},
+                                          {"--vdb-precision", !precision_.empty()}})
+            if (given)
+                throw InputError(std::string(name) + ": given without " + framesName_ + ", which says of which frames");
+        return std::nullopt;
+    }
+    bench::VolumeSettings settings = base.value_or(bench::VolumeSettings());
+    if (!frames_.empty()) settings.frames = bench::parseFrameRange(framesName_, frames_);
+    if (!formats_.empty()) settings.formats = bench::parseFormats(formats_);
+    if (!resolution_.empty()) settings.resolution = bench::parseResolution(resolution_);
+    if (!region_.empty()) settings.region = bench::parseRegion(region_);
+    if (!precision_.empty()) settings.vdbPrecision = bench::parsePrecision(precision_);
+    return settings;
+}
+
+}  // namespace dustbench::cli

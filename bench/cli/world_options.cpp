@@ -1,0 +1,34 @@
+#include "bench/cli/world_options.h"
+
+#include "methods/shared/files/data_folder.h"
+#include "methods/shared/registry.h"
+
+namespace dustbench::cli {
+
+void WorldOptions::declare(Arguments& arguments) {
+    arguments.required("--method", "ID", "one of `dustbench list methods`", method);
+    arguments.text("--scene", "ID", "one of `dustbench list scenes`, or a .toml file", scene);
+    arguments.text("--drive", "ID", "one of `dustbench list drives`, or a .csv file; the scene's own unless given",
+                   drive);
+    arguments.texts("-P", "name=value", "sets a parameter of the method or of the world", parameters);
+    arguments.integer("--warmup", "frames before frame 0, which are not recorded", warmup, 0, 10'000'000);
+    arguments.text("--size", "WxH", "of the picture, pixels", size);
+    arguments.integer("--seed", "of all randomness", seed, 0);
+    arguments.integer("--threads", "CPU threads, a software rasteriser's too; 0: one a core", threads, 0, 1024);
+}
+
+bench::RunSpec WorldOptions::toSpec() const {
+    bench::RunSpec spec;
+    spec.method = findMethod(method).id;
+    spec.scene = scene;
+    spec.drive = drive;
+    (void)files::findData("scene", "scenes", spec.scene, ".toml");
+    if (!spec.drive.empty()) (void)files::findData("drive", "drives", spec.drive, ".csv");
+    spec.warmup = warmup;
+    spec.size = bench::parseSize(size);
+    spec.seed = static_cast<std::uint64_t>(seed);
+    spec.threads = static_cast<int>(threads);
+    return spec;
+}
+
+}  // namespace dustbench::cli

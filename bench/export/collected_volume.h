@@ -1,0 +1,56 @@
+// What a method handed over of one frame's cloud, kept: its parts are wanted several times.
+//
+// Units: metres, seconds, extinction per metre. Frame: world. Owns: copies.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "bench/export/volume_settings.h"
+#include "methods/shared/volume.h"
+
+namespace dustbench::bench {
+
+struct CollectedPuff {
+    glm::vec3 centre;
+    float radiusMetres;
+    float opacity;  ///< peak opacity α
+};
+
+struct CollectedOctree {
+    glm::dvec3 originMetres;
+    double edgeMetres;
+    int depth;
+    std::vector<OctreeVoxel> voxels;  ///< in pre-order, as OctreeVolume says
+
+    [[nodiscard]] double cellEdgeMetres(int level) const { return edgeMetres / static_cast<double>(1u << level); }
+    [[nodiscard]] glm::dvec3 leastCorner(const OctreeVoxel& voxel) const {
+        return originMetres + glm::dvec3(voxel.x, voxel.y, voxel.z) * cellEdgeMetres(voxel.level);
+    }
+};
+
+class CollectedVolume final : public VolumeVisitor {
+ public:
+    /// Throws std::runtime_error with the particle's serial where a puff is not made of finite numbers.
+    void puffs(const particles::ParticleStore& puffs) override;
+    /// Throws std::runtime_error with the voxel where it lies outside the tree or its extinction is no finite number.
+    void octree(const OctreeVolume& volume) override;
+
+    [[nodiscard]] const std::vector<CollectedPuff>& puffs() const { return puffs_; }
+    [[nodiscard]] const std::vector<CollectedOctree>& octrees() const { return octrees_; }
+    /// Nothing was handed over, not even an empty cloud.
+    [[nodiscard]] bool isNothing() const { return !anyPuffs_ && octrees_.empty(); }
+    /// A tree can be written as a tree where it is the whole cloud.
+    [[nodiscard]] bool isOneOctree() const { return octrees_.size() == 1 && !anyPuffs_; }
+    /// What holds the cloud: voxels whole, puffs to 4s around their centres (where 0.006 % of a puff's mass is left
+    /// out along each axis). None: there is no extinction anywhere.
+    [[nodiscard]] std::optional<Box> bounds() const;
+
+ private:
+    bool anyPuffs_ = false;
+    std::vector<CollectedPuff> puffs_;  ///< those with a mass
+    std::vector<CollectedOctree> octrees_;
+};
+
+}  // namespace dustbench::bench

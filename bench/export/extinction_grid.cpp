@@ -1,0 +1,171 @@
+#include "bench/export/extinction_grid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "methods/shared/errors.h"
+#include "methods/shared/maths/transmittance.h"
+#include "methods/shared/parallel/for_each_block.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr double reachDeviations = 5;
+constexpr int slabCells = 4;
+
+/// Both shapes are a mass times one distribution along each axis; `below` is its share on the lesser side of a
+/// coordinate. A cell's average is then mass / volume · Π over the axes of [below(its end) − below(its beginning)].
+struct GaussianShape {
+    glm::dvec3 centre;
+    double reachMetres;
+    double scale;  ///< 1 / (√2·s)
+    double massSquareMetres;
+
+    explicit GaussianShape(const CollectedPuff& puff)
+        : centre(puff.centre),
+          reachMetres(reachDeviations * maths::puffDeviationMetres(static_cast<double>(puff.radiusMetres))),
+          scale(reachDeviations / (std::numbers::sqrt2 * reachMetres)),
+          massSquareMetres(
+              maths::puffMassSquareMetres(static_cast<double>(puff.opacity), static_cast<double>(puff.radiusMetres))) {}
+    [[nodiscard]] double begin(int axis) const { return centre[axis] - reachMetres; }
+    [[nodiscard]] double end(int axis) const { return centre[axis] + reachMetres; }
+    [[nodiscard]] double below(int axis, double coordinate) const {
+        return 0.5 * std::erf((coordinate - centre[axis]) * scale);
+    }
+};
+
+struct CubeShape {
+    glm::dvec3 corner;
+    double edgeMetres;
+    double massSquareMetres;
+
+    CubeShape(const CollectedOctree& octree, const OctreeVoxel& voxel)
+        : corner(octree.leastCorner(voxel)),
+          edgeMetres(octree.cellEdgeMetres(voxel.level)),
+          massSquareMetres(static_cast<double>(voxel.extinctionPerMetre) * edgeMetres * edgeMetres * edgeMetres) {}
+    [[nodiscard]] double begin(int axis) const { return corner[axis]; }
+    [[nodiscard]] double end(int axis) const { return corner[axis] + edgeMetres; }
+    [[nodiscard]] double below(int axis, double coordinate) const {
+        return std::clamp((coordinate - corner[axis]) / edgeMetres, 0.0, 1.0);
+    }
+};
+
+/// The cells of one axis that a shape reaches, and its share in each of them.
+struct Run {
+    int first = 0;
+    std::vector<float> share;
+
+    /// False where it reaches none of the cells firstCell..endCell.
+    template <typename Shape>
+    bool fill(const Shape& shape, int axis, const GridPlan& plan, int firstCell, int endCell) {
+        const double origin = plan.origin[axis], spacing = plan.spacingMetres;
+        const auto held = [&](double cell) {
+            return static_cast<int>(std::clamp(cell, static_cast<double>(firstCell), static_cast<double>(endCell)));
+        };
+        first = held(std::floor((shape.begin(axis) - origin) / spacing));
+        const int end = held(std::ceil((shape.end(axis) - origin) / spacing));
+        if (first >= end) return false;
+        share.resize(static_cast<std::size_t>(end - first));
+        double before = shape.below(axis, origin + first * spacing);
+        for (int cell = first; cell < end; ++cell) {
+            const double after = shape.below(axis, origin + (cell + 1) * spacing);
+            share[static_cast<std::size_t>(cell - first)] = static_cast<float>(after - before);
+            before = after;
+        }
+        return true;
+    }
+};
+
+/// The part of the grid between two of its z layers, to which shapes are added one after the other.
+class Slab {
+ public:
+    Slab(ExtinctionGrid& grid, int firstLayer, int endLayer)
+        : plan_(grid.plan), values_(grid.extinctionPerMetre), firstLayer_(firstLayer), endLayer_(endLayer) {}
+
+    template <typename Shape>
+    void add(const Shape& shape) {
+        if (!along_[2].fill(shape, 2, plan_, firstLayer_, endLayer_)) return;
+        if (!along_[1].fill(shape, 1, plan_, 0, plan_.cells[1])) return;
+        if (!along_[0].fill(shape, 0, plan_, 0, plan_.cells[0])) return;
+        const double spacing = plan_.spacingMetres;
+        const auto density = static_cast<float>(shape.massSquareMetres / (spacing * spacing * spacing));
+        const std::size_t count = along_[0].share.size();
+        const float* const shareX = along_[0].share.data();
+        for (std::size_t k = 0; k < along_[2].share.size(); ++k)
+            for (std::size_t j = 0; j < along_[1].share.size(); ++j) {
+                const float factor = density * along_[2].share[k] * along_[1].share[j];
+                float* const row =
+                    &values_[offset(along_[1].first + static_cast<int>(j), along_[2].first + static_cast<int>(k))];
+                for (std::size_t i = 0; i < count; ++i) row[i] += factor * shareX[i];
+            }
+    }
+
+ private:
+    [[nodiscard]] std::size_t offset(int j, int k) const {
+        return (static_cast<std::size_t>(k) * static_cast<std::size_t>(plan_.cells[1]) + static_cast<std::size_t>(j)) *
+                   static_cast<std::size_t>(plan_.cells[0]) +
+               static_cast<std::size_t>(along_[0].first);
+    }
+
+    const GridPlan& plan_;
+    std::vector<float>& values_;
+    int firstLayer_, endLayer_;
+    std::array<Run, 3> along_;
+};
+
+/// Gibibytes for people, and the bytes themselves.
+std::string bytesText(std::int64_t bytes) {
+    return fmt::format("{} bytes ({:.1f} GiB)", bytes, static_cast<double>(bytes) / (1 << 30));
+}
+
+}  // namespace
+
+GridPlan planGrid(const std::optional<Box>& box, int resolution) {
+    GridPlan plan;
+    if (!box) return plan;
+    const glm::dvec3 extent = box->extent();
+    plan.origin = box->least;
+    plan.spacingMetres = std::max({extent.x, extent.y, extent.z}) / resolution;
+    for (int axis = 0; axis < 3; ++axis) {
+        // What rounding leaves over a whole number of cells needs no further one.
+        const double cells = std::ceil(extent[axis] / plan.spacingMetres - 1e-9);
+        plan.cells[static_cast<std::size_t>(axis)] = std::clamp(static_cast<int>(cells), 1, resolution);
+    }
+    return plan;
+}
+
+void requireMemory(const GridPlan& plan, const VolumeSettings& settings, std::int64_t availableBytes) {
+    // OpenVDB keeps a second copy, in blocks, at worst of all cells and a tenth more for the tree.
+    const bool grid = settings.wants(VolumeFormat::vti), vdb = settings.wants(VolumeFormat::vdb);
+    if (!grid && !vdb) return;
+    const std::int64_t needed = plan.bytes() + (vdb ? plan.bytes() / 10 * 11 : 0);
+    if (needed <= availableBytes) return;
+    throw InputError(
+        fmt::format("resolution: a grid of {}x{}x{} cells needs {}, but only {} are available; allowed: "
+                    "a lower --resolution or a flatter --region",
+                    plan.cells[0], plan.cells[1], plan.cells[2], bytesText(needed), bytesText(availableBytes)));
+}
+
+double ExtinctionGrid::massSquareMetres() const {
+    double sum = 0;
+    for (const float extinction : extinctionPerMetre) sum += static_cast<double>(extinction);
+    return sum * plan.spacingMetres * plan.spacingMetres * plan.spacingMetres;
+}
+
+ExtinctionGrid computeGrid(const CollectedVolume& volume, const GridPlan& plan) {
+    ExtinctionGrid grid{plan, std::vector<float>(static_cast<std::size_t>(plan.cellCount()))};
+    // Every cell takes its shares in the order of the shapes, whichever slab it is in.
+    parallel::forEachBlock(static_cast<std::size_t>(plan.cells[2]), slabCells,
+                           [&](std::size_t first, std::size_t count) {
+                               Slab slab(grid, static_cast<int>(first), static_cast<int>(first + count));
+                               for (const CollectedPuff& puff : volume.puffs()) slab.add(GaussianShape(puff));
+                               for (const CollectedOctree& octree : volume.octrees())
+                                   for (const OctreeVoxel& voxel : octree.voxels) slab.add(CubeShape(octree, voxel));
+                           });
+    return grid;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,166 @@
+#include "bench/export/scene_writer.h"
+
+#include <vtkCellArray.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkFloatArray.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkXMLMultiBlockDataWriter.h>
+
+#include <cmath>
+
+#include "bench/export/vtk_file.h"
+#include "bench/export/whole_file.h"
+#include "methods/shared/draw/image.h"
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double groundMarginMetres = 20;
+constexpr std::int64_t mostGroundPoints = 1 << 18;
+
+/// Points, normals and triangles, put together one by one.
+class Surface {
+ public:
+    Surface() { normals_->SetNumberOfComponents(3); }
+
+    void addPoint(const glm::dvec3& position, const glm::vec3& normal) {
+        points_->InsertNextPoint(position.x, position.y, position.z);
+        normals_->InsertNextTuple3(static_cast<double>(normal.x), static_cast<double>(normal.y),
+                                   static_cast<double>(normal.z));
+    }
+    void addTriangle(std::int64_t a, std::int64_t b, std::int64_t c) { triangles_->InsertNextCell({a, b, c}); }
+
+    [[nodiscard]] vtkNew<vtkPolyData> finish() {
+        vtkNew<vtkPolyData> surface;
+        normals_->SetName("Normals");
+        surface->SetPoints(points_);
+        surface->SetPolys(triangles_);
+        surface->GetPointData()->SetNormals(normals_);
+        return surface;
+    }
+
+ private:
+    vtkNew<vtkPoints> points_;
+    vtkNew<vtkFloatArray> normals_;
+    vtkNew<vtkCellArray> triangles_;
+};
+
+/// A flat ground is one rectangle; a height field's are its own samples, of which every second, fourth … is left out
+/// where they would be too many.
+vtkNew<vtkPolyData> groundSurface(const scene::Terrain& terrain, const Box& part) {
+    glm::dvec2 origin(part.least.x, part.least.z);
+    glm::dvec2 step(part.extent().x, part.extent().z);
+    std::int64_t first[2] = {0, 0}, last[2] = {1, 1};
+    if (!terrain.isFlat()) {
+        origin = terrain.origin();
+        for (double spacing = static_cast<double>(terrain.spacingMetres());; spacing *= 2) {
+            step = glm::dvec2(spacing);
+            for (int axis = 0; axis < 2; ++axis) {
+                const int side = 2 * axis;  // x, z
+                first[axis] = std::llround(std::floor((part.least[side] - origin[axis]) / spacing));
+                last[axis] = std::llround(std::ceil((part.most[side] - origin[axis]) / spacing));
+            }
+            if ((last[0] - first[0] + 1) * (last[1] - first[1] + 1) <= mostGroundPoints) break;
+        }
+    }
+    Surface surface;
+    for (std::int64_t j = first[1]; j <= last[1]; ++j)
+        for (std::int64_t i = first[0]; i <= last[0]; ++i) {
+            const double x = origin.x + static_cast<double>(i) * step.x;
+            const double z = origin.y + static_cast<double>(j) * step.y;
+            const auto nearX = static_cast<float>(x), nearZ = static_cast<float>(z);
+            surface.addPoint({x, static_cast<double>(terrain.heightAt(nearX, nearZ)), z},
+                             terrain.normalAt(nearX, nearZ));
+        }
+    // Divided as the picture's ground is (draw/ground_lattice).
+    const std::int64_t across = last[0] - first[0] + 1;
+    for (std::int64_t j = 0; j < last[1] - first[1]; ++j)
+        for (std::int64_t i = 0; i + 1 < across; ++i) {
+            const std::int64_t a = j * across + i, b = a + 1, c = a + across, d = c + 1;
+            surface.addTriangle(a, c, d);
+            surface.addTriangle(a, d, b);
+        }
+    return surface.finish();
+}
+
+vtkNew<vtkPolyData> placed(const scene::Mesh& mesh, const glm::mat4& toWorld) {
+    Surface surface;
+    const glm::mat3 turn(toWorld);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        surface.addPoint(glm::dvec3(glm::dmat4(toWorld) * glm::dvec4(mesh.positions[i], 1)),
+                         glm::normalize(turn * mesh.normals[i]));
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        surface.addTriangle(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]);
+    vtkNew<vtkPolyData> placed = surface.finish();
+    vtkNew<vtkUnsignedCharArray> colours;
+    colours->SetName("colour");
+    colours->SetNumberOfComponents(3);
+    for (const glm::vec3& colour : mesh.colours)
+        for (int channel = 0; channel < 3; ++channel) {
+            const float encoded = draw::encodeSrgb(glm::clamp(colour[channel], 0.0f, 1.0f));
+            colours->InsertNextValue(static_cast<unsigned char>(std::lround(encoded * 255)));
+        }
+    placed->GetPointData()->SetScalars(colours);
+    return placed;
+}
+
+void addBlock(vtkMultiBlockDataSet& blocks, const std::string& name, vtkPolyData* surface) {
+    const unsigned index = blocks.GetNumberOfBlocks();
+    blocks.SetBlock(index, surface);
+    blocks.GetMetaData(index)->Set(vtkCompositeDataSet::NAME(), name.c_str());
+}
+
+}  // namespace
+
+Box groundAround(const std::optional<Box>& cloud, const scene::Scene& scene, const scene::SceneState& state) {
+    Box box{state.vehicle.position, state.vehicle.position};
+    if (cloud) box.include(*cloud);
+    for (std::size_t i = 0; scene.terrain.isFlat() && i < scene.solids.size(); ++i)
+        for (const glm::vec3& position : scene.solids[i].mesh->positions) {
+            const glm::dvec3 place(scene.solidPoses[i].toWorld * glm::vec4(position, 1));
+            box.include({place, place});
+        }
+    return {box.least - groundMarginMetres, box.most + groundMarginMetres};
+}
+
+void writeScene(const scene::Scene& scene, const scene::SceneState& state, const Box& ground, double timeSeconds,
+                const fs::path& file) {
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    addBlock(*blocks, "terrain", groundSurface(scene.terrain, ground));
+    if (scene.vehicle) {
+        const scene::VehiclePoses poses = vehiclePoses(*scene.vehicle, state.vehicle);
+        addBlock(*blocks, "body", placed(*scene.vehicle->body.mesh, poses.body.toWorld));
+        const char* const names[] = {"wheel_front_left", "wheel_front_right", "wheel_rear_left", "wheel_rear_right"};
+        for (std::size_t i = 0; i < poses.wheels.size(); ++i)
+            addBlock(*blocks, names[i], placed(*scene.vehicle->wheel.mesh, poses.wheels[i].toWorld));
+    }
+    for (std::size_t i = 0; i < scene.solids.size(); ++i)
+        addBlock(*blocks, scene.solids[i].name, placed(*scene.solids[i].mesh, scene.solidPoses[i].toWorld));
+    stampTime(*blocks, timeSeconds);
+
+    // VTK puts the pieces into a folder of the file's name, beside the file: both are made elsewhere and then moved,
+    // the folder first, so that the file never names what is not there.
+    WholeFile elsewhere(file);
+    std::error_code error;
+    fs::remove_all(elsewhere.beside(), error);
+    fs::create_directory(elsewhere.beside(), error);
+    if (error) throw cannotWrite(file, error.message());
+    vtkNew<vtkXMLMultiBlockDataWriter> writer;
+    writeVtk(*writer, *blocks, elsewhere.beside() / file.filename());
+    fs::remove(file, error);
+    const fs::path pieces = fs::path(file).replace_extension();
+    fs::remove_all(pieces, error);
+    fs::rename(elsewhere.beside() / pieces.filename(), pieces, error);
+    if (error) throw cannotWrite(pieces, error.message());
+    fs::rename(elsewhere.beside() / file.filename(), file, error);
+    if (error) throw cannotWrite(file, error.message());
+}
+
+}  // namespace dustbench::bench

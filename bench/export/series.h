@@ -1,0 +1,28 @@
+// The files that tie the files of single frames to the simulation's times: `.pvd` for ParaView and PyVista, `.series`
+// for ParaView's file reader.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace dustbench::bench {
+
+class Series {
+ public:
+    enum class Kind { pvd, json };
+
+    Series(std::filesystem::path file, Kind kind) : file_(std::move(file)), kind_(kind) {}
+
+    /// One more frame; `name` is its file beside the series. Rewrites the series whole, so that it never names a file
+    /// that is not complete. Throws InputError where it cannot be written.
+    void add(std::string_view name, double timeSeconds);
+    [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+ private:
+    std::filesystem::path file_;
+    Kind kind_;
+    std::string entries_;
+};
+
+}  // namespace dustbench::bench

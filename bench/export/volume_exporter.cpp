@@ -1,0 +1,146 @@
+#include "bench/export/volume_exporter.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "bench/export/htg_writer.h"
+#include "bench/export/scene_writer.h"
+#include "bench/export/vdb_writer.h"
+#include "bench/export/vti_writer.h"
+#include "bench/export/vtp_writer.h"
+#include "bench/export/whole_file.h"
+#include "bench/measure/memory_probe.h"
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+
+std::string whyNotWritable(const CollectedVolume& volume, VolumeFormat format) {
+    switch (format) {
+        case VolumeFormat::vtp:
+            return {};
+        case VolumeFormat::vti:
+        case VolumeFormat::vdb:
+            return volume.isNothing() ? "hands over no volume" : "";
+        case VolumeFormat::htg:
+            if (volume.isOneOctree()) return {};
+            return volume.octrees().empty() ? "hands over no octree" : "hands over more than one octree";
+    }
+    return {};
+}
+
+void requireWritable(const CollectedVolume& volume, const std::vector<VolumeFormat>& formats, std::string_view method) {
+    for (const VolumeFormat format : formats) {
+        const std::string reason = whyNotWritable(volume, format);
+        if (reason.empty()) continue;
+        std::vector<VolumeFormat> possible{VolumeFormat::vti, VolumeFormat::htg, VolumeFormat::vtp, VolumeFormat::vdb};
+        std::erase_if(possible, [&](VolumeFormat each) { return !whyNotWritable(volume, each).empty(); });
+        throw InputError(fmt::format("format {}: method {} {}; formats it can be written as: {}", formatName(format),
+                                     method, reason, formatsText(possible)));
+    }
+}
+
+VolumeExporter::VolumeExporter(VolumeSettings settings, fs::path folder)
+    : settings_(std::move(settings)), folder_(std::move(folder)) {
+    if (settings_.region) requireMemory(planGrid(settings_.region, settings_.resolution), settings_, availableBytes());
+    std::error_code error;
+    madeFolder_ = fs::create_directories(folder_, error);
+    if (error) throw cannotWrite(folder_, error.message());
+    lock_ = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    std::string reason;
+    if (lock_ < 0 || access(folder_.c_str(), W_OK | X_OK) != 0)
+        reason = std::strerror(errno);
+    else if (flock(lock_, LOCK_EX | LOCK_NB) != 0)
+        reason = errno == EWOULDBLOCK ? "another dustbench is writing into it" : std::strerror(errno);
+    if (!reason.empty()) {
+        if (lock_ >= 0) close(lock_);
+        throw cannotWrite(folder_, reason);
+    }
+    removeUnfinished(folder_);
+}
+
+VolumeExporter::~VolumeExporter() {
+    if (madeFolder_) rmdir(folder_.c_str());  // refused where something is in it
+    close(lock_);
+}
+
+void VolumeExporter::leaveOut(VolumeFormat format) {
+    std::erase(settings_.formats, format);
+}
+
+std::string VolumeExporter::nameOf(std::int64_t frame, std::string_view extension) const {
+    return fmt::format("f{:06}.{}", frame, extension);
+}
+
+void VolumeExporter::addTo(const std::string& series, Series::Kind kind, const std::string& name, double timeSeconds) {
+    const fs::path file = folder_ / series;
+    auto found = std::ranges::find(series_, file, &Series::file);
+    if (found == series_.end()) {
+        series_.emplace_back(file, kind);
+        found = std::prev(series_.end());
+    }
+    found->add(name, timeSeconds);
+}
+
+void VolumeExporter::remove(const std::string& series) {
+    std::error_code error;
+    fs::remove(folder_ / series, error);
+    std::erase_if(series_, [&](const Series& each) { return each.file() == folder_ / series; });
+}
+
+void VolumeExporter::writeGrids(const ExportedMoment& moment) {
+    const double time = moment.state.timeSeconds;
+    const GridPlan plan = planGrid(settings_.region ? settings_.region : moment.volume.bounds(), settings_.resolution);
+    requireMemory(plan, settings_, availableBytes());
+    const ExtinctionGrid grid = computeGrid(moment.volume, plan);
+    if (settings_.wants(VolumeFormat::vti)) {
+        const std::string name = nameOf(moment.frame, "vti");
+        writeVti(grid, time, folder_ / name);
+        addTo("extinction.pvd", Series::Kind::pvd, name, time);
+        if (!firstGrid_) firstGrid_ = plan;
+        gridsDiffer_ = gridsDiffer_ || plan != *firstGrid_;
+        if (gridsDiffer_)
+            remove("extinction.vti.series");
+        else
+            addTo("extinction.vti.series", Series::Kind::json, name, time);
+    }
+    if (settings_.wants(VolumeFormat::vdb)) {
+        const std::string name = nameOf(moment.frame, "vdb");
+        writeVdb(grid, settings_.vdbPrecision, moment.frame, time, folder_ / name);
+        addTo("density.vdb.series", Series::Kind::json, name, time);
+    }
+}
+
+void VolumeExporter::write(const ExportedMoment& moment) {
+    requireWritable(moment.volume, settings_.formats, moment.method);
+    const double time = moment.state.timeSeconds;
+    if (settings_.wants(VolumeFormat::vti) || settings_.wants(VolumeFormat::vdb)) writeGrids(moment);
+    if (settings_.wants(VolumeFormat::htg)) {
+        const std::string name = nameOf(moment.frame, "htg");
+        writeHtg(moment.volume.octrees().front(), time, folder_ / name);
+        addTo("octree.pvd", Series::Kind::pvd, name, time);
+    }
+    if (settings_.wants(VolumeFormat::vtp)) {
+        const std::string name = nameOf(moment.frame, "vtp");
+        writeVtp(moment.dust, time, folder_ / name);
+        addTo("particles.pvd", Series::Kind::pvd, name, time);
+    }
+    if (settings_.formats == std::vector{VolumeFormat::vdb}) return;
+    const std::string name = nameOf(moment.frame, "vtm");
+    writeScene(moment.scene, moment.state, groundAround(moment.volume.bounds(), moment.scene, moment.state), time,
+               folder_ / name);
+    addTo("scene.pvd", Series::Kind::pvd, name, time);
+}
+
+std::vector<fs::path> VolumeExporter::seriesFiles() const {
+    std::vector<fs::path> files;
+    for (const Series& series : series_) files.push_back(series.file());
+    return files;
+}
+
+}  // namespace dustbench::bench

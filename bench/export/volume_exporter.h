@@ -1,0 +1,76 @@
+// Writes frames of one run: every format that was asked for, the scene around, and the series over them.
+//
+// In the folder: `f000120.vti .htg .vtp .vdb .vtm` of frame 120, `extinction.pvd extinction.vti.series octree.pvd
+// particles.pvd density.vdb.series scene.pvd` over the frames. The scene comes with every format but .vdb.
+// `extinction.vti.series` exists only while all grids are the same, as with a region: ParaView takes origin, spacing
+// and size of such a series from its first file, and would show the others in the wrong place without a word.
+//
+// Owns: a lock on the folder, so that two programs never write into one. Threads: one at a time; grids use the current
+// oneTBB arena.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/export/collected_volume.h"
+#include "bench/export/extinction_grid.h"
+#include "bench/export/series.h"
+#include "bench/export/volume_settings.h"
+#include "methods/shared/scene/scene.h"
+
+namespace dustbench::bench {
+
+/// Why this cloud cannot be written so (`hands over no octree`), or empty: it can.
+[[nodiscard]] std::string whyNotWritable(const CollectedVolume& volume, VolumeFormat format);
+/// Throws InputError naming the method, the reason and what is possible where one of the formats is not.
+void requireWritable(const CollectedVolume& volume, const std::vector<VolumeFormat>& formats, std::string_view method);
+
+/// What there is of a run at one moment.
+struct ExportedMoment {
+    std::int64_t frame;
+    std::string_view method;  ///< its id
+    const CollectedVolume& volume;
+    const scene::Scene& scene;
+    const scene::SceneState& state;
+    const particles::ParticleStore& dust;
+};
+
+class VolumeExporter {
+ public:
+    /// Makes the folder and clears it of what killed exports left behind. Throws InputError where it cannot be written,
+    /// or where a grid of the region asked for does not fit into memory.
+    VolumeExporter(VolumeSettings settings, std::filesystem::path folder);
+    /// A folder that was made for nothing goes again.
+    ~VolumeExporter();
+    VolumeExporter(const VolumeExporter&) = delete;
+    VolumeExporter& operator=(const VolumeExporter&) = delete;
+
+    [[nodiscard]] const VolumeSettings& settings() const { return settings_; }
+    /// From now on without this format.
+    void leaveOut(VolumeFormat format);
+    /// Throws InputError where a format cannot hold this cloud, the grid does not fit into memory, or a file cannot be
+    /// written.
+    void write(const ExportedMoment& moment);
+    /// The grids lie in different places: there is no `extinction.vti.series`.
+    [[nodiscard]] bool gridsDiffer() const { return gridsDiffer_; }
+    /// The series written so far, those of the formats first, that of the scene last.
+    [[nodiscard]] std::vector<std::filesystem::path> seriesFiles() const;
+
+ private:
+    void writeGrids(const ExportedMoment& moment);
+    [[nodiscard]] std::string nameOf(std::int64_t frame, std::string_view extension) const;
+    void remove(const std::string& series);
+    void addTo(const std::string& series, Series::Kind kind, const std::string& name, double timeSeconds);
+
+    VolumeSettings settings_;
+    std::filesystem::path folder_;
+    bool madeFolder_ = false;
+    int lock_ = -1;
+    std::vector<Series> series_;
+    std::optional<GridPlan> firstGrid_;
+    bool gridsDiffer_ = false;
+};
+
+}  // namespace dustbench::bench

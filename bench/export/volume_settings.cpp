@@ -1,0 +1,110 @@
+#include "bench/export/volume_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "methods/shared/errors.h"
+#include "methods/shared/files/csv.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr std::array<std::string_view, 4> formatNames{"vti", "htg", "vtp", "vdb"};
+constexpr std::array<std::string_view, 2> precisionNames{"half", "float"};
+constexpr double farthestMetres = 1e6;
+constexpr double leastEdgeMetres = 1e-3;
+
+/// Of 'a,b,c': each part, or nothing where a comma is followed by none.
+std::vector<std::string_view> parts(std::string_view text) {
+    std::vector<std::string_view> list;
+    for (;;) {
+        const std::size_t comma = text.find(',');
+        list.push_back(text.substr(0, comma));
+        if (comma == std::string_view::npos) return list;
+        text.remove_prefix(comma + 1);
+    }
+}
+
+}  // namespace
+
+std::string_view formatName(VolumeFormat format) {
+    return formatNames[static_cast<std::size_t>(format)];
+}
+
+std::vector<VolumeFormat> parseFormats(std::string_view text) {
+    std::vector<VolumeFormat> formats;
+    for (const std::string_view name : parts(text)) {
+        const auto found = std::ranges::find(formatNames, name);
+        if (found == formatNames.end())
+            throw InputError(
+                fmt::format("format: got '{}', allowed: vti, htg, vtp, vdb or several of them joined by ','", name));
+        formats.push_back(static_cast<VolumeFormat>(found - formatNames.begin()));
+    }
+    std::ranges::sort(formats);
+    formats.erase(std::ranges::unique(formats).begin(), formats.end());
+    return formats;
+}
+
+std::string formatsText(const std::vector<VolumeFormat>& formats) {
+    std::string text;
+    for (const VolumeFormat format : formats) text.append(text.empty() ? "" : ",").append(formatName(format));
+    return text;
+}
+
+std::string_view precisionName(VdbPrecision precision) {
+    return precisionNames[static_cast<std::size_t>(precision)];
+}
+
+VdbPrecision parsePrecision(std::string_view text) {
+    const auto found = std::ranges::find(precisionNames, text);
+    if (found == precisionNames.end())
+        throw InputError(fmt::format("vdb precision: got '{}', allowed: half|float", text));
+    return static_cast<VdbPrecision>(found - precisionNames.begin());
+}
+
+Box parseRegion(std::string_view text) {
+    const auto refuse = [&](const std::string& why) {
+        return InputError(fmt::format("region: got '{}', {}, expected x0,y0,z0,x1,y1,z1 in metres", text, why));
+    };
+    std::vector<double> numbers;
+    for (const std::string_view part : parts(text)) {
+        double number = 0;
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
+        if (error != std::errc() || end != part.data() + part.size())
+            throw refuse(fmt::format("where '{}' is no number", part));
+        if (!(std::abs(number) <= farthestMetres)) throw refuse("with a number beyond ±1000000");
+        numbers.push_back(number);
+    }
+    if (numbers.size() != 6) throw refuse(fmt::format("which are {} numbers", numbers.size()));
+    const Box box{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(box.most[axis] - box.least[axis] >= leastEdgeMetres))
+            throw refuse(fmt::format("where {0}1 is not at least 0.001 above {0}0", "xyz"[axis]));
+    return box;
+}
+
+std::string regionText(const Box& region) {
+    std::string text;
+    for (const glm::dvec3& corner : {region.least, region.most})
+        for (int axis = 0; axis < 3; ++axis)
+            text.append(text.empty() ? "" : ",").append(files::csvNumber(corner[axis]));
+    return text;
+}
+
+int parseResolution(std::string_view text) {
+    int cells = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), cells);
+    if (error != std::errc() || end != text.data() + text.size() || cells < 1 || cells > mostCellsPerEdge)
+        throw InputError(fmt::format("resolution: got '{}', allowed: integer 1..{}", text, mostCellsPerEdge));
+    return cells;
+}
+
+bool VolumeSettings::wants(VolumeFormat format) const {
+    return std::ranges::find(formats, format) != formats.end();
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,45 @@
+#include "bench/export/volume_settings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bench/scene/test_folder.h"
+
+namespace dustbench::bench {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(VolumeSettings, FormatsAreASet) {
+    EXPECT_EQ(formatsText(parseFormats("vdb,vti,htg,vti,vtp")), "vti,htg,vtp,vdb");
+    EXPECT_EQ(formatsText(parseFormats("htg")), "htg");
+    for (const char* text : {"", "vtk", "VTI", "vti,", ",vti", "vti;htg", "vti, htg"})
+        EXPECT_THAT(inputError([&] { (void)parseFormats(text); }), HasSubstr("allowed: vti, htg, vtp, vdb")) << text;
+}
+
+TEST(VolumeSettings, PrecisionIsOneOfTwo) {
+    for (const VdbPrecision precision : {VdbPrecision::half, VdbPrecision::single})
+        EXPECT_EQ(parsePrecision(precisionName(precision)), precision);
+    EXPECT_THAT(inputError([] { (void)parsePrecision("double"); }), HasSubstr("half|float"));
+}
+
+TEST(VolumeSettings, ARegionSurvivesItsText) {
+    const Box box = parseRegion("-1.5,0,2e1,1,0.25,20.5");
+    EXPECT_EQ(box.least, glm::dvec3(-1.5, 0, 20));
+    EXPECT_EQ(box.most, glm::dvec3(1, 0.25, 20.5));
+    EXPECT_EQ(parseRegion(regionText(box)).least, box.least);
+    EXPECT_EQ(parseRegion(regionText(box)).most, box.most);
+}
+
+TEST(VolumeSettings, ARegionIsSixFiniteNumbersWithRoomBetween) {
+    for (const char* text :
+         {"", "1,2,3", "0,0,0,1,1,1,1", "0,0,0,1,1,x", "0,0,0,1,1,", "0,0,0,1,1,nan", "0,0,0,1,1,inf", "0,0,0,1,1,1e9",
+          "0,0,0,0,1,1", "0,0,0,1,-1,1", "0,0,0,1,1,1e-9", "0:0:0:1:1:1"})
+        EXPECT_THAT(inputError([&] { (void)parseRegion(text); }),
+                    testing::AllOf(testing::StartsWith("region: got '" + std::string(text) + "'"),
+                                   HasSubstr("expected x0,y0,z0,x1,y1,z1")))
+            << text;
+}
+
+}  // namespace
+}  // namespace dustbench::bench

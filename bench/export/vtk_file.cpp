@@ -1,0 +1,50 @@
+#include "bench/export/vtk_file.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkDataObject.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkExecutive.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkXMLWriter.h>
+
+#include <algorithm>
+#include <string>
+
+#include "bench/export/whole_file.h"
+
+namespace dustbench::bench {
+
+void writeVtk(vtkXMLWriter& writer, vtkDataObject& data, const std::filesystem::path& file, Numbers numbers) {
+    std::string complaint;
+    vtkNew<vtkCallbackCommand> listener;
+    listener->SetClientData(&complaint);
+    listener->SetCallback([](vtkObject*, unsigned long, void* client, void* text) {
+        auto& first = *static_cast<std::string*>(client);
+        if (first.empty() && text) first = static_cast<const char*>(text);
+    });
+    writer.AddObserver("ErrorEvent", listener);
+    writer.GetExecutive()->AddObserver("ErrorEvent", listener);
+    writer.SetFileName(file.c_str());
+    writer.SetInputDataObject(&data);
+    writer.SetCompressorTypeToLZ4();
+    writer.SetHeaderTypeToUInt64();
+    numbers == Numbers::appended ? writer.SetDataModeToAppended() : writer.SetDataModeToBinary();
+    writer.EncodeAppendedDataOff();
+    const int written = writer.Write();
+    if (written != 0 && writer.GetErrorCode() == vtkErrorCode::NoError && complaint.empty()) return;
+    if (writer.GetErrorCode() != vtkErrorCode::NoError)
+        complaint = vtkErrorCode::GetStringFromErrorCode(writer.GetErrorCode());
+    std::ranges::replace(complaint, '\n', ' ');
+    throw cannotWrite(file, complaint.empty() ? "VTK's writer failed" : complaint);
+}
+
+void stampTime(vtkDataObject& data, double timeSeconds) {
+    vtkNew<vtkDoubleArray> time;
+    time->SetName("TimeValue");
+    time->InsertNextValue(timeSeconds);
+    data.GetFieldData()->AddArray(time);
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,355 @@
+// VTK's own readers give back what was written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <vtkCellData.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkHyperTreeGrid.h>
+#include <vtkHyperTreeGridNonOrientedGeometryCursor.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLHyperTreeGridReader.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLMultiBlockDataReader.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "bench/export/htg_writer.h"
+#include "bench/export/scene_writer.h"
+#include "bench/export/test_clouds.h"
+#include "bench/export/vti_writer.h"
+#include "bench/export/vtp_writer.h"
+#include "bench/scene/test_folder.h"
+
+namespace dustbench::bench {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr double someSeconds = 2.0 + 1.0 / 60;
+
+void expectTime(vtkDataObject& data) {
+    vtkDataArray* time = data.GetFieldData()->GetArray("TimeValue");
+    ASSERT_NE(time, nullptr);
+    EXPECT_EQ(time->GetTuple1(0), someSeconds);
+}
+
+template <typename Reader>
+void read(Reader& reader, const fs::path& file) {
+    ASSERT_TRUE(reader.CanReadFile(file.c_str()));
+    reader.SetFileName(file.c_str());
+    reader.Update();
+    ASSERT_EQ(reader.GetErrorCode(), 0u);
+}
+
+TEST(VtiFile, ReadsBackEqual) {
+    const TestFolder folder;
+    const CollectedVolume volume = TestDust(500, 10, 0.1f, 1).volume();
+    const ExtinctionGrid grid = computeGrid(volume, planGrid(volume.bounds(), 45));
+    writeVti(grid, someSeconds, folder.path() / "a.vti");
+
+    vtkNew<vtkXMLImageDataReader> reader;
+    read(*reader, folder.path() / "a.vti");
+    vtkImageData& image = *reader->GetOutput();
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(image.GetOrigin()[axis], grid.plan.origin[axis]);
+        EXPECT_EQ(image.GetSpacing()[axis], grid.plan.spacingMetres);
+        EXPECT_EQ(image.GetDimensions()[axis], grid.plan.cells[static_cast<std::size_t>(axis)] + 1);
+    }
+    vtkDataArray* extinction = image.GetCellData()->GetArray("extinction");
+    ASSERT_EQ(extinction->GetDataType(), VTK_FLOAT);
+    ASSERT_EQ(extinction->GetNumberOfTuples(), grid.plan.cellCount());
+    for (vtkIdType cell = 0; cell < extinction->GetNumberOfTuples(); ++cell)
+        ASSERT_EQ(static_cast<float>(extinction->GetTuple1(cell)),
+                  grid.extinctionPerMetre[static_cast<std::size_t>(cell)]);
+    expectTime(image);
+
+    // Where the densest cell lies in the world, by VTK's own reckoning.
+    const auto densest = std::ranges::max_element(grid.extinctionPerMetre) - grid.extinctionPerMetre.begin();
+    double bounds[6];
+    image.GetCellBounds(densest, bounds);
+    const auto i = densest % grid.plan.cells[0], j = densest / grid.plan.cells[0] % grid.plan.cells[1],
+               k = densest / grid.plan.cells[0] / grid.plan.cells[1];
+    const glm::dvec3 corner = grid.plan.origin + grid.plan.spacingMetres * glm::dvec3(i, j, k);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(bounds[2 * axis], corner[axis], 1e-9);
+}
+
+TEST(VtiFile, OfAnEmptyCloudCanBeRead) {
+    const TestFolder folder;
+    writeVti(computeGrid(CollectedVolume(), planGrid({}, 128)), someSeconds, folder.path() / "a.vti");
+    vtkNew<vtkXMLImageDataReader> reader;
+    read(*reader, folder.path() / "a.vti");
+    EXPECT_EQ(reader->GetOutput()->GetNumberOfCells(), 1);
+}
+
+TEST(VtpFile, ReadsBackEqual) {
+    const TestFolder folder;
+    const TestDust dust(1234, 10, 0.1f, 2);
+    writeVtp(dust.store, someSeconds, folder.path() / "a.vtp");
+    vtkNew<vtkXMLPolyDataReader> reader;
+    read(*reader, folder.path() / "a.vtp");
+    vtkPolyData& cloud = *reader->GetOutput();
+    ASSERT_EQ(cloud.GetNumberOfPoints(), 1234);
+    EXPECT_EQ(cloud.GetNumberOfVerts(), 1234);
+    expectTime(cloud);
+    const auto column = [&](const char* name, int component, const auto& expected) {
+        vtkDataArray* array = cloud.GetPointData()->GetArray(name);
+        ASSERT_NE(array, nullptr) << name;
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            ASSERT_EQ(array->GetComponent(static_cast<vtkIdType>(i), component), static_cast<double>(expected[i]))
+                << name;
+    };
+    column("serial", 0, dust.store.serial);
+    column("age", 0, dust.store.age);
+    column("lifetime", 0, dust.store.lifetime);
+    column("radius", 0, dust.store.radius);
+    column("opacity", 0, dust.store.opacity);
+    column("velocity", 0, dust.store.velocityX);
+    column("velocity", 1, dust.store.velocityY);
+    column("velocity", 2, dust.store.velocityZ);
+    for (std::size_t i = 0; i < dust.store.size(); ++i) {
+        const double* point = cloud.GetPoint(static_cast<vtkIdType>(i));
+        ASSERT_EQ(glm::vec3(point[0], point[1], point[2]), dust.store.position(i));
+    }
+}
+
+TEST(VtpFile, OfNoParticlesCanBeRead) {
+    const TestFolder folder;
+    writeVtp(TestDust(0, 1, 1, 1).store, someSeconds, folder.path() / "a.vtp");
+    vtkNew<vtkXMLPolyDataReader> reader;
+    read(*reader, folder.path() / "a.vtp");
+    EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 0);
+    EXPECT_NE(reader->GetOutput()->GetPointData()->GetArray("serial"), nullptr);
+}
+
+struct Node {
+    glm::dvec3 centre{0};
+    double edge = 0;
+    bool leaf = false;
+    int depth = 0;
+    std::map<std::string, double> values;
+};
+
+/// Every node as VTK's geometry cursor gives it.
+std::vector<Node> nodesOf(vtkHyperTreeGrid& grid) {
+    std::vector<Node> nodes;
+    vtkNew<vtkHyperTreeGridNonOrientedGeometryCursor> cursor;
+    cursor->Initialize(&grid, 0);
+    const std::function<void()> visit = [&] {
+        Node node;
+        double bounds[6];
+        cursor->GetBounds(bounds);
+        node.centre = {(bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2, (bounds[4] + bounds[5]) / 2};
+        node.edge = bounds[1] - bounds[0];
+        node.leaf = cursor->IsLeaf();
+        node.depth = static_cast<int>(cursor->GetLevel());
+        for (const char* name : {"extinction", "own_extinction", "opacity", "age", "level"})
+            node.values[name] = grid.GetCellData()->GetArray(name)->GetTuple1(cursor->GetGlobalNodeIndex());
+        nodes.push_back(node);
+        if (node.leaf) return;
+        EXPECT_EQ(cursor->GetNumberOfChildren(), 8);
+        for (unsigned char child = 0; child < 8; ++child) {
+            cursor->ToChild(child);
+            visit();
+            cursor->ToParent();
+        }
+    };
+    visit();
+    return nodes;
+}
+
+/// What a brute search over all voxels says of a place: those that it lies in.
+std::vector<OctreeVoxel> voxelsOver(const CollectedOctree& octree, const glm::dvec3& place) {
+    std::vector<OctreeVoxel> over;
+    for (const OctreeVoxel& voxel : octree.voxels) {
+        const glm::dvec3 from = place - octree.leastCorner(voxel);
+        const double edge = octree.cellEdgeMetres(voxel.level);
+        if (from.x >= 0 && from.y >= 0 && from.z >= 0 && from.x < edge && from.y < edge && from.z < edge)
+            over.push_back(voxel);
+    }
+    return over;
+}
+
+void expectLeaf(const CollectedOctree& octree, const Node& leaf) {
+    double extinction = 0, own = 0;
+    float age = NAN;
+    int level = -1;
+    for (const OctreeVoxel& voxel : voxelsOver(octree, leaf.centre)) {
+        extinction += static_cast<double>(voxel.extinctionPerMetre);
+        if (voxel.level == leaf.depth) own = static_cast<double>(voxel.extinctionPerMetre);
+        age = std::fmin(age, voxel.ageSeconds);
+        level = std::max(level, voxel.level);
+    }
+    EXPECT_NEAR(leaf.values.at("extinction"), extinction, 1e-12);
+    EXPECT_EQ(leaf.values.at("own_extinction"), own);
+    EXPECT_NEAR(leaf.values.at("opacity"), 1 - std::exp(-extinction * leaf.edge), 1e-12);
+    EXPECT_EQ(leaf.values.at("level"), level);
+    if (level < 0)
+        EXPECT_TRUE(std::isnan(leaf.values.at("age")));
+    else
+        EXPECT_EQ(leaf.values.at("age"), static_cast<double>(age));
+}
+
+class HtgFile : public testing::TestWithParam<std::tuple<std::size_t, int, int>> {};
+
+TEST_P(HtgFile, LeavesHoldAllVoxelsOverThemAndEveryDepthKeepsTheMass) {
+    const auto [count, depth, levels] = GetParam();
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        const CollectedOctree octree = testOctree(count, depth, levels, seed);
+        const TestFolder folder;
+        writeHtg(octree, someSeconds, folder.path() / "a.htg");
+        vtkNew<vtkXMLHyperTreeGridReader> reader;
+        read(*reader, folder.path() / "a.htg");
+        auto* grid = vtkHyperTreeGrid::SafeDownCast(reader->GetOutput());
+        ASSERT_NE(grid, nullptr);
+        double bounds[6];
+        grid->GetBounds(bounds);
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_EQ(bounds[2 * axis], octree.originMetres[axis]);
+            EXPECT_EQ(bounds[2 * axis + 1], octree.originMetres[axis] + octree.edgeMetres);
+        }
+        const double mass = massSquareMetres(octree);
+        double leaves = 0, own = 0;
+        for (const Node& node : nodesOf(*grid)) {
+            const double volume = std::pow(node.edge, 3);
+            own += node.values.at("own_extinction") * volume;
+            if (node.depth == 0) {
+                EXPECT_NEAR(node.values.at("extinction") * volume, mass, 1e-6 * mass);
+            }
+            if (!node.leaf) continue;
+            leaves += node.values.at("extinction") * volume;
+            expectLeaf(octree, node);
+        }
+        EXPECT_NEAR(leaves, mass, 1e-6 * mass);
+        EXPECT_NEAR(own, mass, 1e-6 * mass);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(RandomTrees, HtgFile,
+                         testing::Values(std::tuple(0, 8, 4), std::tuple(1, 4, 1), std::tuple(1, 8, 9),
+                                         std::tuple(40, 4, 5), std::tuple(200, 6, 3), std::tuple(150, 12, 4)));
+
+TEST(HtgFileOf, VoxelsInAnotherOrderIsRefused) {
+    const TestFolder folder;
+    CollectedOctree octree = testOctree(50, 5, 2, 1);
+    std::ranges::reverse(octree.voxels);
+    EXPECT_THROW(writeHtg(octree, 0, folder.path() / "a.htg"), std::logic_error);
+    octree = testOctree(1, 5, 1, 1);
+    octree.voxels.push_back(octree.voxels.front());
+    EXPECT_THROW(writeHtg(octree, 0, folder.path() / "a.htg"), std::logic_error);
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+/// A car somewhere on a slope, and a solid.
+struct SmallWorld {
+    scene::Scene scene;
+    scene::SceneState state;
+
+    SmallWorld() {
+        std::vector<float> heights;
+        for (int j = 0; j < 60; ++j)
+            for (int i = 0; i < 80; ++i) heights.push_back(0.1f * static_cast<float>((i * 7 + j * 3) % 11));
+        scene.terrain = scene::Terrain(heights, 80, 60, 2, -75, -50);
+        auto triangle = std::make_shared<scene::Mesh>();
+        triangle->positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 2}};
+        triangle->normals.assign(3, {0, 1, 0});
+        triangle->colours.assign(3, {1, 0.2140411f, 0});
+        triangle->indices = {0, 2, 1};
+        scene.vehicle = scene::VehicleModel{{}, {"body", triangle}, {"wheel", triangle}};
+        scene.solids = {{"a post", triangle}};
+        scene.solidPoses.resize(1);
+        scene.solidPoses[0].toWorld[3] = {4, 5, 6, 1};
+        state.vehicle.position = {3, 1, -2};
+        for (int wheel = 0; wheel < 4; ++wheel)
+            state.vehicle.wheels[static_cast<std::size_t>(wheel)].hub = {wheel, 1, 2};
+    }
+};
+
+TEST(SceneFile, BlocksStandWhereTheSceneHasThem) {
+    const TestFolder folder;
+    const SmallWorld world;
+    const Box cloud{{-20, 0, -10}, {30, 5, 12}};
+    for (int again = 0; again < 2; ++again)  // over an older one, too
+        writeScene(world.scene, world.state, groundAround(cloud, world.scene, world.state), someSeconds,
+                   folder.path() / "f000007.vtm");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);  // the file and the folder of its pieces
+
+    vtkNew<vtkXMLMultiBlockDataReader> reader;
+    read(*reader, folder.path() / "f000007.vtm");
+    auto* blocks = vtkMultiBlockDataSet::SafeDownCast(reader->GetOutput());
+    std::map<std::string, vtkPolyData*> surfaces;
+    for (unsigned i = 0; i < blocks->GetNumberOfBlocks(); ++i)
+        surfaces[blocks->GetMetaData(i)->Get(vtkCompositeDataSet::NAME())] =
+            vtkPolyData::SafeDownCast(blocks->GetBlock(i));
+    std::vector<std::string> names;
+    for (const auto& [name, surface] : surfaces) names.push_back(name);
+    EXPECT_THAT(names, testing::UnorderedElementsAre("terrain", "body", "wheel_front_left", "wheel_front_right",
+                                                     "wheel_rear_left", "wheel_rear_right", "a post"));
+
+    const scene::VehiclePoses poses = vehiclePoses(*world.scene.vehicle, world.state.vehicle);
+    const auto expectPlaced = [&](const std::string& name, const glm::mat4& toWorld) {
+        vtkPolyData* surface = surfaces.at(name);
+        const auto& positions = world.scene.solids[0].mesh->positions;
+        ASSERT_EQ(surface->GetNumberOfPoints(), 3);
+        ASSERT_EQ(surface->GetNumberOfPolys(), 1);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double* point = surface->GetPoint(static_cast<vtkIdType>(i));
+            const glm::vec3 expected = toWorld * glm::vec4(positions[i], 1);
+            EXPECT_LT(glm::distance(glm::vec3(point[0], point[1], point[2]), expected), 1e-5f) << name;
+        }
+        vtkDataArray* colour = surface->GetPointData()->GetArray("colour");
+        EXPECT_EQ(colour->GetComponent(0, 0), 255);
+        EXPECT_EQ(colour->GetComponent(0, 1), 127);  // half as bright to the eye is 0.214 linear
+        EXPECT_EQ(colour->GetComponent(0, 2), 0);
+    };
+    expectPlaced("body", poses.body.toWorld);
+    expectPlaced("wheel_rear_left", poses.wheels[scene::rearLeft].toWorld);
+    expectPlaced("a post", world.scene.solidPoses[0].toWorld);
+
+    vtkPolyData* ground = surfaces.at("terrain");
+    for (vtkIdType i = 0; i < ground->GetNumberOfPoints(); ++i) {
+        const double* point = ground->GetPoint(i);
+        ASSERT_NEAR(point[1],
+                    static_cast<double>(
+                        world.scene.terrain.heightAt(static_cast<float>(point[0]), static_cast<float>(point[2]))),
+                    1e-5);
+    }
+    double bounds[6];
+    ground->GetBounds(bounds);
+    EXPECT_LE(bounds[0], -20);
+    EXPECT_GE(bounds[1], 30);
+    EXPECT_LE(bounds[4], -10);
+    EXPECT_GE(bounds[5], 12);
+    EXPECT_LT(bounds[1] - bounds[0], 50 + 2 * 20 + 2 * 2 + 1e-6);
+}
+
+TEST(SceneFile, APlaneReachesUnderTheSolids) {
+    SmallWorld world;
+    world.scene.solidPoses[0].toWorld[3] = {900, 0, -700, 1};
+    EXPECT_LT(groundAround({}, world.scene, world.state).most.x, 100);
+    world.scene.terrain = {};
+    EXPECT_GT(groundAround({}, world.scene, world.state).most.x, 900);
+    EXPECT_LT(groundAround({}, world.scene, world.state).least.z, -700);
+}
+
+TEST(SceneFile, AVastGroundIsThinnedOut) {
+    const TestFolder folder;
+    SmallWorld world;
+    world.scene.solids.clear();
+    writeScene(world.scene, world.state, {{-5e4, 0, -5e4}, {5e4, 0, 5e4}}, someSeconds, folder.path() / "a.vtm");
+    vtkNew<vtkXMLMultiBlockDataReader> reader;
+    read(*reader, folder.path() / "a.vtm");
+    auto* ground = vtkPolyData::SafeDownCast(vtkMultiBlockDataSet::SafeDownCast(reader->GetOutput())->GetBlock(0));
+    EXPECT_LE(ground->GetNumberOfPoints(), 1 << 18);
+    EXPECT_GT(ground->GetNumberOfPoints(), 1 << 14);
+}
+
+}  // namespace
+}  // namespace dustbench::bench

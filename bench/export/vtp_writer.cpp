@@ -1,0 +1,71 @@
+#include "bench/export/vtp_writer.h"
+
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkTypeUInt64Array.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include "bench/export/vtk_file.h"
+#include "bench/export/whole_file.h"
+#include "methods/shared/particles/particle_store.h"
+
+namespace dustbench::bench {
+namespace {
+
+vtkNew<vtkFloatArray> interleaved(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
+    vtkNew<vtkFloatArray> tuples;
+    tuples->SetNumberOfComponents(3);
+    float* value = tuples->WritePointer(0, static_cast<vtkIdType>(3 * x.size()));
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        *value++ = x[i];
+        *value++ = y[i];
+        *value++ = z[i];
+    }
+    return tuples;
+}
+
+}  // namespace
+
+void writeVtp(const particles::ParticleStore& dust, double timeSeconds, const std::filesystem::path& file) {
+    const auto count = static_cast<vtkIdType>(dust.size());
+    vtkNew<vtkPolyData> cloud;
+    vtkNew<vtkPoints> points;
+    points->SetData(interleaved(dust.x, dust.y, dust.z));
+    cloud->SetPoints(points);
+    // A vertex a particle: points without cells are not drawn.
+    vtkNew<vtkCellArray> vertices;
+    vertices->AllocateExact(count, count);
+    for (vtkIdType i = 0; i < count; ++i) vertices->InsertNextCell(1, &i);
+    cloud->SetVerts(vertices);
+
+    vtkNew<vtkTypeUInt64Array> serial;
+    serial->SetName("serial");
+    serial->SetNumberOfValues(count);
+    std::copy(dust.serial.begin(), dust.serial.end(), serial->GetPointer(0));
+    cloud->GetPointData()->AddArray(serial);
+    const auto addColumn = [&](const char* name, std::span<const float> column) {
+        vtkNew<vtkFloatArray> values;
+        values->SetName(name);
+        values->SetArray(const_cast<float*>(column.data()), count, 1);
+        cloud->GetPointData()->AddArray(values);
+    };
+    addColumn("age", dust.age);
+    addColumn("lifetime", dust.lifetime);
+    addColumn("radius", dust.radius);
+    addColumn("opacity", dust.opacity);
+    const auto velocity = interleaved(dust.velocityX, dust.velocityY, dust.velocityZ);
+    velocity->SetName("velocity");
+    cloud->GetPointData()->AddArray(velocity);
+    stampTime(*cloud, timeSeconds);
+
+    WholeFile whole(file);
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writeVtk(*writer, *cloud, whole.beside());
+    whole.publish();
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,55 @@
+#include "bench/export/whole_file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view ending = ".dustbench-unfinished";
+
+}  // namespace
+
+InputError cannotWrite(const fs::path& path, std::string_view reason) {
+    return InputError(fmt::format("output '{}' cannot be written: {}", path.string(), reason));
+}
+
+WholeFile::WholeFile(fs::path place)
+    : place_(std::move(place)),
+      beside_(place_.parent_path() / fmt::format(".{}{}", place_.filename().string(), ending)) {}
+
+WholeFile::~WholeFile() {
+    std::error_code error;
+    fs::remove_all(beside_, error);
+}
+
+void WholeFile::publish() {
+    std::error_code error;
+    fs::rename(beside_, place_, error);
+    if (error) throw cannotWrite(place_, error.message());
+}
+
+void writeWhole(const fs::path& file, std::string_view content) {
+    WholeFile whole(file);
+    {
+        std::ofstream stream(whole.beside(), std::ios::binary | std::ios::trunc);
+        stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+        stream.flush();
+        if (!stream) throw cannotWrite(file, std::strerror(errno));
+    }
+    whole.publish();
+}
+
+void removeUnfinished(const fs::path& folder) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename();
+        if (name.starts_with('.') && name.ends_with(ending)) fs::remove_all(entry.path(), error);
+    }
+}
+
+}  // namespace dustbench::bench

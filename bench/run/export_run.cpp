@@ -1,0 +1,91 @@
+#include "bench/run/export_run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "bench/export/volume_exporter.h"
+#include "bench/export/whole_file.h"
+#include "bench/run/frame_runner.h"
+#include "bench/run/run_record.h"
+#include "bench/run/thread_limit.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/registry.h"
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+namespace {
+
+void requireFramesWithinDrive(const RunSpec& spec, const World& world) {
+    const std::int64_t last = lastFrameOfDrive(world, spec.warmup);
+    if (spec.volumes->frames.last <= last) return;
+    const std::string allowed = last < 0 ? "none, the warm-up alone outlasts it" : fmt::format("frames 0..{}", last);
+    throw InputError(fmt::format("frames: frame {} is beyond the end of drive '{}' ({} s), allowed: {}",
+                                 spec.volumes->frames.last, world.driveId(), world.driveSeconds(), allowed));
+}
+
+ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const RunProgress& progress,
+                          const std::function<bool()>& interrupted, ExportRecord& record) {
+    const MethodInfo& info = findMethod(spec.method);
+    const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
+    World world(spec.scene, spec.drive, parameters.world, spec.seed);
+    requireFramesWithinDrive(spec, world);
+    if (const std::string reason = info.cannotTake ? info.cannotTake(world.scene()) : ""; !reason.empty())
+        throw InputError(fmt::format("method {} cannot take scene '{}': {}", spec.method, spec.scene, reason));
+    record.drive = world.driveId();
+    record.provenance.inputs = hashInputs(world.inputFiles());
+
+    VolumeExporter exporter(*spec.volumes, folder);
+    gpu::Device device;
+    record.provenance.device = device.info();
+    FrameRunner runner(spec, world, device, info.create(parameters.method), false);
+
+    ExportResult result;
+    const std::int64_t preroll = stepsBeforeWarmup(world);
+    for (std::int64_t step = 0; step < preroll; ++step) {
+        if (interrupted()) return {.series = {}, .aborted = true};
+        progress("preroll", step, preroll);
+        const std::int64_t index = step - preroll - spec.warmup;
+        step + 1 < preroll ? runner.stepWithoutPicture(index) : runner.updateOnly(index);
+    }
+    const FrameRange& frames = spec.volumes->frames;
+    for (std::int64_t index = -spec.warmup; index <= frames.last && !result.aborted; ++index) {
+        progress("frames", std::max<std::int64_t>(index, 0), frames.last + 1);
+        runner.updateOnly(index);
+        if (frames.contains(index)) {
+            CollectedVolume volume;
+            runner.volume(volume);
+            exporter.write({index, spec.method, volume, world.scene(), world.state(), world.dust()});
+            record.moments.push_back({index, world.state().timeSeconds, fmt::format("{:016x}", world.stateHash())});
+        }
+        result.aborted = interrupted();
+    }
+    result.series = exporter.seriesFiles();
+    result.gridsDiffer = exporter.gridsDiffer();
+    if (result.aborted) return result;
+    progress("frames", frames.last + 1, frames.last + 1);
+    for (const fs::path& series : result.series) record.series.push_back(series.filename());
+    writeWhole(folder / "export.json", toJson(record));
+    return result;
+}
+
+}  // namespace
+
+std::int64_t lastFrameOfDrive(const World& world, std::int64_t warmup) {
+    // Steps end at whole multiples of their length. The preroll ends at time 0, or a step later where it has no step
+    // of its own.
+    const std::int64_t stepsOfDrive = std::llround(world.driveSeconds() / stepSeconds);
+    return stepsOfDrive - 1 - warmup - (stepsBeforeWarmup(world) - world.prerollSteps());
+}
+
+ExportResult exportVolumes(const RunSpec& spec, const fs::path& folder, std::vector<std::string> argv,
+                           const RunProgress& progress, const std::function<bool()>& interrupted) {
+    ExportRecord record;
+    record.spec = spec;
+    record.provenance = startProvenance(std::move(argv));
+    ExportResult result;
+    withThreads(spec.threads, [&] { result = exportFrames(spec, folder, progress, interrupted, record); });
+    return result;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,24 @@
+#include "bench/run/thread_limit.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace dustbench::bench {
+
+void withThreads(int threads, const std::function<void()>& work) {
+    if (threads == 0) {
+        work();
+        return;
+    }
+    // A software rasteriser counts as well: the run shall use so many threads, not so many and some more.
+    setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
+    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                            static_cast<std::size_t>(threads));
+    oneapi::tbb::task_arena arena(threads);
+    arena.execute(work);
+}
+
+}  // namespace dustbench::bench
