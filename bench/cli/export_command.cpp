@@ -48,8 +48,8 @@ int exportVolumes(const ExportOptions& options) {
     for (const std::filesystem::path& series : result.series) std::cout << series.string() << "\n";
     if (result.gridsDiffer)
         std::cerr
-            << "every frame has a grid of its own, which extinction.pvd can show and a .vti.series cannot: for one, "
-               "give --region"
+            << "every frame has a grid of its own: open extinction.pvd; ParaView shows extinction.vti.series rightly "
+               "only where all grids are the same (--region)"
             << std::endl;
     if (!result.aborted) return exitOk;
     std::cerr << "aborted; the frames that are there are whole" << std::endl;

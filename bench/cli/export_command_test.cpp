@@ -112,15 +112,15 @@ TEST_F(ExportCommand, WritesEveryFrameAndSeriesWithTheSimulationsTimes) {
     EXPECT_EQ(std::system(check.c_str()), 0);
 }
 
-TEST_F(ExportCommand, GridsOfDifferentPlacesHaveNoSeriesThatTakesThemForOne) {
-    // One frame is a series; the next lies elsewhere.
-    ASSERT_EQ(shortExport("--frames 0").code, 0);
-    EXPECT_THAT(names(out()), testing::Contains("extinction.vti.series"));
+TEST_F(ExportCommand, SaysWhereGridsLieInDifferentPlaces) {
+    const Called alone = shortExport("--frames 0");
+    ASSERT_EQ(alone.code, 0);
+    EXPECT_THAT(alone.err, testing::Not(HasSubstr("--region")));
     const Called called = shortExport("--frames 0:9:4");
     ASSERT_EQ(called.code, 0);
-    EXPECT_THAT(names(out()), testing::Not(testing::Contains("extinction.vti.series")));
-    EXPECT_EQ(called.out, out() + "/extinction.pvd\n" + out() + "/scene.pvd\n");
-    EXPECT_THAT(called.err, HasSubstr("give --region"));
+    EXPECT_THAT(names(out()), testing::Contains("extinction.vti.series"));
+    EXPECT_EQ(called.out, out() + "/extinction.pvd\n" + out() + "/extinction.vti.series\n" + out() + "/scene.pvd\n");
+    EXPECT_THAT(called.err, HasSubstr("(--region)"));
 }
 
 TEST_F(ExportCommand, TheGridHoldsTheMassOfTheParticles) {

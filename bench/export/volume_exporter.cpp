@@ -87,12 +87,6 @@ void VolumeExporter::addTo(const std::string& series, Series::Kind kind, const s
     found->add(name, timeSeconds);
 }
 
-void VolumeExporter::remove(const std::string& series) {
-    std::error_code error;
-    fs::remove(folder_ / series, error);
-    std::erase_if(series_, [&](const Series& each) { return each.file() == folder_ / series; });
-}
-
 void VolumeExporter::writeGrids(const ExportedMoment& moment) {
     const double time = moment.state.timeSeconds;
     const GridPlan plan = planGrid(settings_.region ? settings_.region : moment.volume.bounds(), settings_.resolution);
@@ -104,10 +98,7 @@ void VolumeExporter::writeGrids(const ExportedMoment& moment) {
         addTo("extinction.pvd", Series::Kind::pvd, name, time);
         if (!firstGrid_) firstGrid_ = plan;
         gridsDiffer_ = gridsDiffer_ || plan != *firstGrid_;
-        if (gridsDiffer_)
-            remove("extinction.vti.series");
-        else
-            addTo("extinction.vti.series", Series::Kind::json, name, time);
+        addTo("extinction.vti.series", Series::Kind::json, name, time);
     }
     if (settings_.wants(VolumeFormat::vdb)) {
         const std::string name = nameOf(moment.frame, "vdb");

@@ -2,8 +2,8 @@
 //
 // In the folder: `f000120.vti .htg .vtp .vdb .vtm` of frame 120, `extinction.pvd extinction.vti.series octree.pvd
 // particles.pvd density.vdb.series scene.pvd` over the frames. The scene comes with every format but .vdb.
-// `extinction.vti.series` exists only while all grids are the same, as with a region: ParaView takes origin, spacing
-// and size of such a series from its first file, and would show the others in the wrong place without a word.
+// ParaView takes origin, spacing and size of `extinction.vti.series` from its first file, and shows the others in the
+// wrong place where theirs differ; `extinction.pvd` is always right.
 //
 // Owns: a lock on the folder, so that two programs never write into one. Threads: one at a time; grids use the current
 // oneTBB arena.
@@ -53,7 +53,7 @@ class VolumeExporter {
     /// Throws InputError where a format cannot hold this cloud, the grid does not fit into memory, or a file cannot be
     /// written.
     void write(const ExportedMoment& moment);
-    /// The grids lie in different places: there is no `extinction.vti.series`.
+    /// The grids lie in different places: readers of `extinction.vti.series` must look into each file.
     [[nodiscard]] bool gridsDiffer() const { return gridsDiffer_; }
     /// The series written so far, those of the formats first, that of the scene last.
     [[nodiscard]] std::vector<std::filesystem::path> seriesFiles() const;
@@ -61,7 +61,6 @@ class VolumeExporter {
  private:
     void writeGrids(const ExportedMoment& moment);
     [[nodiscard]] std::string nameOf(std::int64_t frame, std::string_view extension) const;
-    void remove(const std::string& series);
     void addTo(const std::string& series, Series::Kind kind, const std::string& name, double timeSeconds);
 
     VolumeSettings settings_;

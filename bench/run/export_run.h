@@ -17,7 +17,7 @@ namespace dustbench::bench {
 
 struct ExportResult {
     std::vector<std::filesystem::path> series;
-    bool gridsDiffer = false;  ///< so there is no .vti.series (VolumeExporter)
+    bool gridsDiffer = false;  ///< see VolumeExporter
     bool aborted = false;      ///< `interrupted` said so; what was written is whole
 };
 

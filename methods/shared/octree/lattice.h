@@ -20,7 +20,9 @@ struct Lattice {
     double edgeMetres = 128;
     int depth = 8;
 
-    [[nodiscard]] std::uint32_t cellsPerEdge() const { return 1u << depth; }
+    /// Of the finest cells, or of those of another level.
+    [[nodiscard]] std::uint32_t cellsPerEdge() const { return cellsPerEdge(depth); }
+    [[nodiscard]] static std::uint32_t cellsPerEdge(int level) { return 1u << level; }
     [[nodiscard]] double cellEdgeMetres(int level) const { return edgeMetres / static_cast<double>(1u << level); }
     /// Number of the first finest cell along each axis, counted from the world's zero.
     [[nodiscard]] glm::ivec3 firstCell() const { return glm::round(origin / cellEdgeMetres(depth)); }
