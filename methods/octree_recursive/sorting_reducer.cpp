@@ -26,7 +26,7 @@ void sortByDigit(const BrickVoxel* from, BrickVoxel* to, std::uint32_t count, in
 void SortingReducer::reduce(const BrickPartition& partition, const Brick& brick, const BrickVoxels& voxels) {
     BrickVoxel* const particles = voxels.voxels;
     std::uint32_t total = 0;
-    partition.visitParticles(brick, [&](std::uint32_t location, std::uint32_t particle) {
+    partition.visitParticles(brick, rule_.values(), [&](std::uint32_t location, std::uint32_t particle) {
         particles[total++] = {location, particle};
     });
     sortByDigit(particles, voxels.spare, total, 0);

@@ -8,7 +8,7 @@ using namespace octree;
 
 void GridReducer::reduce(const BrickPartition& partition, const Brick& brick, const BrickVoxels& voxels) {
     std::uint32_t count = 0;
-    partition.visitParticles(brick, [&](std::uint32_t location, std::uint32_t particle) {
+    partition.visitParticles(brick, rule_.values(), [&](std::uint32_t location, std::uint32_t particle) {
         const std::uint64_t holder = best_[location];
         const std::uint64_t key = static_cast<std::uint64_t>(rule_.priority(particle)) << 32 | ~particle;
         touched_[count] = static_cast<std::uint16_t>(location);
@@ -20,7 +20,7 @@ void GridReducer::reduce(const BrickPartition& partition, const Brick& brick, co
     });
     if (voxels.masses) {
         for (std::uint32_t i = 0; i < count; ++i) sums_[touched_[i]] = 0;
-        partition.visitParticles(brick, [&](std::uint32_t location, std::uint32_t particle) {
+        partition.visitParticles(brick, rule_.values(), [&](std::uint32_t location, std::uint32_t particle) {
             sums_[location] += rule_.massSquareMetres(particle);
         });
         for (std::uint32_t i = 0; i < count; ++i) voxels.masses[i] = sums_[touched_[i]];

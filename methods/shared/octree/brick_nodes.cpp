@@ -19,21 +19,20 @@ std::uint32_t bitCount(std::uint64_t bits) {
 
 /// Every node: a voxel, or what has one below it. A word holds the children of the eight cells that are one byte of
 /// word >> 3.
-BrickNodes::Bits BrickNodes::withParents(const Bits& bits) {
-    Bits nodes = bits;
-    for (std::size_t word = nodes.size() - 1; word >= 1; --word)
-        nodes[word >> 3] |= anyOfEight(nodes[word]) << 8 * (word & 7);
-    nodes[0] |= anyOfEight(nodes[0] & 0xff00);  // the brick's children, bits 8 to 15, to the brick, bit 1
-    return nodes;
+void BrickNodes::addParents() {
+    nodes_ = bits_;
+    for (std::size_t word = nodes_.size() - 1; word >= 1; --word)
+        if (nodes_[word] != 0) nodes_[word >> 3] |= anyOfEight(nodes_[word]) << 8 * (word & 7);
+    nodes_[0] |= anyOfEight(nodes_[0] & 0xff00);  // the brick's children, bits 8 to 15, to the brick, bit 1
 }
 
 void BrickNodes::complete() {
-    const Bits nodes = withParents(bits_);
+    addParents();
     voxelCount_ = blockCount_ = 0;
     for (const std::uint64_t word : bits_) voxelCount_ += bitCount(word);
     // A block for every eight siblings of which there is one: a byte of the bits.
-    for (std::size_t word = 1; word < nodes.size(); ++word) blockCount_ += bitCount(anyOfEight(nodes[word]));
-    blockCount_ += (nodes[0] & 0xff00) != 0 ? 1 : 0;
+    for (std::size_t word = 1; word < nodes_.size(); ++word) blockCount_ += bitCount(anyOfEight(nodes_[word]));
+    blockCount_ += (nodes_[0] & 0xff00) != 0 ? 1 : 0;
 }
 
 struct BrickNodes::Writer {
@@ -71,9 +70,8 @@ struct BrickNodes::Writer {
 void BrickNodes::write(NodeBlock* blocks, std::uint32_t first, std::uint32_t next, std::uint32_t firstVoxel,
                        Ranks& ranks) const {
     static_assert(std::endian::native == std::endian::little, "bytes of a word count from its lowest bits");
-    const Bits nodes = withParents(bits_);
     Writer writer{reinterpret_cast<const std::uint8_t*>(bits_.data()),
-                  reinterpret_cast<const std::uint8_t*>(nodes.data()),
+                  reinterpret_cast<const std::uint8_t*>(nodes_.data()),
                   blocks,
                   next,
                   firstVoxel,

@@ -53,9 +53,10 @@ class BrickNodes {
     using Bits = std::array<std::uint64_t, brickCodes / 64>;
 
     [[nodiscard]] bool isSet(std::uint32_t location) const { return bits_[location >> 6] >> (location & 63) & 1; }
-    static Bits withParents(const Bits& bits);
+    void addParents();
 
-    Bits bits_;  ///< a bit for each voxel
+    Bits bits_;   ///< a bit for each voxel
+    Bits nodes_;  ///< and for each cell that has one below it, once complete
     std::uint32_t voxelCount_ = 0, blockCount_ = 0;
 };
 

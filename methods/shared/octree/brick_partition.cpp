@@ -90,7 +90,7 @@ void BrickPartition::sortNarrow(const particles::ParticleStore& store, const Cel
     const std::uint32_t brickBins = 1u << 3 * (depth - brickRise);
     setChunks(total, brickBins + 2);
     std::uint32_t* const keys = narrowKeys_.hold(total);
-    std::uint32_t* const sorted = narrowSorted_.hold(total);
+    std::uint32_t* const sorted = narrowSorted_.hold(total + ahead);
     std::uint32_t* const counts = counts_.data();
 
     parallel::forEachBlock(total, chunkSize_, [&](std::size_t first, std::size_t count) {
@@ -119,7 +119,7 @@ void BrickPartition::sortNarrow(const particles::ParticleStore& store, const Cel
             bricks[brickCount_++] = {std::uint64_t{bin} << 3 * brickRise, starts[bin], starts[bin + 1] - starts[bin]};
     sortedCount_ = starts[brickBins];
     clipped_ = static_cast<std::int64_t>(starts[brickBins + 2] - starts[brickBins + 1]);
-    collectUpper(starts[brickBins], starts[brickBins + 1] - starts[brickBins], kernel);
+    collectUpper(store, starts[brickBins], starts[brickBins + 1] - starts[brickBins], kernel);
 }
 
 /// Two stable counting sorts, by the lower and by the upper twelve bits of the brick.
@@ -157,7 +157,7 @@ void BrickPartition::sortWide(const particles::ParticleStore& store, const CellK
     const std::size_t firstUpper = i;
     while (i < total && sorted[i] >> brickShift == aboveBricks) ++i;
     clipped_ = static_cast<std::int64_t>(total - i);
-    collectUpper(firstUpper, i - firstUpper, kernel);
+    collectUpper(store, firstUpper, i - firstUpper, kernel);
 }
 
 void BrickPartition::scatterWide(const std::uint64_t* from, std::uint64_t* to, std::size_t count, int shift,
@@ -179,7 +179,8 @@ void BrickPartition::scatterWide(const std::uint64_t* from, std::uint64_t* to, s
 
 /// The sorted particles from `first` on, of the bin above the bricks, as entries of the whole tree.
 template <LevelRule rule>
-void BrickPartition::collectUpper(std::size_t first, std::size_t count, const CellKernel<rule>& kernel) {
+void BrickPartition::collectUpper(const particles::ParticleStore& store, std::size_t first, std::size_t count,
+                                  const CellKernel<rule>& kernel) {
     CellEntry* const upper = upper_.hold(count);
     upperCount_ = count;
     if (count == 0) return;
@@ -196,7 +197,7 @@ void BrickPartition::collectUpper(std::size_t first, std::size_t count, const Ce
     const Brick bin{static_cast<std::uint64_t>(bins_ - 2) << 3 * brickRise, static_cast<std::uint32_t>(first),
                     static_cast<std::uint32_t>(count)};
     std::size_t k = 0;
-    visitParticles(bin, [&](std::uint32_t, std::uint32_t particle) { put(k++, particle); });
+    visitParticles(bin, store.x.data(), [&](std::uint32_t, std::uint32_t particle) { put(k++, particle); });
 }
 
 }  // namespace dustbench::octree

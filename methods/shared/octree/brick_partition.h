@@ -31,9 +31,10 @@ class BrickPartition {
     [[nodiscard]] std::span<const Brick> bricks() const { return {bricks_.data(), brickCount_}; }
     /// Particles in all bricks.
     [[nodiscard]] std::size_t size() const { return sortedCount_; }
-    /// Calls `visit(location, particle)` for the particles of a brick, in the order of the store.
+    /// Calls `visit(location, particle)` for the particles of a brick, in the order of the store. It will look into the
+    /// column `wanted`, which is fetched ahead.
     template <typename Visit>
-    void visitParticles(const Brick& brick, const Visit& visit) const {
+    void visitParticles(const Brick& brick, const float* wanted, const Visit& visit) const {
         if (wide_) {
             for (std::uint32_t i = brick.first; i < brick.first + brick.count; ++i)
                 visit(static_cast<std::uint32_t>(wideSorted_.data()[i] >> wideIndexBits) & (brickCodes - 1),
@@ -46,7 +47,10 @@ class BrickPartition {
         for (std::size_t chunk = 0; chunk < chunks_; ++chunk) {
             const std::uint32_t end = ends[chunk * bins_];
             const auto base = static_cast<std::uint32_t>(chunk * chunkSize_);
-            for (; i < end; ++i) visit(sorted[i] >> indexBits, base + (sorted[i] & indexMask));
+            for (; i < end; ++i) {
+                __builtin_prefetch(wanted + base + (sorted[i + ahead] & indexMask));
+                visit(sorted[i] >> indexBits, base + (sorted[i] & indexMask));
+            }
         }
     }
 
@@ -58,6 +62,8 @@ class BrickPartition {
     // Up to depth 8 a particle is one 32-bit word: location code, and index counted from its chunk's beginning.
     static constexpr int indexBits = 32 - brickCodeBits;
     static constexpr std::uint32_t indexMask = (1u << indexBits) - 1;
+    /// How many particles ahead their memory is fetched.
+    static constexpr std::size_t ahead = 16;
     // Deeper, it is 64 bits: brick, location code, index.
     static constexpr int wideIndexBits = 24;
     static constexpr std::uint64_t wideIndexMask = (1u << wideIndexBits) - 1;
@@ -67,7 +73,8 @@ class BrickPartition {
     template <LevelRule rule>
     void sortWide(const particles::ParticleStore& store, const CellKernel<rule>& kernel);
     template <LevelRule rule>
-    void collectUpper(std::size_t first, std::size_t count, const CellKernel<rule>& kernel);
+    void collectUpper(const particles::ParticleStore& store, std::size_t first, std::size_t count,
+                      const CellKernel<rule>& kernel);
     void setChunks(std::size_t count, std::uint32_t bins);
     void startBins();
     void scatterWide(const std::uint64_t* from, std::uint64_t* to, std::size_t count, int shift, std::uint32_t mask);
