@@ -112,6 +112,25 @@ TEST_F(ExportCommand, WritesEveryFrameAndSeriesWithTheSimulationsTimes) {
     EXPECT_EQ(std::system(check.c_str()), 0);
 }
 
+TEST_F(ExportCommand, AnOctreeThatAccumulatesHasTheMassOfThePuffs) {
+    const std::string world = " -P preroll=2 --warmup 2 --frames 0 --format vdb --vdb-precision float --out '";
+    for (const char* method :
+         {"billboard", "octree_recursive -P policy=accumulate", "octree_search -P policy=accumulate"}) {
+        const std::string name = std::string(method).substr(0, std::string(method).find(' '));
+        const Called called = call(std::string("export --method ") + method + world + (folder_ / name).string() + "'");
+        ASSERT_EQ(called.code, 0) << called.err;
+    }
+    const std::string check = fmt::format(
+        "/usr/bin/python3 -c \"\nimport pyopenvdb\ndef mass(name):\n"
+        "    grid = pyopenvdb.read('{}/' + name + '/f000000.vdb', 'density')\n"
+        "    return sum(v.value * v.count for v in grid.citerOnValues()) * grid.transform.voxelSize()[0] ** 3\n"
+        "puffs, recursive, search = mass('billboard'), mass('octree_recursive'), mass('octree_search')\n"
+        "assert puffs > 1, puffs\nassert abs(recursive / puffs - 1) < 0.01, recursive / puffs\n"
+        "assert abs(search / recursive - 1) < 1e-6, search / recursive\n\"",
+        folder_.string());
+    EXPECT_EQ(std::system(check.c_str()), 0);
+}
+
 TEST_F(ExportCommand, SaysWhereGridsLieInDifferentPlaces) {
     const Called alone = shortExport("--frames 0");
     ASSERT_EQ(alone.code, 0);

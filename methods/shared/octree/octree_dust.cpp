@@ -1,7 +1,9 @@
 #include "methods/shared/octree/octree_dust.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "methods/shared/maths/transmittance.h"
@@ -17,6 +19,38 @@ namespace {
 constexpr std::size_t voxelsPerBlock = 16'384;
 /// A billboard's opacity stays below 1, whose optical depth has no end.
 constexpr float mostOpacity = 0.99999f;
+/// The vehicle stays this share of the world's edge away from its faces, wherever the dust is.
+constexpr double vehicleMargin = 1.0 / 8;
+
+/// The middle between the least and the greatest; what is not a number is passed over.
+double middleOf(std::span<const float> values) {
+    // Lanes side by side, so that the comparisons do not wait for each other.
+    constexpr std::size_t lanes = 16;
+    std::array<float, lanes> least, greatest;
+    least.fill(std::numeric_limits<float>::infinity());
+    greatest.fill(-std::numeric_limits<float>::infinity());
+    for (std::size_t i = 0; i < values.size(); i += lanes) {
+        const std::size_t here = std::min(lanes, values.size() - i);
+        for (std::size_t lane = 0; lane < here; ++lane) {
+            const float value = values[i + lane];
+            least[lane] = value < least[lane] ? value : least[lane];
+            greatest[lane] = value > greatest[lane] ? value : greatest[lane];
+        }
+    }
+    return 0.5 * (static_cast<double>(*std::ranges::min_element(least)) +
+                  static_cast<double>(*std::ranges::max_element(greatest)));
+}
+
+/// Where the world's middle belongs: a trail lies behind its vehicle, so the world lies round the dust and holds the
+/// vehicle as well.
+glm::dvec3 worldMiddle(const particles::ParticleStore& dust, const glm::dvec3& vehicle, double edgeMetres) {
+    const double farthest = (0.5 - vehicleMargin) * edgeMetres;
+    const auto along = [farthest](std::span<const float> column, double vehicleAt) {
+        const double middle = middleOf(column);
+        return std::isfinite(middle) ? std::clamp(middle, vehicleAt - farthest, vehicleAt + farthest) : vehicleAt;
+    };
+    return {along(dust.x, vehicle.x), vehicle.y, along(dust.z, vehicle.z)};
+}
 
 }  // namespace
 
@@ -74,8 +108,9 @@ void OctreeDust::build(const Frame& frame) {
     Lattice lattice;
     lattice.edgeMetres = worldEdgeMetres_;
     lattice.depth = settings_.tree.depth;
-    lattice.origin = scene::octreeWorldOrigin(frame.state.vehicle.position, worldEdgeMetres_,
-                                              lattice.cellEdgeMetres(lattice.depth - settings_.tree.levels + 1));
+    lattice.origin =
+        scene::octreeWorldOrigin(worldMiddle(frame.dust, frame.state.vehicle.position, worldEdgeMetres_),
+                                 worldEdgeMetres_, lattice.cellEdgeMetres(lattice.depth - settings_.tree.levels + 1));
     {
         const auto detail = frame.clock.measureDetail("tree");
         clipped_ = builder_->build(frame.dust, lattice, settings_.tree, tree_);

@@ -1,7 +1,7 @@
 // Dust as the voxels of an octree: what both octree methods have in common, which is all but the way of building.
 //
-// Each frame the tree is built anew over a cube that follows the vehicle; its voxels are listed, faded if wanted, and
-// drawn as billboards, as cubes or by a march through the tree.
+// Each frame the tree is built anew over a cube that goes with the vehicle and its trail; its voxels are listed, faded
+// if wanted, and drawn as billboards, as cubes or by a march through the tree.
 //
 // Source: Carr2006, 3.2 and 3.5. Departs: opacity by one optical model for all methods (maths/transmittance.h).
 #pragma once

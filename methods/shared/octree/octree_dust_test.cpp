@@ -156,6 +156,21 @@ TEST(OctreeDust, KeepsAllMassWhereItAccumulatesAndSaysWhatElseItDrops) {
     EXPECT_GT(kept[OpacityPolicy::youngest], 0.01);
 }
 
+TEST(OctreeDust, HoldsATrailThatIsLongerThanHalfItsWorld) {
+    Moment moment(1000);
+    for (float& x : moment.dust.x) x *= 8;  // 96 m, of a world of 128
+    OctreeDust method = make(settingsOf(Render::raycast));
+    method.prepare(moment.scene, device());
+    method.update(moment.frame());
+    EXPECT_EQ(method.clipped(), 0);
+    EXPECT_NEAR(method.massKept(moment.frame()).value(), 1, 1e-6);
+    // One that is far away is lost and counted, and does not take the others with it.
+    moment.dust.x[7] = -1e7f;
+    method.update(moment.frame());
+    EXPECT_GE(method.clipped(), 1);
+    EXPECT_LT(method.clipped(), 300);
+}
+
 TEST(OctreeDust, HandsOverItsVoxelsWithTheirMass) {
     class Collector final : public VolumeVisitor {
      public:
