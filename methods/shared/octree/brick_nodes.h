@@ -6,6 +6,7 @@
 // Threads: pure.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -19,9 +20,10 @@ inline constexpr int brickRise = 4;
 inline constexpr std::uint32_t brickCodes = 8192;
 inline constexpr int brickCodeBits = 13;
 
-/// Location code of the cell that lies `rise` (at most `brickRise`) levels above a finest cell.
+/// Location code of the cell that lies `rise` levels above a finest cell; that of the brick itself where `rise` leads
+/// beyond it.
 [[nodiscard]] inline std::uint32_t locationCode(std::uint32_t localCode, std::uint32_t rise) {
-    return (4096u | localCode) >> 3 * rise;
+    return (4096u | localCode) >> 3 * std::min(rise, std::uint32_t{brickRise});
 }
 /// Levels that a location code's cell lies above the finest.
 [[nodiscard]] inline int riseOf(std::uint32_t location) {

@@ -16,6 +16,19 @@ constexpr std::size_t stripSize = 1024;
 constexpr int narrowDepth = 8;
 constexpr std::uint32_t wideDigit = 4095;
 
+/// A function of its own, so that the compiler sees that the keys lie apart from what they are made of.
+template <LevelRule rule>
+[[gnu::noinline]] void makeNarrowKeys(const CellKernel<rule>& kernel, std::size_t first, std::size_t count,
+                                      std::uint32_t brickBins, std::uint32_t* __restrict keys) {
+    const CellKernel<rule> cellOf = kernel;
+    for (std::size_t i = 0; i < count; ++i) {
+        const ParticleCell cell = cellOf(first + i);
+        const std::uint32_t inTree = (cell.brickCode & ~cell.aboveBricks) | (brickBins & cell.aboveBricks);
+        const std::uint32_t bin = (inTree & ~cell.outside) | ((brickBins + 1) & cell.outside);
+        keys[i] = bin << brickCodeBits | locationCode(cell.localCode, cell.rise);
+    }
+}
+
 }  // namespace
 
 BrickPartition::BrickPartition(MemoryLedger& ledger)
@@ -68,19 +81,6 @@ void BrickPartition::startBins() {
         }
     }
     starts[bins_] = sum;
-}
-
-/// A function of its own, so that the compiler sees that the keys lie apart from what they are made of.
-template <LevelRule rule>
-[[gnu::noinline]] void makeNarrowKeys(const CellKernel<rule>& kernel, std::size_t first, std::size_t count,
-                                      std::uint32_t brickBins, std::uint32_t* __restrict keys) {
-    const CellKernel<rule> cellOf = kernel;
-    for (std::size_t i = 0; i < count; ++i) {
-        const ParticleCell cell = cellOf(first + i);
-        const std::uint32_t inTree = (cell.brickCode & ~cell.aboveBricks) | (brickBins & cell.aboveBricks);
-        const std::uint32_t bin = (inTree & ~cell.outside) | ((brickBins + 1) & cell.outside);
-        keys[i] = bin << brickCodeBits | locationCode(cell.localCode, cell.rise);
-    }
 }
 
 /// One stable counting sort by brick. Two bins more: voxels above the bricks, and particles outside the world.

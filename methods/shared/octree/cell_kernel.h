@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "methods/shared/octree/brick_nodes.h"
 #include "methods/shared/octree/lattice.h"
 #include "methods/shared/octree/octree_settings.h"
 #include "methods/shared/particles/particle_store.h"
@@ -87,7 +88,7 @@ class CellKernel {
             cell.rise = riseByAge(age_[i], lifetime_[i], static_cast<float>(levels_));
         else
             cell.rise = riseByRadius(radius_[i], finestEdge_, levels_);
-        cell.aboveBricks = -static_cast<std::uint32_t>(cell.rise > 4);
+        cell.aboveBricks = -static_cast<std::uint32_t>(cell.rise > std::uint32_t{brickRise});
         return cell;
     }
 
