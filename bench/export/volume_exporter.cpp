@@ -15,7 +15,7 @@
 #include "bench/export/vti_writer.h"
 #include "bench/export/vtp_writer.h"
 #include "bench/export/whole_file.h"
-#include "bench/measure/memory_probe.h"
+#include "methods/shared/available_memory.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;

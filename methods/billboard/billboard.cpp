@@ -53,7 +53,7 @@ void Billboard::update(const Frame& frame) {
 }
 
 void Billboard::upload(const particles::ParticleStore& dust, std::span<const std::uint32_t> order) {
-    const draw::Billboards::Layout layout = quads_->layout(!dust.uniformColour);
+    const draw::InstanceLayout layout = quads_->layout(!dust.uniformColour);
     const std::span<float> memory = quads_->map(order.size(), layout);
     const int frames = pictures_ ? pictures_->frames() : 0;
     const auto fill = [&](std::size_t first, std::size_t count) {
@@ -65,7 +65,7 @@ void Billboard::upload(const particles::ParticleStore& dust, std::span<const std
             *value++ = dust.z[i];
             *value++ = dust.radius[i];
             *value++ = dust.opacity[i];
-            if (layout.framed) *value++ = frameOf(dust, i, settings_.puff, frames);
+            if (quads_->framed()) *value++ = frameOf(dust, i, settings_.puff, frames);
             if (layout.coloured) {
                 *value++ = dust.red[i];
                 *value++ = dust.green[i];

@@ -11,30 +11,19 @@
 #include <stdexcept>
 
 #include "methods/billboard/billboard.h"
-#include "methods/shared/draw/image.h"
-#include "methods/shared/particles/particle_store.h"
-#include "methods/shared/scene/scene.h"
+#include "methods/shared/test_moment.h"
 
 namespace dustbench::billboard {
 namespace {
 
 constexpr float opacity = 0.1f;
 
-class Workload {
+class Workload : public TestMoment {
  public:
-    Workload(std::size_t count, double edgePixels) : dust(ledger_) {
-        view.width = 800;
-        view.height = 600;
-        view.camera.eye = {0, 0, 0};
-        view.camera.target = {0, 0, -1};
-        depth_ = gpu::Texture::make2D(device, "scene depth", gpu::Format::depth32F, view.width, view.height);
-        gpu::Framebuffer(device, "scene depth", nullptr, &depth_).clearDepth();
-        layer.emplace(device, depth_);
-
+    Workload(std::size_t count, double edgePixels) : TestMoment(count, 800, 600, {0, 0, 0}, {0, 0, -1}) {
         const glm::mat4 clip = view.eyeToClip();
         std::mt19937 random(1);
         std::uniform_real_distribution<float> across(-0.95f, 0.95f), away(20, 60);
-        dust.resize(count);
         for (std::size_t i = 0; i < count; ++i) {
             const float axis = away(random);
             dust.serial[i] = i;
@@ -51,28 +40,15 @@ class Workload {
     }
 
     void clear() {
-        layer->clear();
-        device.finish();
+        layer().clear();
+        device().finish();
     }
-
-    gpu::Device device;
-    scene::Scene scene;
-    scene::SceneState state;
-    scene::View view;
-    std::optional<gpu::Layer> layer;
-
- private:
-    MemoryLedger ledger_;
-    gpu::Texture depth_;
-
- public:
-    particles::ParticleStore dust;
 };
 
 /// The pass alone, its instances written once in order.
 class BareLoop {
  public:
-    explicit BareLoop(Workload& work) : work_(work), quads_(work.device, {}) {
+    explicit BareLoop(Workload& work) : work_(work), quads_(work.device(), {}) {
         MemoryLedger ledger;
         draw::DepthSort sort(ledger);
         const auto& dust = work.dust;
@@ -84,8 +60,8 @@ class BareLoop {
     }
 
     void operator()() {
-        quads_.draw(work_.view, work_.dust.colourOfAll, *work_.layer);
-        work_.device.finish();
+        quads_.draw(work_.view, work_.dust.colourOfAll, work_.layer());
+        work_.device().finish();
     }
 
  private:
@@ -96,15 +72,13 @@ class BareLoop {
 class WholeMethod {
  public:
     WholeMethod(Workload& work, const Settings& settings) : work_(work), method_(settings) {
-        method_.prepare(work.scene, work.device);
+        method_.prepare(work.scene, work.device());
     }
 
     void operator()() {
-        const StageClock clock;
-        const Frame frame{0, 1.0 / 60, work_.state, work_.dust, work_.view, clock};
-        method_.update(frame);
-        method_.draw(frame, *work_.layer);
-        work_.device.finish();
+        method_.update(work_.frame());
+        method_.draw(work_.frame(), work_.layer());
+        work_.device().finish();
     }
 
  private:
@@ -113,9 +87,7 @@ class WholeMethod {
 };
 
 draw::Image pictureOf(Workload& work, auto& loop) {
-    work.clear();
-    loop();
-    return draw::readBack(work.layer->colour());
+    return work.picture([&](const gpu::Layer&) { loop(); });
 }
 
 /// Throws where the picture is not what the puffs must give.
@@ -208,7 +180,7 @@ MODE(animated, {draw::SortKind::radix, Puff::animated, {}});
 void update(benchmark::State& state, draw::SortKind sort) {
     Workload work(static_cast<std::size_t>(state.range(0)), 1);
     Billboard method({sort, Puff::gaussian, {}});
-    method.prepare(work.scene, work.device);
+    method.prepare(work.scene, work.device());
     const StageClock clock;
     const Frame frame{0, 1.0 / 60, work.state, work.dust, work.view, clock};
     for (auto _ : state) method.update(frame);

@@ -7,32 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "methods/shared/draw/image.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/maths/transmittance.h"
-#include "methods/shared/particles/particle_store.h"
-#include "methods/shared/scene/scene.h"
+#include "methods/shared/test_moment.h"
 
 namespace dustbench::billboard {
 namespace {
 
-gpu::Device& device() {
-    static gpu::Device one;
-    return one;
-}
-
-/// Dust before an eye, and a layer without a scene to draw it in.
-class Moment {
+/// Dust before an eye, over nothing.
+class Moment : public TestMoment {
  public:
-    explicit Moment(std::size_t count, std::uint32_t seed = 1) : dust(ledger_) {
-        view.width = 160;
-        view.height = 120;
-        view.camera.eye = {0, 2, 0};
-        view.camera.target = {0, 2, -10};
-        depth_ = gpu::Texture::make2D(device(), "scene depth", gpu::Format::depth32F, view.width, view.height);
-        depth_.write(std::vector<float>(static_cast<std::size_t>(view.width * view.height), 0.0f));
-        layer.emplace(device(), depth_);
-        dust.resize(count);
+    explicit Moment(std::size_t count, std::uint32_t seed = 1) : TestMoment(count, 160, 120, {0, 2, 0}, {0, 0, -10}) {
         std::mt19937 random(seed);
         std::uniform_real_distribution<float> uniform(0, 1);
         for (std::size_t i = 0; i < count; ++i) {
@@ -47,35 +32,6 @@ class Moment {
         }
         dust.colourOfAll = {0.6f, 0.4f, 0.2f};
     }
-
-    [[nodiscard]] Frame frame(const StageClock& clock = StageClock()) const {
-        return {0, 1.0 / 60, state, dust, view, clock};
-    }
-
-    draw::Image draw(Method& method) {
-        const StageClock clock;
-        const Frame now = frame(clock);
-        method.update(now);
-        return drawAgain(method);
-    }
-    draw::Image drawAgain(Method& method) {
-        const StageClock clock;
-        layer->clear();
-        method.draw(frame(clock), *layer);
-        return draw::readBack(layer->colour());
-    }
-
-    scene::Scene scene;
-    scene::SceneState state;
-    scene::View view;
-    std::optional<gpu::Layer> layer;
-
- private:
-    MemoryLedger ledger_;
-    gpu::Texture depth_;
-
- public:
-    particles::ParticleStore dust;
 };
 
 std::unique_ptr<Method> prepared(const Moment& moment, const std::vector<std::pair<std::string, std::string>>& values) {
@@ -83,7 +39,7 @@ std::unique_ptr<Method> prepared(const Moment& moment, const std::vector<std::pa
     ParameterValues parameters(info.parameters);
     for (const auto& [name, value] : values) parameters.set(name, value);
     auto method = info.create(parameters);
-    method->prepare(moment.scene, device());
+    method->prepare(moment.scene, Moment::device());
     return method;
 }
 
@@ -98,7 +54,7 @@ double largestDifference(const draw::Image& a, const draw::Image& b, bool alphaO
 TEST(Billboard, ShowsTheTransmittanceOfTheWholeCloud) {
     Moment moment(300);
     const auto method = prepared(moment, {});
-    const draw::Image image = moment.draw(*method);
+    const draw::Image image = moment.updateAndDraw(*method);
     double squares = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
@@ -120,9 +76,9 @@ TEST(Billboard, ShowsTheTransmittanceOfTheWholeCloud) {
 TEST(Billboard, SortsAloneDoNotChangeThePictureOfOneColour) {
     const std::size_t count = 2'000;
     Moment moment(count);
-    const draw::Image radix = moment.draw(*prepared(moment, {{"sort", "radix"}}));
-    const draw::Image quick = moment.draw(*prepared(moment, {{"sort", "quicksort"}}));
-    const draw::Image none = moment.draw(*prepared(moment, {{"sort", "none"}}));
+    const draw::Image radix = moment.updateAndDraw(*prepared(moment, {{"sort", "radix"}}));
+    const draw::Image quick = moment.updateAndDraw(*prepared(moment, {{"sort", "quicksort"}}));
+    const draw::Image none = moment.updateAndDraw(*prepared(moment, {{"sort", "none"}}));
     EXPECT_EQ(quick.pixels, radix.pixels);
     EXPECT_LT(largestDifference(radix, none, false), 1e-5);
 }
@@ -136,9 +92,9 @@ TEST(Billboard, SortMattersWhereColoursDiffer) {
         moment.dust.green[i] = 1 - moment.dust.red[i];
         moment.dust.blue[i] = 0;
     }
-    const draw::Image radix = moment.draw(*prepared(moment, {{"sort", "radix"}}));
-    const draw::Image quick = moment.draw(*prepared(moment, {{"sort", "quicksort"}}));
-    const draw::Image none = moment.draw(*prepared(moment, {{"sort", "none"}}));
+    const draw::Image radix = moment.updateAndDraw(*prepared(moment, {{"sort", "radix"}}));
+    const draw::Image quick = moment.updateAndDraw(*prepared(moment, {{"sort", "quicksort"}}));
+    const draw::Image none = moment.updateAndDraw(*prepared(moment, {{"sort", "none"}}));
     EXPECT_EQ(quick.pixels, radix.pixels);
     EXPECT_LT(largestDifference(radix, none, true), 1e-5);
     EXPECT_GT(largestDifference(radix, none, false), 0.05);
@@ -151,9 +107,9 @@ TEST(Billboard, DrawsTheSameAgainInEveryMode) {
         for (const char* soft : {"false", "true"})
             for (const char* facing : {"viewpoint", "viewplane"}) {
                 const auto method = prepared(moment, {{"puff", puff}, {"soft", soft}, {"facing", facing}});
-                const draw::Image image = moment.draw(*method);
-                EXPECT_EQ(moment.drawAgain(*method).pixels, image.pixels) << puff << soft << facing;
+                const draw::Image image = moment.updateAndDraw(*method);
                 EXPECT_EQ(moment.draw(*method).pixels, image.pixels) << puff << soft << facing;
+                EXPECT_EQ(moment.updateAndDraw(*method).pixels, image.pixels) << puff << soft << facing;
                 EXPECT_EQ(method->primitives(), 200);
                 double alpha = 0;
                 for (const glm::vec4& pixel : image.pixels) {
@@ -171,14 +127,14 @@ TEST(Billboard, FollowsACloudThatComesAndGoes) {
     Moment empty(0), few(10), many(5'000);
     const auto method = prepared(empty, {});
     EXPECT_EQ(method->primitives(), 0);
-    const draw::Image first = few.draw(*method);
+    const draw::Image first = few.updateAndDraw(*method);
     EXPECT_EQ(method->primitives(), 10);
-    (void)many.draw(*method);
+    (void)many.updateAndDraw(*method);
     EXPECT_EQ(method->primitives(), 5'000);
-    const draw::Image nothing = empty.draw(*method);
+    const draw::Image nothing = empty.updateAndDraw(*method);
     EXPECT_EQ(method->primitives(), 0);
     for (const glm::vec4& pixel : nothing.pixels) ASSERT_EQ(pixel, glm::vec4(0));
-    EXPECT_EQ(few.draw(*method).pixels, first.pixels);
+    EXPECT_EQ(few.updateAndDraw(*method).pixels, first.pixels);
 }
 
 TEST(Billboard, HoldsFewBytesAParticleAndNoMoreEachFrame) {
@@ -186,7 +142,7 @@ TEST(Billboard, HoldsFewBytesAParticleAndNoMoreEachFrame) {
     Moment moment(count);
     for (std::size_t i = 0; i < count; ++i) moment.dust.radius[i] = 0.01f;
     const auto method = prepared(moment, {});
-    (void)moment.draw(*method);
+    (void)moment.updateAndDraw(*method);
     const auto total = [&] {
         MemoryUse sum;
         for (const MemoryUse& use : method->memory()) {
@@ -198,7 +154,7 @@ TEST(Billboard, HoldsFewBytesAParticleAndNoMoreEachFrame) {
     const MemoryUse warm = total();
     EXPECT_LE(warm.cpuBytes, 24 * count);
     EXPECT_GE(warm.gpuBytes, 20 * count);
-    (void)moment.draw(*method);
+    (void)moment.updateAndDraw(*method);
     EXPECT_EQ(total().cpuBytes, warm.cpuBytes);
     EXPECT_EQ(total().gpuBytes, warm.gpuBytes);
 }

@@ -2,10 +2,15 @@
 
 #include <sys/mman.h>
 
+#include "methods/shared/available_memory.h"
+
 namespace dustbench {
 
-void askForLargePages(void* memory, std::size_t bytes) {
+void* allocateLarge(const MemoryAccount& account, std::size_t bytes, std::align_val_t alignment) {
+    requireAvailable(account.structure(), bytes);
+    void* memory = ::operator new(bytes, alignment);
     madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: where it is not granted, all works as well
+    return memory;
 }
 
 MemoryAccount& MemoryLedger::account(std::string_view structure) {

@@ -50,11 +50,12 @@ class MemoryLedger {
     std::list<MemoryAccount> accounts_;
 };
 
-/// Tells the system that the memory is used as a whole: large pages, where there are any, save address look-ups.
-void askForLargePages(void* memory, std::size_t bytes);
+/// Memory for a large array, aligned to large pages, which save address look-ups where the system grants them. Throws
+/// InputError where the machine has not that much left.
+[[nodiscard]] void* allocateLarge(const MemoryAccount& account, std::size_t bytes, std::align_val_t alignment);
 
-/// Standard allocator that books on an account. Memory is aligned to a cache line (64 bytes) for the vector units, and
-/// large arrays to large pages.
+/// Standard allocator that books on an account; InputError where the machine has not enough. Memory is aligned to a
+/// cache line (64 bytes) for the vector units, and large arrays to large pages.
 template <typename T>
 class LedgerAllocator {
  public:
@@ -68,9 +69,10 @@ class LedgerAllocator {
     LedgerAllocator(const LedgerAllocator<U>& other) : account_(other.account()) {}  // NOLINT: standard conversion
 
     [[nodiscard]] T* allocate(std::size_t count) {
-        void* memory = ::operator new(count * sizeof(T), alignment(count));
-        if (count * sizeof(T) >= largePage) askForLargePages(memory, count * sizeof(T));
-        account_->book(count * sizeof(T));
+        const std::size_t bytes = count * sizeof(T);
+        void* memory = bytes >= largePage ? allocateLarge(*account_, bytes, alignment(count))
+                                          : ::operator new(bytes, alignment(count));
+        account_->book(bytes);
         return static_cast<T*>(memory);
     }
     void deallocate(T* memory, std::size_t count) {

@@ -7,16 +7,11 @@
 // Source: Carr2006, 3.1. Departs: opacity by Beer and Lambert's law instead of a picture's own.
 #pragma once
 
-#include <cstddef>
 #include <glm/glm.hpp>
-#include <optional>
-#include <span>
 
+#include "methods/shared/draw/instance_batch.h"
 #include "methods/shared/draw/puff_textures.h"
-#include "methods/shared/gpu/buffer.h"
 #include "methods/shared/gpu/layer.h"
-#include "methods/shared/gpu/program.h"
-#include "methods/shared/gpu/vertex_array.h"
 #include "methods/shared/scene/view.h"
 
 namespace dustbench::draw {
@@ -32,41 +27,24 @@ struct BillboardStyle {
     bool soft = false;
 };
 
-class Billboards {
+class Billboards : public InstanceBatch {
  public:
     /// `pictures` (may be null: Gaussian puffs) must outlive this.
     Billboards(gpu::Device& device, const BillboardStyle& style, const PuffTextures* pictures = nullptr);
 
-    /// Where the values of one billboard lie.
-    struct Layout {
-        std::size_t floats = 5;  ///< x y z radius opacity, then:
-        bool framed = false;    ///< the picture, where there are pictures: 0..frames()−1, with a share if cross-faded
-        bool coloured = false;  ///< red green blue, where not all have one colour
-    };
-    [[nodiscard]] Layout layout(bool coloured) const;
-
-    /// GPU memory for `count` billboards in drawing order; write-only, to be filled and unmapped.
-    [[nodiscard]] std::span<float> map(std::size_t count, const Layout& layout);
-    void unmap();
+    /// x y z radius opacity [picture] [red green blue]
+    [[nodiscard]] InstanceLayout layout(bool coloured) const {
+        return {5u + (framed() ? 1u : 0u) + (coloured ? 3u : 0u), coloured};
+    }
+    /// Whether a billboard says which picture it shows: 0..frames()−1, with a share where they are cross-faded.
+    [[nodiscard]] bool framed() const { return pictures_ != nullptr; }
 
     /// Draws what was mapped last, as often as wanted. `colourOfAll` is for billboards without colours of their own.
     void draw(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer);
 
-    [[nodiscard]] std::size_t count() const { return count_; }
-    [[nodiscard]] std::size_t gpuBytes() const { return instances_.bytes() + corners_.bytes(); }
-
  private:
-    [[nodiscard]] gpu::Program& program();
-
-    gpu::Device& device_;
     BillboardStyle style_;
     const PuffTextures* pictures_;
-    gpu::Buffer instances_;
-    gpu::Buffer corners_;
-    gpu::VertexArray vertices_;
-    std::optional<gpu::Program> oneColour_, ownColours_;  ///< made when first wanted
-    Layout layout_;
-    std::size_t count_ = 0;
 };
 
 }  // namespace dustbench::draw

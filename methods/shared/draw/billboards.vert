@@ -1,4 +1,4 @@
-// Corners of camera-facing quads, pulled from the instances: PUFFS_AT_ONCE quads in each drawn instance.
+// Corners of camera-facing quads, pulled from the instances: SHAPES_AT_ONCE quads in each drawn instance.
 layout(std430, binding = 0) readonly buffer Instances {
     float values[];  // x y z radius opacity [frame] [red green blue]
 };
@@ -29,7 +29,7 @@ float opticalDepth(float opacity) {
 }
 
 void main() {
-    int wanted = gl_InstanceID * PUFFS_AT_ONCE + (gl_VertexID >> 2);
+    int wanted = gl_InstanceID * SHAPES_AT_ONCE + (gl_VertexID >> 2);
     int base = min(wanted, count - 1) * FLOATS;
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1 & 1) * 2.0 - 1.0;
 

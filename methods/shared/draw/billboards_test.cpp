@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "methods/shared/draw/image.h"
+#include "methods/shared/draw/test_canvas.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/maths/transmittance.h"
 
@@ -23,35 +23,10 @@ struct Puff {
     float frame = 0;
 };
 
-/// A small picture taken from near the origin along −z.
-class Canvas {
+/// From near the origin along −z.
+class Canvas : public TestCanvas {
  public:
-    Canvas() {
-        view.width = 160;
-        view.height = 120;
-        view.camera.eye = {100.5, 2.25, -40.125};
-        view.camera.target = view.camera.eye + glm::dvec3(0, 0, -1);
-        depth_ = gpu::Texture::make2D(device(), "scene depth", gpu::Format::depth32F, view.width, view.height);
-        setWall(std::nullopt);
-    }
-
-    static gpu::Device& device() {
-        static gpu::Device one;
-        return one;
-    }
-
-    /// An opaque wall across the view, its distance along the axis; or nothing at all.
-    void setWall(std::optional<double> distance, int fromColumn = 0) {
-        std::vector<float> depths(static_cast<std::size_t>(view.width * view.height), 0.0f);
-        if (distance)
-            for (std::size_t i = 0; i < depths.size(); ++i)
-                if (static_cast<int>(i) % view.width >= fromColumn)
-                    depths[i] = static_cast<float>(view.camera.nearMetres / *distance);
-        depth_.write(std::span<const float>(depths));
-        layer_.emplace(device(), depth_);
-    }
-
-    [[nodiscard]] glm::vec3 at(const glm::vec3& fromEye) const { return glm::vec3(view.camera.eye) + fromEye; }
+    Canvas() : TestCanvas(160, 120, {100.5, 2.25, -40.125}, {0, 0, -1}) {}
 
     Image draw(Billboards& billboards, const std::vector<Puff>& puffs, bool coloured = false) {
         const auto layout = billboards.layout(coloured);
@@ -62,16 +37,14 @@ class Canvas {
             for (int i = 0; i < 3; ++i) put(puff.centre[i]);
             put(puff.radius);
             put(puff.opacity);
-            if (layout.framed) put(puff.frame);
+            if (billboards.framed()) put(puff.frame);
             for (int i = 0; layout.coloured && i < 3; ++i) put(puff.colour[i]);
         }
         billboards.unmap();
         return drawAgain(billboards);
     }
     Image drawAgain(Billboards& billboards) {
-        layer_->clear();
-        billboards.draw(view, colourOfAll, *layer_);
-        return readBack(layer_->colour());
+        return picture([&](const gpu::Layer& layer) { billboards.draw(view, colourOfAll, layer); });
     }
 
     /// Opacity of a puff along a pixel's ray, cut at `wall` along the axis and at the eye where `soft`.
@@ -93,12 +66,7 @@ class Canvas {
         return {-std::expm1(-maths::rayOpticalDepth(alpha, radius, b, foot, 0, end)), offset};
     }
 
-    scene::View view;
     glm::vec3 colourOfAll{0.5f, 0.25f, 0.125f};
-
- private:
-    gpu::Texture depth_;
-    std::optional<gpu::Layer> layer_;
 };
 
 void expectPuff(const Canvas& canvas, const Image& image, const Puff& puff, double tolerance,

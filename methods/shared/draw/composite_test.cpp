@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "methods/shared/draw/image.h"
+#include "methods/shared/draw/test_canvas.h"
 
 namespace dustbench::draw {
 namespace {
@@ -29,7 +30,7 @@ gpu::Texture filled(gpu::Device& device, gpu::Format format, int width, int heig
 }
 
 TEST(Composite, EqualsOverAndEncodingOnTheCpuToOneStep) {
-    gpu::Device device;
+    gpu::Device& device = TestCanvas::device();
     const gpu::Texture scene = filled(device, gpu::Format::rgba16F, 61, 47, 1.6f, 1);
     const gpu::Texture layer = filled(device, gpu::Format::rgba32F, 61, 47, 1, 2);
     Composite composite(device, 61, 47);
@@ -50,7 +51,7 @@ TEST(Composite, EqualsOverAndEncodingOnTheCpuToOneStep) {
 }
 
 TEST(Composite, RefusesOtherSizes) {
-    gpu::Device device;
+    gpu::Device& device = TestCanvas::device();
     Composite composite(device, 8, 8);
     const gpu::Texture right = filled(device, gpu::Format::rgba32F, 8, 8, 1, 1);
     const gpu::Texture wrong = filled(device, gpu::Format::rgba32F, 8, 9, 1, 1);

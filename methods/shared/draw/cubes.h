@@ -11,50 +11,23 @@
 // Source: Carr2006, 3.5. Departs: the six-faceted cubes that it sets aside for billboards; opacity by Beer and Lambert.
 #pragma once
 
-#include <cstddef>
 #include <glm/glm.hpp>
-#include <optional>
-#include <span>
 
-#include "methods/shared/gpu/buffer.h"
+#include "methods/shared/draw/instance_batch.h"
 #include "methods/shared/gpu/layer.h"
-#include "methods/shared/gpu/program.h"
-#include "methods/shared/gpu/vertex_array.h"
 #include "methods/shared/scene/view.h"
 
 namespace dustbench::draw {
 
-class Cubes {
+class Cubes : public InstanceBatch {
  public:
     explicit Cubes(gpu::Device& device);
 
-    /// Where the values of one cube lie.
-    struct Layout {
-        std::size_t floats = 5;  ///< x y z of the centre, edge, τ, then:
-        bool coloured = false;   ///< red green blue, where not all have one colour
-    };
-    [[nodiscard]] static Layout layout(bool coloured) { return {coloured ? 8u : 5u, coloured}; }
-
-    /// GPU memory for `count` cubes in drawing order; write-only, to be filled and unmapped.
-    [[nodiscard]] std::span<float> map(std::size_t count, const Layout& layout);
-    void unmap();
+    /// x y z of the centre, edge, τ [red green blue]
+    [[nodiscard]] static InstanceLayout layout(bool coloured) { return {coloured ? 8u : 5u, coloured}; }
 
     /// Draws what was mapped last, as often as wanted. `colourOfAll` is for cubes without colours of their own.
     void draw(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer);
-
-    [[nodiscard]] std::size_t count() const { return count_; }
-    [[nodiscard]] std::size_t gpuBytes() const { return instances_.bytes() + corners_.bytes(); }
-
- private:
-    [[nodiscard]] gpu::Program& program();
-
-    gpu::Device& device_;
-    gpu::Buffer instances_;
-    gpu::Buffer corners_;
-    gpu::VertexArray vertices_;
-    std::optional<gpu::Program> oneColour_, ownColours_;  ///< made when first wanted
-    Layout layout_;
-    std::size_t count_ = 0;
 };
 
 }  // namespace dustbench::draw

@@ -1,4 +1,4 @@
-// Corners of cubes, pulled from the instances: CUBES_AT_ONCE cubes in each drawn instance. Bits 1, 2 and 4 of a corner
+// Corners of cubes, pulled from the instances: SHAPES_AT_ONCE cubes in each drawn instance. Bits 1, 2 and 4 of a corner
 // are set on the side towards the eye, so that one order of faces, those with the bits unset first, does for all.
 layout(std430, binding = 0) readonly buffer Instances {
     float values[];  // x y z edge τ [red green blue]
@@ -20,7 +20,7 @@ float opacityOf(float x) {
 }
 
 void main() {
-    int wanted = gl_InstanceID * CUBES_AT_ONCE + (gl_VertexID >> 3);
+    int wanted = gl_InstanceID * SHAPES_AT_ONCE + (gl_VertexID >> 3);
     int base = min(wanted, count - 1) * FLOATS;
 
     // The eye is taken off first: what is left is small near the eye, where it matters.

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "methods/shared/draw/image.h"
+#include "methods/shared/draw/test_canvas.h"
 
 namespace dustbench::draw {
 namespace {
@@ -21,50 +21,10 @@ struct Cube {
     glm::vec3 colour{1};
 };
 
-/// A small picture from near the origin along −z, unless turned.
-class Canvas {
+/// From near the origin along −z, unless turned.
+class Canvas : public TestCanvas {
  public:
-    Canvas() {
-        view.width = 160;
-        view.height = 120;
-        view.camera.eye = {100.5, 2.25, -40.125};
-        view.camera.target = view.camera.eye + glm::dvec3(0, 0, -1);
-        depth_ = gpu::Texture::make2D(device(), "scene depth", gpu::Format::depth32F, view.width, view.height);
-        setWall(std::nullopt);
-    }
-
-    static gpu::Device& device() {
-        static gpu::Device one;
-        return one;
-    }
-
-    /// An opaque wall across the right half of the view, its distance along the axis; or nothing at all.
-    void setWall(std::optional<double> distance) {
-        std::vector<float> depths(static_cast<std::size_t>(view.width * view.height), 0.0f);
-        wall_ = distance;
-        for (std::size_t i = 0; distance && i < depths.size(); ++i)
-            if (isWalled(static_cast<int>(i) % view.width))
-                depths[i] = static_cast<float>(view.camera.nearMetres / *distance);
-        depth_.write(std::span<const float>(depths));
-        layer_.emplace(device(), depth_);
-    }
-    /// Opaque flat ground so far below the eye, as exact as its depths can be.
-    void setGround(double below) {
-        wall_.reset();
-        const glm::dvec3 forward = glm::normalize(view.camera.target - view.camera.eye);
-        std::vector<float> depths;
-        for (int y = view.height - 1; y >= 0; --y)
-            for (int x = 0; x < view.width; ++x) {
-                const glm::dvec3 ray = view.rayDirection(x + 0.5, y + 0.5);
-                const double along = below / -ray.y * glm::dot(ray, forward);
-                depths.push_back(ray.y < 0 ? static_cast<float>(view.camera.nearMetres / along) : 0.0f);
-            }
-        depth_.write(std::span<const float>(depths));
-        layer_.emplace(device(), depth_);
-    }
-    [[nodiscard]] bool isWalled(int x) const { return wall_ && x >= view.width / 2; }
-
-    [[nodiscard]] glm::vec3 at(const glm::vec3& fromEye) const { return glm::vec3(view.camera.eye) + fromEye; }
+    Canvas() : TestCanvas(160, 120, {100.5, 2.25, -40.125}, {0, 0, -1}) {}
 
     Image draw(Cubes& cubes, const std::vector<Cube>& list, bool coloured = false) {
         const auto layout = Cubes::layout(coloured);
@@ -81,9 +41,7 @@ class Canvas {
         return drawAgain(cubes);
     }
     Image drawAgain(Cubes& cubes) {
-        layer_->clear();
-        cubes.draw(view, colourOfAll, *layer_);
-        return readBack(layer_->colour());
+        return picture([&](const gpu::Layer& layer) { cubes.draw(view, colourOfAll, layer); });
     }
 
     /// The faces of one cube that a pixel's ray crosses, and whether an edge is so near that either answer will do.
@@ -96,7 +54,7 @@ class Canvas {
         const glm::dvec3 forward = glm::normalize(view.camera.target - view.camera.eye);
         const glm::dvec3 centre = glm::dvec3(cube.centre) - view.camera.eye;
         const double half = static_cast<double>(cube.edge) / 2;
-        const double last = isWalled(x) ? *wall_ : std::numeric_limits<double>::infinity();
+        const double last = wallAt(x);
         Crossing crossing;
         for (int axis = 0; axis < 3; ++axis)
             for (const double side : {-half, half}) {
@@ -116,13 +74,7 @@ class Canvas {
         return crossing;
     }
 
-    scene::View view;
     glm::vec3 colourOfAll{0.5f, 0.25f, 0.125f};
-
- private:
-    std::optional<double> wall_;
-    gpu::Texture depth_;
-    std::optional<gpu::Layer> layer_;
 };
 
 double opacityOf(double depth) {
@@ -202,7 +154,7 @@ TEST(Cubes, AreTheirFacesPutOverOneAnother) {
         // Anywhere, to any side; in odd rounds before and behind a wall, in each third one all around the eye.
         canvas.view.camera.target =
             canvas.view.camera.eye + glm::dvec3(wide(random), 0.5f * wide(random), wide(random));
-        canvas.setWall(round % 2 ? std::optional<double>(9) : std::nullopt);
+        canvas.setWall(round % 2 ? std::optional<double>(9) : std::nullopt, 80);
         const glm::vec3 forward(glm::normalize(canvas.view.camera.target - canvas.view.camera.eye));
         std::vector<Cube> list;
         for (int i = 0; i < 40; ++i) {
@@ -253,7 +205,7 @@ TEST(Cubes, AreHiddenBehindWhatIsSolid) {
     const Cube cube{canvas.at({0, 0, -10}), 2, 0.8f};
     const Image free = canvas.draw(cubes, {cube});
     for (const double wall : {8.9, 10.0, 11.1}) {
-        canvas.setWall(wall);
+        canvas.setWall(wall, 80);
         const Image image = canvas.draw(cubes, {cube});
         EXPECT_EQ(image.at(78, 60), free.at(78, 60));
         const double faces = wall > 11 ? 2 : wall > 9 ? 1 : 0;

@@ -1,4 +1,5 @@
 #include "methods/shared/draw/image.h"
+#include "methods/shared/draw/test_canvas.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -178,7 +179,7 @@ TEST_F(ImageFile, UnwritableTargetsAreNamedInOneLine) {
 }
 
 TEST(ReadBack, HasItsFirstRowAtTheTop) {
-    gpu::Device device;
+    gpu::Device& device = TestCanvas::device();
     gpu::Texture texture = gpu::Texture::make2D(device, "test", gpu::Format::rgba32F, 2, 3);
     std::vector<float> values;
     for (int i = 0; i < 24; ++i) values.push_back(static_cast<float>(i));
@@ -191,7 +192,7 @@ TEST(ReadBack, HasItsFirstRowAtTheTop) {
 }
 
 TEST(ReadBack, RefusesDepth) {
-    gpu::Device device;
+    gpu::Device& device = TestCanvas::device();
     EXPECT_THROW(static_cast<void>(readBack(gpu::Texture::make2D(device, "test", gpu::Format::depth32F, 2, 2))),
                  std::invalid_argument);
 }

@@ -8,6 +8,7 @@
 
 #include "methods/shared/draw/image.h"
 #include "methods/shared/draw/opaque_test_scene.h"
+#include "methods/shared/draw/test_canvas.h"
 
 namespace dustbench::draw {
 namespace {
@@ -47,7 +48,7 @@ class OpaqueSceneTest : public testing::Test {
         return {readBack(opaque.colour()), opaque.depth().readFloats()};
     }
 
-    gpu::Device device_;
+    gpu::Device& device_ = TestCanvas::device();
 };
 
 glm::dvec3 rayOf(const scene::View& view, int x, int y) {

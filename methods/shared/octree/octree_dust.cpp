@@ -146,7 +146,7 @@ void OctreeDust::update(const Frame& frame) {
 /// r = edge/√(π/2) and τ = mass/edge²: the Gaussian puff of the voxel's mass and of the optical depth across it.
 void OctreeDust::uploadBillboards(std::span<const std::uint32_t> order) {
     const VoxelCloud& cloud = shown();
-    const draw::Billboards::Layout layout = billboards_->layout(cloud.coloured());
+    const draw::InstanceLayout layout = billboards_->layout(cloud.coloured());
     const std::span<float> memory = billboards_->map(order.size(), layout);
     parallel::forEachBlock(order.size(), voxelsPerBlock, [&](std::size_t first, std::size_t count) {
         float* value = memory.data() + first * layout.floats;
@@ -168,7 +168,7 @@ void OctreeDust::uploadBillboards(std::span<const std::uint32_t> order) {
 
 void OctreeDust::uploadCubes(std::span<const std::uint32_t> order) {
     const VoxelCloud& cloud = shown();
-    const draw::Cubes::Layout layout = draw::Cubes::layout(cloud.coloured());
+    const draw::InstanceLayout layout = draw::Cubes::layout(cloud.coloured());
     const std::span<float> memory = cubes_->map(order.size(), layout);
     parallel::forEachBlock(order.size(), voxelsPerBlock, [&](std::size_t first, std::size_t count) {
         float* value = memory.data() + first * layout.floats;

@@ -10,10 +10,9 @@
 #include <tuple>
 #include <vector>
 
-#include "methods/shared/draw/image.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/octree/cell_kernel.h"
-#include "methods/shared/scene/scene.h"
+#include "methods/shared/test_moment.h"
 #include "methods/shared/volume.h"
 
 namespace dustbench::octree {
@@ -53,23 +52,10 @@ class MapBuilder final : public OctreeBuilder {
     }
 };
 
-gpu::Device& device() {
-    static gpu::Device one;
-    return one;
-}
-
-/// A trail behind a vehicle at the world's zero, before an eye.
-class Moment {
+/// A trail behind a vehicle at the world's zero.
+class Moment : public TestMoment {
  public:
-    explicit Moment(std::size_t count) : dust(ledger_) {
-        view.width = 160;
-        view.height = 120;
-        view.camera.eye = {0, 6, 24};
-        view.camera.target = {-6, 1, 0};
-        depth_ = gpu::Texture::make2D(device(), "scene depth", gpu::Format::depth32F, view.width, view.height);
-        depth_.write(std::vector<float>(static_cast<std::size_t>(view.width * view.height), 0.0f));
-        layer.emplace(device(), depth_);
-        dust.resize(count);
+    explicit Moment(std::size_t count) : TestMoment(count, 160, 120, {0, 6, 24}, {-6, -5, -24}) {
         std::mt19937 random(4);
         std::uniform_real_distribution<float> uniform(0, 1);
         for (std::size_t i = 0; i < count; ++i) {
@@ -85,27 +71,6 @@ class Moment {
         }
         dust.colourOfAll = {0.6f, 0.5f, 0.4f};
     }
-    [[nodiscard]] Frame frame() const { return {0, 1.0 / 60, state, dust, view, clock_}; }
-
-    draw::Image draw(Method& method) {
-        layer->clear();
-        method.draw(frame(), *layer);
-        device().finish();
-        return draw::readBack(layer->colour());
-    }
-
-    scene::Scene scene;
-    scene::SceneState state;
-    scene::View view;
-    std::optional<gpu::Layer> layer;
-
- private:
-    MemoryLedger ledger_;
-    StageClock clock_;
-    gpu::Texture depth_;
-
- public:
-    particles::ParticleStore dust;
 };
 
 OctreeDust make(const DustSettings& settings) {
@@ -131,7 +96,7 @@ TEST(OctreeDust, ShowsTheSameMassHoweverItIsDrawn) {
     std::map<Render, double> depths;
     for (const Render render : {Render::billboards, Render::cubes, Render::raycast}) {
         OctreeDust method = make(settingsOf(render));
-        method.prepare(moment.scene, device());
+        method.prepare(moment.scene, Moment::device());
         method.update(moment.frame());
         depths[render] = depthOf(moment.draw(method));
     }
@@ -146,7 +111,7 @@ TEST(OctreeDust, KeepsAllMassWhereItAccumulatesAndSaysWhatElseItDrops) {
     std::map<OpacityPolicy, double> kept;
     for (const OpacityPolicy policy : {OpacityPolicy::accumulate, OpacityPolicy::max, OpacityPolicy::youngest}) {
         OctreeDust method = make(settingsOf(Render::raycast, policy));
-        method.prepare(moment.scene, device());
+        method.prepare(moment.scene, Moment::device());
         method.update(moment.frame());
         kept[policy] = method.massKept(moment.frame()).value();
     }
@@ -160,7 +125,7 @@ TEST(OctreeDust, HoldsATrailThatIsLongerThanHalfItsWorld) {
     Moment moment(1000);
     for (float& x : moment.dust.x) x *= 8;  // 96 m, of a world of 128
     OctreeDust method = make(settingsOf(Render::raycast));
-    method.prepare(moment.scene, device());
+    method.prepare(moment.scene, Moment::device());
     method.update(moment.frame());
     EXPECT_EQ(method.clipped(), 0);
     EXPECT_NEAR(method.massKept(moment.frame()).value(), 1, 1e-6);
@@ -190,7 +155,7 @@ TEST(OctreeDust, HandsOverItsVoxelsWithTheirMass) {
     } collector;
     Moment moment(2000);
     OctreeDust method = make(settingsOf(Render::billboards));
-    method.prepare(moment.scene, device());
+    method.prepare(moment.scene, Moment::device());
     method.update(moment.frame());
     method.volume(moment.frame(), collector);
     double mass = 0;
@@ -207,7 +172,7 @@ TEST(OctreeDust, DrawsTheSameAgainInEveryWay) {
             DustSettings settings = settingsOf(render, OpacityPolicy::max);
             settings.crossFade = fades;
             OctreeDust method = make(settings);
-            method.prepare(moment.scene, device());
+            method.prepare(moment.scene, Moment::device());
             for (int frame = 0; frame < 3; ++frame) {
                 for (float& x : moment.dust.x) x += 0.1f;
                 method.update(moment.frame());
@@ -225,7 +190,7 @@ TEST(OctreeDust, CrossFadingLeavesLessToPop) {
         DustSettings settings = settingsOf(Render::raycast, OpacityPolicy::max);
         settings.crossFade = fades;
         OctreeDust method = make(settings);
-        method.prepare(moment.scene, device());
+        method.prepare(moment.scene, Moment::device());
         method.update(moment.frame());
         draw::Image last = moment.draw(method);
         for (int frame = 0; frame < 12; ++frame) {

@@ -10,46 +10,18 @@
 #include <stdexcept>
 #include <vector>
 
-#include "methods/shared/draw/image.h"
+#include "methods/shared/draw/test_canvas.h"
 #include "methods/shared/octree/octree_march_test_tree.h"
 
 namespace dustbench::octree {
 namespace {
 
-/// A small picture, over nothing or over a wall across its right half.
-class Canvas {
+class Canvas : public draw::TestCanvas {
  public:
-    Canvas() {
-        view.width = 96;
-        view.height = 72;
-        depth_ = gpu::Texture::make2D(device(), "scene depth", gpu::Format::depth32F, view.width, view.height);
-        setWall(std::nullopt);
-    }
-
-    static gpu::Device& device() {
-        static gpu::Device one;
-        return one;
-    }
-
-    void setWall(std::optional<double> distance) {
-        wall_ = distance;
-        std::vector<float> depths(static_cast<std::size_t>(view.width * view.height), 0.0f);
-        for (std::size_t i = 0; distance && i < depths.size(); ++i)
-            if (isWalled(static_cast<int>(i) % view.width))
-                depths[i] = static_cast<float>(view.camera.nearMetres / *distance);
-        depth_.write(std::span<const float>(depths));
-        layer_.emplace(device(), depth_);
-    }
-    [[nodiscard]] bool isWalled(int x) const { return wall_ && x >= view.width / 2; }
-    void lookFrom(const glm::dvec3& eye, const glm::dvec3& along) {
-        view.camera.eye = eye;
-        view.camera.target = eye + along;
-    }
+    Canvas() : TestCanvas(96, 72, {0, 0, 0}, {0, 0, -1}) {}
 
     draw::Image draw(OctreeMarch& march) {
-        layer_->clear();
-        march.draw(view, colourOfAll, *layer_);
-        return draw::readBack(layer_->colour());
+        return picture([&](const gpu::Layer& layer) { march.draw(view, colourOfAll, layer); });
     }
 
     /// The ray of a pixel: from the eye, where it ends, and its direction in double precision.
@@ -60,17 +32,10 @@ class Canvas {
     [[nodiscard]] Ray ray(int x, int y) const {
         const glm::dvec3 direction = glm::normalize(glm::dvec3(view.rayDirection(x + 0.5, y + 0.5)));
         const glm::dvec3 forward = glm::normalize(view.camera.target - view.camera.eye);
-        return {direction,
-                isWalled(x) ? *wall_ / glm::dot(direction, forward) : std::numeric_limits<double>::infinity()};
+        return {direction, wallAt(x) / glm::dot(direction, forward)};
     }
 
-    scene::View view;
     glm::vec3 colourOfAll{0.5f, 0.25f, 0.125f};
-
- private:
-    std::optional<double> wall_;
-    gpu::Texture depth_;
-    std::optional<gpu::Layer> layer_;
 };
 
 struct Segment {
@@ -195,7 +160,7 @@ TEST(OctreeMarch, SumsUpExtinctionTimesLengthOverAllVoxels) {
         // From outside towards the middle, and from within to anywhere; before a wall every third time.
         const glm::dvec3 eye = middle + somewhere(random, (round % 4 < 2 ? 1.2 : 0.4) * lattice.edgeMetres);
         canvas.lookFrom(eye, round % 4 < 2 ? middle - eye : somewhere(random, 1));
-        canvas.setWall(round % 3 == 2 ? std::optional(0.4 * lattice.edgeMetres) : std::nullopt);
+        canvas.setWall(round % 3 == 2 ? std::optional(0.4 * lattice.edgeMetres) : std::nullopt, 48);
         for (const bool coloured : {false, true}) {
             march.upload(tree.marched(coloured));
             total += expectSums(canvas, tree, canvas.draw(march), coloured, coloured ? 5 : 2);
@@ -272,7 +237,7 @@ TEST(OctreeMarch, EndsAtTheScene) {
     march.upload(tree.marched());
     canvas.lookFrom({4, 4, 2}, {0, 0, -1});
     for (const double wall : {9.9, 10.0, 12.0, 17.9, 30.0}) {
-        canvas.setWall(wall);
+        canvas.setWall(wall, 48);
         const draw::Image image = canvas.draw(march);
         expectSums(canvas, tree, image, false);
         EXPECT_NEAR(image.at(50, 36).a, -std::expm1(-0.1 * std::clamp(wall - 10, 0.0, 8.0)), 1e-3) << wall;
