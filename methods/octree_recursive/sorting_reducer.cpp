@@ -26,9 +26,8 @@ void sortByDigit(const BrickVoxel* from, BrickVoxel* to, std::uint32_t count, in
 void SortingReducer::reduce(const BrickPartition& partition, const Brick& brick, const BrickVoxels& voxels) {
     BrickVoxel* const particles = voxels.voxels;
     std::uint32_t total = 0;
-    partition.visitParticles(brick, rule_.values(), [&](std::uint32_t location, std::uint32_t particle) {
-        particles[total++] = {location, particle};
-    });
+    for (const std::uint64_t key : partition.particles(brick))
+        particles[total++] = {partition.key().location(key), partition.key().particle(key)};
     sortByDigit(particles, voxels.spare, total, 0);
     sortByDigit(voxels.spare, particles, total, 7);
 

@@ -22,7 +22,7 @@ class GridReducer {
 
  private:
     octree::VoxelRule rule_;
-    /// By location code: the best particle's priority above, its index with all bits turned below; 0: none yet.
+    /// By location code: the best particle's key, none of which is 0; 0: none yet.
     std::array<std::uint64_t, octree::brickCodes> best_{};
     std::array<std::uint16_t, octree::brickCodes> touched_;
     std::array<double, octree::brickCodes> sums_;

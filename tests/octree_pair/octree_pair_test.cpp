@@ -4,6 +4,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <bit>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -162,6 +163,29 @@ TEST(OctreePair, GivesTheSameVoxelsOfManyParticlesAtAnyNumberOfThreads) {
                 ASSERT_EQ(clipped, oracle.clipped);
                 ASSERT_NO_FATAL_FAILURE(expectOracle(tree, made, oracle));
             }
+        }
+    }
+}
+
+/// So many that a sorted particle has no room for all bits of its priority, which differ in the last ones alone.
+TEST(OctreePair, TellsPrioritiesApartByTheirLastBits) {
+    constexpr std::size_t count = (1 << 20) + 77;
+    std::mt19937_64 random(21);
+    MemoryLedger ledger;
+    ParticleStore store(ledger);
+    Case made = makeCase(random, count, store);
+    made.settings.policy = octree::OpacityPolicy::max;
+    for (const int depth : {8, 10}) {
+        made.settings.depth = made.lattice.depth = depth;
+        made.settings.levels = 4;
+        for (std::size_t i = 0; i < count; ++i)
+            store.opacity[i] = std::bit_cast<float>(0x3d000000u + static_cast<std::uint32_t>(random() % 16));
+        const Oracle oracle = oracleOf(store, made.lattice, made.settings);
+        for (const NamedBuilder& each : allBuilders(ledger)) {
+            SCOPED_TRACE(each.name);
+            Octree tree(ledger);
+            EXPECT_EQ(each.builder->build(store, made.lattice, made.settings, tree), oracle.clipped);
+            ASSERT_NO_FATAL_FAILURE(expectOracle(tree, made, oracle));
         }
     }
 }

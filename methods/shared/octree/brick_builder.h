@@ -23,7 +23,7 @@ class BrickBuilder final : public OctreeBuilder {
     std::int64_t build(const particles::ParticleStore& store, const Lattice& lattice, const OctreeSettings& settings,
                        Octree& tree) override {
         const VoxelRule rule(store, settings.policy);
-        partition_.sort(store, lattice, settings);
+        partition_.sort(store, lattice, settings, rule);
         assembly_.hold(partition_, rule.accumulates(), Reducer::needsSpare);
         const std::span<const Brick> bricks = partition_.bricks();
         const std::size_t atOnce = std::clamp<std::size_t>(bricks.size() / 64, 1, 64);

@@ -1,5 +1,7 @@
 #include "methods/shared/octree/brick_nodes.h"
 
+#include <algorithm>
+
 namespace dustbench::octree {
 namespace {
 
@@ -17,27 +19,32 @@ std::uint32_t bitCount(std::uint64_t bits) {
 
 }  // namespace
 
-/// Every node: a voxel, or what has one below it. A word holds the children of the eight cells that are one byte of
-/// word >> 3.
+/// Every node: a voxel, or what has one below it. A word holds the children of the eight cells that are one byte of the
+/// word whose number has three bits less.
 void BrickNodes::addParents() {
-    nodes_ = bits_;
-    for (std::size_t word = nodes_.size() - 1; word >= 1; --word)
-        if (nodes_[word] != 0) nodes_[word >> 3] |= anyOfEight(nodes_[word]) << 8 * (word & 7);
+    std::copy_n(voxels_.begin(), coarseWords, nodes_.begin());
+    for (std::uint32_t word = 0; word < fineWords; ++word)
+        nodes_[(64 + word) >> 3] |= anyOfEight(voxels_[coarseWords + word]) << 8 * (word & 7);
+    for (std::uint32_t word = coarseWords - 1; word >= 1; --word)
+        nodes_[word >> 3] |= anyOfEight(nodes_[word]) << 8 * (word & 7);
     nodes_[0] |= anyOfEight(nodes_[0] & 0xff00);  // the brick's children, bits 8 to 15, to the brick, bit 1
 }
 
 void BrickNodes::complete() {
     addParents();
-    voxelCount_ = blockCount_ = 0;
-    for (const std::uint64_t word : bits_) voxelCount_ += bitCount(word);
-    // A block for every eight siblings of which there is one: a byte of the bits.
-    for (std::size_t word = 1; word < nodes_.size(); ++word) blockCount_ += bitCount(anyOfEight(nodes_[word]));
-    blockCount_ += (nodes_[0] & 0xff00) != 0 ? 1 : 0;
+    voxelCount_ = 0;
+    for (const std::uint64_t word : voxels_) voxelCount_ += bitCount(word);
+    // A block for each cell that has children: for each coarse node but those that are voxels alone.
+    blockCount_ = (nodes_[0] & 0xff00) != 0 ? 1 : 0;
+    for (std::uint32_t word = 1; word < coarseWords; ++word) blockCount_ += bitCount(anyOfEight(nodes_[word]));
+    for (std::uint32_t word = 0; word < fineWords; ++word)
+        blockCount_ += bitCount(anyOfEight(voxels_[coarseWords + word]));
 }
 
 struct BrickNodes::Writer {
-    const std::uint8_t* voxels;  ///< bytes of the bits: the eight children of cell c are byte c
+    const std::uint8_t* voxels;  ///< bytes of the bits: the eight children of a coarse cell c are byte c
     const std::uint8_t* nodes;
+    const std::uint8_t* fine;  ///< those of the finest cells: the children of cell c are byte c − 512
     NodeBlock* blocks;
     std::uint32_t nextBlock;
     std::uint32_t firstVoxel;
@@ -49,8 +56,8 @@ struct BrickNodes::Writer {
     void write(std::uint32_t location, std::uint32_t block) {
         NodeBlock& out = blocks[block];
         out = NodeBlock{};
-        const std::uint32_t voxelBits = voxels[location];
-        for (std::uint32_t left = nodes[location]; left != 0; left &= left - 1) {
+        const std::uint32_t voxelBits = rise == 1 ? 0 : voxels[location];
+        for (std::uint32_t left = rise == 1 ? fine[location - 512] : nodes[location]; left != 0; left &= left - 1) {
             const auto octant = static_cast<std::uint32_t>(std::countr_zero(left));
             const std::uint32_t child = 8 * location + octant;
             NodeSlot& slot = out.slots[octant];
@@ -59,7 +66,7 @@ struct BrickNodes::Writer {
                 slot.voxel = firstVoxel + count;
             }
             if constexpr (rise > 1) {
-                if (nodes[child] == 0) continue;
+                if ((rise == 2 ? fine[child - 512] : nodes[child]) == 0) continue;
                 slot.children = nextBlock++;
                 write<rise - 1>(child, slot.children);
             }
@@ -70,8 +77,10 @@ struct BrickNodes::Writer {
 void BrickNodes::write(NodeBlock* blocks, std::uint32_t first, std::uint32_t next, std::uint32_t firstVoxel,
                        Ranks& ranks) const {
     static_assert(std::endian::native == std::endian::little, "bytes of a word count from its lowest bits");
-    Writer writer{reinterpret_cast<const std::uint8_t*>(bits_.data()),
+    const auto* const coarse = reinterpret_cast<const std::uint8_t*>(voxels_.data());
+    Writer writer{coarse,
                   reinterpret_cast<const std::uint8_t*>(nodes_.data()),
+                  coarse + 8 * coarseWords,
                   blocks,
                   next,
                   firstVoxel,

@@ -32,8 +32,8 @@ inline constexpr int brickCodeBits = 13;
 
 class BrickNodes {
  public:
-    void clear() { bits_.fill(0); }
-    void setVoxel(std::uint32_t location) { bits_[location >> 6] |= std::uint64_t{1} << (location & 63); }
+    void clear() { voxels_.fill(0); }
+    void setVoxel(std::uint32_t location) { voxels_[wordOf(location)] |= std::uint64_t{1} << (location & 63); }
     /// After the last voxel: counts what will be there.
     void complete();
 
@@ -52,13 +52,17 @@ class BrickNodes {
 
  private:
     struct Writer;
-    using Bits = std::array<std::uint64_t, brickCodes / 64>;
+    // A bit for each cell: words of the location codes below 1024, then of those from 4096 on; between lie none.
+    static constexpr std::uint32_t coarseWords = 16, fineWords = 64;
+    static std::uint32_t wordOf(std::uint32_t location) { return (location >> 6) - (location >> 12) * 48; }
 
-    [[nodiscard]] bool isSet(std::uint32_t location) const { return bits_[location >> 6] >> (location & 63) & 1; }
+    [[nodiscard]] bool isSet(std::uint32_t location) const {
+        return (voxels_[wordOf(location)] >> (location & 63) & 1) != 0;
+    }
     void addParents();
 
-    Bits bits_;   ///< a bit for each voxel
-    Bits nodes_;  ///< and for each cell that has one below it, once complete
+    std::array<std::uint64_t, coarseWords + fineWords> voxels_;
+    std::array<std::uint64_t, coarseWords> nodes_;  ///< voxels, and cells that have one below them, once complete
     std::uint32_t voxelCount_ = 0, blockCount_ = 0;
 };
 

@@ -15,10 +15,13 @@ void checkPositions(const particles::ParticleStore& store) {
     std::uint32_t bad = 0;
     for (std::size_t i = 0; i < store.size(); ++i) bad |= std::isnan(x[i]) || std::isnan(y[i]) || std::isnan(z[i]);
     if (bad == 0) return;
-    for (std::size_t i = 0; i < store.size(); ++i)
-        if (std::isnan(store.x[i]) || std::isnan(store.y[i]) || std::isnan(store.z[i]))
-            throw std::runtime_error("octree: the position of the particle with serial " +
-                                     std::to_string(store.serial[i]) + " is not a number");
+    for (std::size_t i = 0; i < store.size(); ++i) checkPosition(store, i);
+}
+
+void checkPosition(const particles::ParticleStore& store, std::size_t particle) {
+    if (std::isnan(store.x[particle]) || std::isnan(store.y[particle]) || std::isnan(store.z[particle]))
+        throw std::runtime_error("octree: the position of the particle with serial " +
+                                 std::to_string(store.serial[particle]) + " is not a number");
 }
 
 void checkCount(const particles::ParticleStore& store) {

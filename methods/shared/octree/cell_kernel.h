@@ -77,13 +77,35 @@ class CellKernel {
           levels_(static_cast<std::uint32_t>(settings.levels)) {}
 
     [[nodiscard]] ParticleCell operator()(std::size_t i) const {
-        const std::uint32_t x = static_cast<std::uint32_t>(cellNumber(x_[i], cellsPerMetre_)) - firstX_;
-        const std::uint32_t y = static_cast<std::uint32_t>(cellNumber(y_[i], cellsPerMetre_)) - firstY_;
-        const std::uint32_t z = static_cast<std::uint32_t>(cellNumber(z_[i], cellsPerMetre_)) - firstZ_;
+        const auto [x, y, z] = finestCell(i);
+        ParticleCell cell = belonging(i, x | y | z);
+        cell.localCode = spread(x & 15, y & 15, z & 15);
+        cell.brickCode = spread(x >> 4 & 255, y >> 4 & 255, z >> 4 & 255);
+        return cell;
+    }
+    /// The same down to depth 8, where the whole code is one spread of bytes.
+    [[nodiscard]] ParticleCell shallow(std::size_t i) const {
+        const auto [x, y, z] = finestCell(i);
+        ParticleCell cell = belonging(i, x | y | z);
+        const std::uint32_t code = spread(x & 255, y & 255, z & 255);
+        cell.localCode = code & 4095;
+        cell.brickCode = code >> 12;
+        return cell;
+    }
+
+ private:
+    struct Cell {
+        std::uint32_t x, y, z;
+    };
+    [[nodiscard]] Cell finestCell(std::size_t i) const {
+        return {static_cast<std::uint32_t>(cellNumber(x_[i], cellsPerMetre_)) - firstX_,
+                static_cast<std::uint32_t>(cellNumber(y_[i], cellsPerMetre_)) - firstY_,
+                static_cast<std::uint32_t>(cellNumber(z_[i], cellsPerMetre_)) - firstZ_};
+    }
+    /// All of a cell but its codes. `anyAxis`: bits of all three numbers.
+    [[nodiscard]] ParticleCell belonging(std::size_t i, std::uint32_t anyAxis) const {
         ParticleCell cell;
-        cell.outside = -static_cast<std::uint32_t>((x | y | z) >= cells_);
-        cell.localCode = spreadByte(x & 15) << 2 | spreadByte(y & 15) << 1 | spreadByte(z & 15);
-        cell.brickCode = spreadByte(x >> 4 & 255) << 2 | spreadByte(y >> 4 & 255) << 1 | spreadByte(z >> 4 & 255);
+        cell.outside = -static_cast<std::uint32_t>(anyAxis >= cells_);
         if constexpr (rule == LevelRule::age)
             cell.rise = riseByAge(age_[i], lifetime_[i], static_cast<float>(levels_));
         else
@@ -91,8 +113,10 @@ class CellKernel {
         cell.aboveBricks = -static_cast<std::uint32_t>(cell.rise > std::uint32_t{brickRise});
         return cell;
     }
+    [[nodiscard]] static std::uint32_t spread(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        return spreadByte(x) << 2 | spreadByte(y) << 1 | spreadByte(z);
+    }
 
- private:
     const float *x_, *y_, *z_, *age_, *lifetime_, *radius_;
     float cellsPerMetre_, finestEdge_;
     std::uint32_t firstX_, firstY_, firstZ_, cells_, levels_;
@@ -101,6 +125,7 @@ class CellKernel {
 /// Throws std::runtime_error with the serial of the first particle whose position is not a number, and InputError where
 /// there are more particles than a voxel can name. For builders, who call it where particles lie outside the world.
 void checkPositions(const particles::ParticleStore& store);
+void checkPosition(const particles::ParticleStore& store, std::size_t particle);
 void checkCount(const particles::ParticleStore& store);
 
 }  // namespace dustbench::octree

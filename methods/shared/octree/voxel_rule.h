@@ -25,8 +25,6 @@ class VoxelRule {
 
     [[nodiscard]] bool accumulates() const { return policy_ == OpacityPolicy::accumulate; }
 
-    /// The column that priorities are made of.
-    [[nodiscard]] const float* values() const { return values_; }
     /// The higher wins. Floats of one sign order as their bits do.
     [[nodiscard]] std::uint32_t priority(std::uint32_t particle) const {
         return std::bit_cast<std::uint32_t>(values_[particle]) ^ flip_;
