@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "bench/measure/image/dust_alpha.h"
 #include "bench/measure/image/image_check.h"
-#include "bench/measure/image/popping.h"
 
 namespace dustbench::bench {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/measure/image/dust_alpha.h"
 #include "bench/measure/image/image_check.h"
 
 namespace dustbench::bench {

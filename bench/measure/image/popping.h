@@ -12,9 +12,6 @@
 
 namespace dustbench::bench {
 
-/// Alphas above it are dust.
-inline constexpr float dustAlpha = 0.01f;
-
 /// One moment, over the scene, and the alphas of dust alone.
 struct DustFrame {
     const Picture& image;

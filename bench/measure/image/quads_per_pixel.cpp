@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/measure/image/popping.h"
+#include "bench/measure/image/dust_alpha.h"
 
 namespace dustbench::bench {
 namespace {
