@@ -31,7 +31,6 @@ constexpr double colourExponent = 0.7;         // q_c
 constexpr double kneeOfColour = 0.4;           // p_c: this share of the largest difference …
 constexpr double kneeOfError = 0.95;           // p_t: … is mapped to this error
 constexpr double featureWidthDegrees = 0.082;  // w: peak to trough of the edge detector
-constexpr double featureExponent = 0.5;        // q_f
 
 /// Yy, Cx, Cz of a picture.
 using Opponent = std::array<Plane, 3>;
@@ -95,6 +94,7 @@ float colourDistance(glm::vec3 a, glm::vec3 b) {
 
 /// ΔE_c of two blurred colours: the large differences, which few pixels have, get the upper 5 % of the range.
 float colourError(glm::vec3 referenceOpponent, glm::vec3 pictureOpponent) {
+    if (referenceOpponent == pictureOpponent) return 0;  // most of a frame: spares its cube roots and powers
     static const float largest = colourDistance(huntLab({0, 1, 0}), huntLab({0, 0, 1}));
     constexpr auto top = static_cast<float>(kneeOfError);
     const float knee = static_cast<float>(kneeOfColour) * largest;
@@ -171,8 +171,8 @@ Measured flip(const Picture& reference, const Picture& picture, double pixelsPer
     forEachPixel(result.map, [&](std::size_t i) {
         const float edges = std::abs(r.edge.values[i] - p.edge.values[i]);
         const float points = std::abs(r.point.values[i] - p.point.values[i]);
-        const float features =
-            std::pow(std::max(edges, points) / std::numbers::sqrt2_v<float>, static_cast<float>(featureExponent));
+        // The exponent q_f is 1/2.
+        const float features = std::sqrt(std::max(edges, points) / std::numbers::sqrt2_v<float>);
         const float colours = colourError(colour(referenceSeen, i), colour(pictureSeen, i));
         result.map.values[i] = std::pow(colours, std::max(0.0f, 1 - features));
     });
