@@ -14,6 +14,7 @@ namespace dustbench::cli {
 [[nodiscard]] Command exportCommand();
 [[nodiscard]] Command suiteCommand();
 [[nodiscard]] Command reproduceCommand();
+[[nodiscard]] Command diffCommand();
 
 /// What a run's own process does: `measure-run SPEC FOLDER -- the user's command`. Not for people.
 inline constexpr const char* childCommandName = "measure-run";

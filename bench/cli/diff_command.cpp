@@ -1,0 +1,101 @@
+// `dustbench diff`: how far an image file is from a reference, in numbers and as a heat map.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "bench/cli/commands.h"
+#include "bench/cli/exit_codes.h"
+#include "bench/cli/text_table.h"
+#include "bench/measure/image/flip.h"
+#include "bench/measure/image/heat_map.h"
+#include "bench/measure/image/picture_error.h"
+#include "bench/measure/image/ssim.h"
+#include "methods/shared/errors.h"
+
+namespace dustbench::cli {
+namespace {
+
+struct DiffOptions {
+    std::string reference;
+    std::string image;
+    std::string out;
+    double pixelsPerDegree = bench::defaultPixelsPerDegree;
+    bool json = false;
+};
+
+struct Differences {
+    bench::PictureError error;
+    bench::Measured ssim, flip;
+};
+
+bench::Picture pictureOf(const std::string& file) {
+    if (std::filesystem::is_directory(file)) throw InputError("cannot read image '" + file + "': it is a folder");
+    return bench::preparePicture(draw::readImage(file), "'" + file + "'");
+}
+
+/// The shortest number that reads back as this one, `null` for none.
+std::string jsonNumber(const std::optional<double>& value) {
+    return value ? fmt::format("{}", *value) : "null";
+}
+
+void printJson(const Differences& found) {
+    std::cout << fmt::format(
+        "{{\n  \"psnr_db\": {},\n  \"ssim\": {},\n  \"flip\": {},\n  \"rmse_linear\": {},\n"
+        "  \"identical\": {}\n}}\n",
+        jsonNumber(found.error.psnrDb), jsonNumber(found.ssim.value), jsonNumber(found.flip.value),
+        jsonNumber(found.error.rmseLinear), found.error.identical);
+}
+
+void printTable(const Differences& found, double pixelsPerDegree) {
+    const auto cell = [](const std::optional<double>& value, int digits) {
+        return value ? fixed(*value, digits) : std::string();
+    };
+    std::cout << textTable(
+        {{"metric", "value", "means"},
+         {"psnr_db", cell(found.error.psnrDb, 4), "the higher the nearer; none for identical pictures"},
+         {"ssim", cell(found.ssim.value, 6), "1: the same structure; none below 11x11 pixels"},
+         {"flip", cell(found.flip.value, 6),
+          fmt::format("0: no difference seen, 1: all; at {} pixels per degree", pixelsPerDegree)},
+         {"rmse_linear", cell(found.error.rmseLinear, 6), "of linear light; 0: no difference"},
+         {"identical", found.error.identical ? "1" : "0", "1: the display shows the same"}});
+}
+
+int diff(const DiffOptions& options) {
+    if (!options.out.empty() && std::filesystem::path(options.out).extension() != ".png")
+        throw InputError("--out: got '" + options.out + "', allowed: a file that ends in .png");
+    const bench::Picture reference = pictureOf(options.reference), image = pictureOf(options.image);
+    const Differences found{bench::pictureError(reference, image), bench::ssim(reference, image),
+                            bench::flip(reference, image, options.pixelsPerDegree)};
+    if (!options.out.empty()) draw::writeImage(bench::heatMap(found.flip.map), options.out);
+    if (options.json)
+        printJson(found);
+    else
+        printTable(found, options.pixelsPerDegree);
+    return exitOk;
+}
+
+}  // namespace
+
+Command diffCommand() {
+    auto options = std::make_shared<DiffOptions>();
+    return {
+        "diff", "PSNR, SSIM, FLIP and RMSE of an image file against a reference, and a heat map",
+        "Takes what OpenImageIO reads; 8-bit files hold sRGB, .exr linear light. Both must be opaque, of one size.\n"
+        "reports/METRICS.md defines the numbers.",
+        [options](Arguments& arguments) {
+            arguments.required("reference", "FILE", "the image that is right", options->reference);
+            arguments.required("image", "FILE", "the image to judge", options->image);
+            arguments.flag("--json", "an object with psnr_db, ssim, flip, rmse_linear, identical", options->json);
+            arguments.text("--out", "FILE.png", "a picture of FLIP's map: black for 0, pale yellow for 1",
+                           options->out);
+            arguments.number("--pixels-per-degree", "how finely the viewer sees the pixels, for FLIP",
+                             options->pixelsPerDegree, bench::leastPixelsPerDegree, bench::mostPixelsPerDegree);
+        },
+        [options] { return diff(*options); }};
+}
+
+}  // namespace dustbench::cli

@@ -1,0 +1,21 @@
+// Cut-off: edges that a method draws where dust meets the ground or a solid, and the reference does not.
+//
+//     cutoff = RMS of |∇[(α − α_free) − (R − R_free)]|      _free: drawn without the scene's depth
+//
+// over the pixels where there is dust (α_free or R_free > 0.01), so that empty picture around it does not thin the
+// number out. ∇ is the difference to the pixel on the right and to the one below: a hard edge is one pixel wide, and
+// central differences would halve it. The last column and the last row, which have no such neighbour, are left out.
+//
+// Units: alpha per pixel; range 0..2√2. Threads: pure.
+#pragma once
+
+#include "bench/measure/image/plane.h"
+
+namespace dustbench::bench {
+
+/// Empty where no dust is in view. The map is |∇[…]| where there is dust, else 0. Throws InputError for different
+/// sizes.
+[[nodiscard]] Measured cutoff(const Plane& alpha, const Plane& alphaFree, const Plane& referenceAlpha,
+                              const Plane& referenceAlphaFree);
+
+}  // namespace dustbench::bench

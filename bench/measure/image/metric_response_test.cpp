@@ -1,0 +1,343 @@
+// Every metric sees the flaw that it is there for and is blind to those that it must not see: held against the table in
+// reports/METRICS.md, so that the two cannot drift apart.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+
+#include "bench/measure/image/cutoff.h"
+#include "bench/measure/image/flip.h"
+#include "bench/measure/image/picture_error.h"
+#include "bench/measure/image/popping.h"
+#include "bench/measure/image/quads_per_pixel.h"
+#include "bench/measure/image/self_similarity.h"
+#include "bench/measure/image/ssim.h"
+#include "bench/measure/image/test_splatter.h"
+#include "bench/measure/image/trail_gaps.h"
+#include "bench/measure/image/volume_error.h"
+
+namespace dustbench::bench {
+namespace {
+
+using Puffs = std::vector<TestPuff>;
+using Scores = std::map<std::string, std::optional<double>>;
+
+constexpr int frames = 31;
+constexpr double speedPixels = 0.7;  // a frame
+
+/// A trail of puffs `spacing` apart that runs to the right, each up to `scatter` off its line and `jitter` spacings
+/// along it. With `parts` 64 it is the continuum: as many puffs for each one, of a 64th of its depth, evenly spread.
+struct Trail {
+    int puffs = 50;
+    double spacing = 7, scatter = 20, jitter = 0.5, depthRange = 0;
+
+    [[nodiscard]] Puffs at(int frame, double middle, int parts = 1) const {
+        Puffs list;
+        for (int i = 0; i < puffs * parts; ++i) {
+            const auto [along, across] = testUniform(parts == 1 ? 1 : 2, static_cast<std::uint64_t>(i));
+            const auto [away, unused] = testUniform(parts == 1 ? 3 : 4, static_cast<std::uint64_t>(i));
+            TestPuff puff;
+            const double place = (i + 0.5) / parts + jitter * (2 * along - 1) / parts;
+            puff.x = 30 + spacing * place + speedPixels * frame;
+            puff.y = middle + scatter * (2 * across - 1);
+            puff.depth = depthRange * (2 * away - 1);
+            puff.tau /= parts;
+            list.push_back(puff);
+        }
+        return list;
+    }
+};
+
+/// What a method draws of a frame's puffs at a level of the flaw. Level 0 is none, but for `textures`.
+struct Flaw {
+    std::string name;
+    int levels;
+    Trail (*trail)(int level);
+    Puffs (*drawn)(int level, Puffs puffs);
+    double (*softness)(int level);
+    bool ground;
+};
+
+Trail dense(int) {
+    return {100, 3.5, 20, 0.5, 0};
+}
+Trail loose(int) {
+    return {50, 10, 35, 0.5, 0};
+}
+Puffs asTheyAre(int, Puffs puffs) {
+    return puffs;
+}
+double exact(int) {
+    return 1;
+}
+
+/// To the middles of ever larger cells, as voxels are.
+Puffs snapped(int level, Puffs puffs) {
+    const double edge = 2.0 * level;
+    if (level > 0)
+        for (TestPuff& puff : puffs) {
+            puff.x = (std::floor(puff.x / edge) + 0.5) * edge;
+            puff.y = (std::floor(puff.y / edge) + 0.5) * edge;
+        }
+    return puffs;
+}
+
+/// The same puffs along an ever longer trail.
+Trail strung(int level) {
+    return {16, 10.0 + 9 * level, 1, 0.4, 0};
+}
+
+Trail deep(int) {
+    return {100, 3.5, 20, 0.5, 15};
+}
+double hardness(int level) {
+    return std::array{1.0, 0.6, 0.3, 0.1, 0.0}[static_cast<std::size_t>(level)];
+}
+
+/// All different, 16, 4, 1; other textures and other lots for each cloud.
+Puffs texturedAs(int cloud, int level, Puffs puffs) {
+    const int textures = std::array{0, 16, 4, 1}[static_cast<std::size_t>(level)];
+    for (std::size_t i = 0; i < puffs.size(); ++i) {
+        const double lot = testUniform(9, i + 1000 * static_cast<std::size_t>(cloud))[0];
+        puffs[i].texture = 1000 * cloud + (textures == 0 ? static_cast<int>(i) : static_cast<int>(lot * textures));
+    }
+    return puffs;
+}
+Puffs textured(int level, Puffs puffs) {
+    return texturedAs(0, level, std::move(puffs));
+}
+
+const std::vector<Flaw>& flaws() {
+    static const std::vector<Flaw> list{{"snapped", 5, dense, snapped, exact, false},
+                                        {"strung", 5, strung, asTheyAre, exact, false},
+                                        {"cut", 5, deep, asTheyAre, hardness, true},
+                                        {"textures", 4, loose, textured, exact, false}};
+    return list;
+}
+
+Scores scoresOf(const Flaw& flaw, int level) {
+    const Trail trail = flaw.trail(level);
+    TestView free{static_cast<int>(60 + trail.spacing * trail.puffs + speedPixels * frames), 130, {}};
+    TestView exactly = free, asDrawn = free;
+    if (flaw.ground) {
+        exactly.ground = {65, 1, 1};
+        asDrawn.ground = {65, 1, flaw.softness(level)};
+    }
+    const auto puffs = [&](int frame) { return trail.at(frame, 65); };
+    Scores scores;
+
+    // What needs consecutive frames.
+    PoppingSummary summary;
+    std::vector<Plane> alphas, references;
+    std::vector<Picture> images, referenceImages;
+    for (int frame = 0; frame < frames; ++frame) {
+        alphas.push_back(testAlpha(flaw.drawn(level, puffs(frame)), asDrawn));
+        references.push_back(testAlpha(puffs(frame), exactly));
+        images.push_back(testPicture(alphas.back()));
+        referenceImages.push_back(testPicture(references.back()));
+    }
+    const auto frameAt = [&](std::size_t i) {
+        return DustFrame{images[i], referenceImages[i], alphas[i], references[i]};
+    };
+    for (std::size_t i = 1; i < images.size(); ++i) summary.add(popping(frameAt(i - 1), frameAt(i)).value);
+    scores["popping"] = summary.mean();
+    scores["popping_max"] = summary.maximum();
+
+    // The rest, of the frame in the middle.
+    const std::size_t middle = frames / 2;
+    const Puffs drawn = flaw.drawn(level, puffs(middle));
+    const PictureError error = pictureError(referenceImages[middle], images[middle]);
+    scores["psnr_db"] = error.psnrDb;
+    scores["identical"] = error.identical;
+    scores["rmse_linear"] = error.rmseLinear;
+    scores["ssim"] = ssim(referenceImages[middle], images[middle]).value;
+    scores["flip"] = flip(referenceImages[middle], images[middle]).value;
+    const Plane continuum = testAlpha(trail.at(middle, 65, 64), exactly);
+    scores["gaps"] = gaps(alphas[middle], continuum).value;
+    scores["components"] = components(alphas[middle], continuum).parts;
+    scores["cutoff"] =
+        cutoff(alphas[middle], testAlpha(drawn, free), references[middle], testAlpha(puffs(middle), free)).value;
+    scores["self_similarity"] = selfSimilarity(alphas[middle], references[middle], testPrimitives(drawn), 1).value;
+    scores["quads_per_pixel"] = quadsPerPixel(static_cast<std::int64_t>(drawn.size()), references[middle]);
+    // Textures and cuts are in the picture alone: the method hands over its puffs as they are.
+    Puffs handedOver = drawn;
+    for (TestPuff& puff : handedOver) puff.texture = -1;
+    const Plane grid = testDepth(handedOver, free), referenceGrid = testDepth(puffs(middle), free);
+    const std::array cells{free.width, free.height, 1};
+    scores["volume_error"] = volumeError({cells, referenceGrid.values}, {cells, grid.values}).value;
+    return scores;
+}
+
+/// The table's cells by row, then column: both as they stand there, without back quotes.
+using Responses = std::map<std::string, std::map<std::string, std::string>>;
+
+std::vector<std::string> cellsOf(const std::string& line) {
+    std::vector<std::string> cells;
+    std::istringstream stream(line.substr(1));
+    for (std::string cell; std::getline(stream, cell, '|');) {
+        std::erase(cell, '`');
+        const auto first = cell.find_first_not_of(' ');
+        cells.push_back(first == std::string::npos ? "" : cell.substr(first, cell.find_last_not_of(' ') + 1 - first));
+    }
+    return cells;
+}
+
+const Responses& documented() {
+    static const Responses table = [] {
+        Responses rows;
+        std::ifstream file(std::string(DUSTBENCH_SOURCE_DIR) + "/reports/METRICS.md");
+        std::vector<std::string> header;
+        for (std::string line; std::getline(file, line);) {
+            if (line.starts_with("| metric |")) {
+                header = cellsOf(line);
+            } else if (!header.empty() && line.starts_with("| `")) {
+                const std::vector<std::string> cells = cellsOf(line);
+                for (std::size_t i = 1; i < std::min(cells.size(), header.size()); ++i)
+                    rows[cells[0]][header[i]] = cells[i];
+            }
+        }
+        return rows;
+    }();
+    return table;
+}
+
+/// Of a metric, level by level.
+using Series = std::vector<std::optional<double>>;
+
+/// By flaw, then metric: computed once for all tests.
+const std::map<std::string, std::map<std::string, Series>>& responses() {
+    static const auto found = [] {
+        std::map<std::string, std::map<std::string, Series>> all;
+        for (const Flaw& flaw : flaws())
+            for (int level = 0; level < flaw.levels; ++level)
+                for (const auto& [metric, value] : scoresOf(flaw, level)) all[flaw.name][metric].push_back(value);
+        return all;
+    }();
+    return found;
+}
+
+/// Identical pictures have no PSNR: it is beyond all numbers.
+double comparable(const std::optional<double>& value) {
+    return value.value_or(std::numeric_limits<double>::infinity());
+}
+
+bool isCounted(const std::string& metric) {
+    return metric == "components" || metric == "identical";
+}
+
+/// Largest minus least of those that are there.
+double spanOf(const Series& series) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const auto& value : series)
+        if (value) {
+            least = std::min(least, *value);
+            most = std::max(most, *value);
+        }
+    return most < least ? 0 : most - least;
+}
+
+/// The most by which a metric moves under a flaw for which the table lets it rise or fall.
+double ownSpan(const std::string& metric) {
+    double most = 0;
+    for (const auto& [flaw, word] : documented().at(metric))
+        if (word == "rises" || word == "falls") most = std::max(most, spanOf(responses().at(flaw).at(metric)));
+    return most;
+}
+
+std::string textOf(const Series& series) {
+    std::string text;
+    for (const auto& value : series) text += value ? fmt::format(" {:.5f}", *value) : " empty";
+    return text;
+}
+
+void expectMonotone(const std::string& metric, const Series& series, double sign) {
+    for (std::size_t i = 1; i < series.size(); ++i) {
+        const double before = sign * comparable(series[i - 1]), after = sign * comparable(series[i]);
+        if (isCounted(metric)) {
+            EXPECT_GE(after, before) << textOf(series);
+        } else {
+            EXPECT_GT(after, before) << textOf(series);
+        }
+    }
+    EXPECT_GT(sign * comparable(series.back()), sign * comparable(series.front())) << textOf(series);
+}
+
+TEST(MetricResponse, IsAsDocumented) {
+    ASSERT_EQ(documented().size(), responses().begin()->second.size());
+    for (const auto& [flaw, metrics] : responses())
+        for (const auto& [metric, series] : metrics) {
+            SCOPED_TRACE(flaw + " " + metric);
+            ASSERT_TRUE(documented().contains(metric) && documented().at(metric).contains(flaw));
+            const std::string& word = documented().at(metric).at(flaw);
+            if (word == "rises") {
+                expectMonotone(metric, series, 1);
+            } else if (word == "falls") {
+                expectMonotone(metric, series, -1);
+            } else if (word == "stays") {
+                const auto there = std::ranges::count_if(series, [](const auto& value) { return value.has_value(); });
+                EXPECT_TRUE(there == 0 || there == std::ssize(series)) << textOf(series);
+                EXPECT_LE(spanOf(series), 0.1 * ownSpan(metric)) << textOf(series);
+            } else {
+                EXPECT_EQ(word, "may");
+            }
+        }
+}
+
+TEST(MetricResponse, EveryMetricMovesWithSomeFlaw) {
+    for (const auto& [metric, row] : documented())
+        EXPECT_TRUE(std::ranges::any_of(row, [](const auto& cell) {
+            return cell.second == "rises" || cell.second == "falls";
+        })) << metric;
+}
+
+TEST(MetricResponse, IsPerfectForTheReferenceItself) {
+    const Flaw& none = flaws().front();
+    Scores scores = scoresOf(none, 0);
+    const Plane alpha = testAlpha(none.trail(0).at(0, 65), {500, 130, {}});
+    scores["gaps"] = gaps(alpha, alpha).value;
+    for (const auto& [metric, row] : documented()) {
+        SCOPED_TRACE(metric);
+        const std::string& perfect = row.at("perfect");
+        if (perfect == "empty") {
+            EXPECT_FALSE(scores.at(metric));
+        } else if (perfect == "as the reference") {
+            EXPECT_EQ(components(alpha, alpha).parts, components(alpha, alpha).referenceParts);
+        } else if (perfect != "any") {
+            EXPECT_EQ(scores.at(metric), std::stod(perfect));
+        }
+    }
+}
+
+TEST(MetricResponse, SelfSimilarityIsTheShareOfPairsThatLookAlike) {
+    // 50 puffs, each with one of k textures by lot: 1 of k pairs are alike, and overlap leaves about 0.8 of their
+    // correlation. Mean over ten clouds; a single one scatters by some 0.02.
+    const Flaw& flaw = flaws().back();
+    std::array<double, 4> mean{};
+    constexpr int clouds = 10;
+    for (std::size_t level = 0; level < mean.size(); ++level)
+        for (int cloud = 0; cloud < clouds; ++cloud) {
+            const Trail trail = flaw.trail(0);
+            // Another stretch of an endless trail.
+            Puffs puffs;
+            for (TestPuff puff : Trail{50 * (cloud + 1), trail.spacing, trail.scatter, trail.jitter, 0}.at(0, 65)) {
+                puff.x -= trail.spacing * 50 * cloud;
+                puffs.push_back(puff);
+            }
+            puffs.erase(puffs.begin(), puffs.begin() + 50 * cloud);
+            const TestView view{560, 130, {}};
+            const Puffs drawn = texturedAs(cloud, static_cast<int>(level), puffs);
+            const auto value = selfSimilarity(testAlpha(drawn, view), testAlpha(puffs, view), testPrimitives(drawn), 1);
+            mean[level] += value.value.value() / clouds;
+        }
+    EXPECT_NEAR(mean[0], 0, 0.02);
+    EXPECT_NEAR(mean[1], mean[3] / 16, 0.03);
+    EXPECT_NEAR(mean[2], mean[3] / 4, 0.06);
+    EXPECT_NEAR(mean[3], 0.79, 0.08);
+}
+
+}  // namespace
+}  // namespace dustbench::bench

@@ -1,0 +1,76 @@
+#include "bench/measure/image/popping.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/measure/image/dust_alpha.h"
+#include "bench/measure/image/image_check.h"
+
+namespace dustbench::bench {
+namespace {
+
+void requireOneSize(const DustFrame& frame, const DustFrame& first) {
+    requireSameSize(frame.image, first.image);
+    requireSameSize(frame.reference, first.image);
+    for (const Plane* alpha : {&frame.alpha, &frame.referenceAlpha})
+        requireSameSize(alpha->width, alpha->height, "the alpha of " + frame.image.name, first.image.width,
+                        first.image.height, first.image.name);
+}
+
+}  // namespace
+
+Measured popping(const DustFrame& before, const DustFrame& now) {
+    requireOneSize(before, before);
+    requireOneSize(now, before);
+    Measured result{{}, Plane(now.image.width, now.image.height)};
+    double sum = 0;
+    std::size_t pixels = 0;
+    for (std::size_t i = 0; i < result.map.values.size(); ++i) {
+        const bool dust = before.alpha.values[i] > dustAlpha || before.referenceAlpha.values[i] > dustAlpha ||
+                          now.alpha.values[i] > dustAlpha || now.referenceAlpha.values[i] > dustAlpha;
+        if (!dust) continue;
+        double squares = 0;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const auto step = [&](const Picture& from, const Picture& to) {
+                return static_cast<double>(to.encoded[channel].values[i]) -
+                       static_cast<double>(from.encoded[channel].values[i]);
+            };
+            const double excess = step(before.image, now.image) - step(before.reference, now.reference);
+            squares += excess * excess;
+        }
+        result.map.values[i] = static_cast<float>(std::sqrt(squares / 3));
+        sum += squares / 3;
+        ++pixels;
+    }
+    if (pixels > 0) result.value = std::sqrt(sum / static_cast<double>(pixels));
+    return result;
+}
+
+void PoppingSummary::add(const std::optional<double>& pair) {
+    if (!pair) return endStretch();
+    current_ = {current_.pairs + 1, current_.sum + *pair, std::max(current_.maximum, *pair)};
+}
+
+void PoppingSummary::endStretch() {
+    ended_ = counted();
+    current_ = {};
+}
+
+PoppingSummary::Stretch PoppingSummary::counted() const {
+    if (current_.pairs < fewestPairs) return ended_;
+    return {ended_.pairs + current_.pairs, ended_.sum + current_.sum, std::max(ended_.maximum, current_.maximum)};
+}
+
+std::optional<double> PoppingSummary::mean() const {
+    const Stretch stretch = counted();
+    if (stretch.pairs == 0) return {};
+    return stretch.sum / static_cast<double>(stretch.pairs);
+}
+
+std::optional<double> PoppingSummary::maximum() const {
+    const Stretch stretch = counted();
+    if (stretch.pairs == 0) return {};
+    return stretch.maximum;
+}
+
+}  // namespace dustbench::bench

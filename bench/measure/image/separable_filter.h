@@ -1,0 +1,30 @@
+// Weighted sums along rows and along columns, for filters that are products of the two.
+//
+// Beyond the edge the edge's own pixels are repeated. Threads: uses the current oneTBB arena; the result is the same,
+// bit for bit, at any number of threads.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bench/measure/image/plane.h"
+
+namespace dustbench::bench {
+
+/// out(x) = Σ kernel[r + i] · in(x + i) over i = −r..r; the kernel has 2r + 1 weights.
+template <typename Number>
+[[nodiscard]] PlaneOf<Number> filterRows(const PlaneOf<Number>& plane, std::span<const Number> kernel);
+template <typename Number>
+[[nodiscard]] PlaneOf<Number> filterColumns(const PlaneOf<Number>& plane, std::span<const Number> kernel);
+
+/// exp(−i²/2σ²) at i = −radius..radius, summing to 1; σ in pixels.
+template <typename Number>
+[[nodiscard]] std::vector<Number> gaussianKernel(double sigmaPixels, int radius);
+
+/// Along both.
+template <typename Number>
+[[nodiscard]] PlaneOf<Number> blur(const PlaneOf<Number>& plane, std::span<const Number> kernel) {
+    return filterColumns(filterRows(plane, kernel), kernel);
+}
+
+}  // namespace dustbench::bench

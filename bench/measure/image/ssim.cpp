@@ -1,0 +1,58 @@
+#include "bench/measure/image/ssim.h"
+
+#include <numeric>
+
+#include "bench/measure/image/separable_filter.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
+constexpr int radius = ssimWindow / 2;
+
+/// Double precision: variances of nearly even windows are differences of nearly equal numbers.
+using Values = PlaneOf<double>;
+
+Values product(const Plane& a, const Plane& b) {
+    Values result(a.width, a.height);
+    for (std::size_t i = 0; i < a.values.size(); ++i)
+        result.values[i] = static_cast<double>(a.values[i]) * static_cast<double>(b.values[i]);
+    return result;
+}
+
+Values widened(const Plane& plane) {
+    Values result(plane.width, plane.height);
+    result.values.assign(plane.values.begin(), plane.values.end());
+    return result;
+}
+
+}  // namespace
+
+Measured ssim(const Picture& reference, const Picture& picture) {
+    requireSameSize(reference, picture);
+    if (reference.width < ssimWindow || reference.height < ssimWindow) return {};
+    const std::vector<double> window = gaussianKernel<double>(1.5, radius);
+    const auto mean = [&](const Values& values) { return blur<double>(values, window); };
+    const Values meanR = mean(widened(reference.luma)), meanI = mean(widened(picture.luma));
+    const Values meanRR = mean(product(reference.luma, reference.luma));
+    const Values meanII = mean(product(picture.luma, picture.luma));
+    const Values meanRI = mean(product(reference.luma, picture.luma));
+
+    Measured result{{}, Plane(reference.width - 2 * radius, reference.height - 2 * radius)};
+    double sum = 0;
+    for (int y = 0; y < result.map.height; ++y)
+        for (int x = 0; x < result.map.width; ++x) {
+            const std::size_t i = meanR.index(x + radius, y + radius);
+            const double mr = meanR.values[i], mi = meanI.values[i];
+            const double varianceR = meanRR.values[i] - mr * mr, varianceI = meanII.values[i] - mi * mi;
+            const double covariance = meanRI.values[i] - mr * mi;
+            const double value = (2 * (mr * mi) + c1) * (2 * covariance + c2) /
+                                 ((mr * mr + mi * mi + c1) * (varianceR + varianceI + c2));
+            result.map.at(x, y) = static_cast<float>(value);
+            sum += value;
+        }
+    result.value = sum / static_cast<double>(result.map.values.size());
+    return result;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,81 @@
+#include "bench/measure/image/trail_gaps.h"
+
+#include <algorithm>
+
+#include "bench/measure/image/image_check.h"
+
+namespace dustbench::bench {
+namespace {
+
+bool isTrail(const Plane& reference, std::size_t i) {
+    return reference.values[i] > trailAlpha;
+}
+
+bool isCovered(const Plane& alpha, const Plane& reference, std::size_t i) {
+    return isTrail(reference, i) && alpha.values[i] >= reference.values[i] / 2;
+}
+
+/// Numbers the connected parts of the pixels that hold −1; specks become 0. Gives how many parts there are.
+int numberParts(Plane& map) {
+    int parts = 0;
+    std::vector<std::pair<int, int>> members;
+    for (int y = 0; y < map.height; ++y)
+        for (int x = 0; x < map.width; ++x) {
+            if (map.at(x, y) != -1) continue;
+            const auto number = static_cast<float>(parts + 1);
+            members.assign(1, {x, y});
+            map.at(x, y) = number;
+            for (std::size_t next = 0; next < members.size(); ++next) {
+                const auto [cx, cy] = members[next];
+                for (int ny = std::max(cy - 1, 0); ny <= std::min(cy + 1, map.height - 1); ++ny)
+                    for (int nx = std::max(cx - 1, 0); nx <= std::min(cx + 1, map.width - 1); ++nx)
+                        if (map.at(nx, ny) == -1) {
+                            map.at(nx, ny) = number;
+                            members.emplace_back(nx, ny);
+                        }
+            }
+            if (members.size() >= static_cast<std::size_t>(fewestPartPixels))
+                ++parts;
+            else
+                for (const auto& [mx, my] : members) map.at(mx, my) = 0;
+        }
+    return parts;
+}
+
+}  // namespace
+
+Measured gaps(const Plane& alpha, const Plane& referenceAlpha) {
+    requireSameSize(alpha, "the alpha", referenceAlpha, "the reference's alpha");
+    Measured result{{}, Plane(alpha.width, alpha.height)};
+    std::size_t trail = 0, missing = 0;
+    for (std::size_t i = 0; i < alpha.values.size(); ++i) {
+        if (!isTrail(referenceAlpha, i)) continue;
+        ++trail;
+        if (isCovered(alpha, referenceAlpha, i)) continue;
+        ++missing;
+        result.map.values[i] = 1;
+    }
+    if (trail > 0) result.value = static_cast<double>(missing) / static_cast<double>(trail);
+    return result;
+}
+
+TrailParts components(const Plane& alpha, const Plane& referenceAlpha) {
+    requireSameSize(alpha, "the alpha", referenceAlpha, "the reference's alpha");
+    TrailParts result;
+    result.map = Plane(alpha.width, alpha.height);
+    Plane trail = result.map;
+    bool any = false;
+    for (std::size_t i = 0; i < alpha.values.size(); ++i) {
+        any = any || isTrail(referenceAlpha, i);
+        result.map.values[i] = isCovered(alpha, referenceAlpha, i) ? -1.0f : 0.0f;
+        trail.values[i] = isTrail(referenceAlpha, i) ? -1.0f : 0.0f;
+    }
+    const int parts = numberParts(result.map), referenceParts = numberParts(trail);
+    if (any) {
+        result.parts = parts;
+        result.referenceParts = referenceParts;
+    }
+    return result;
+}
+
+}  // namespace dustbench::bench
