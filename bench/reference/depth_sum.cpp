@@ -45,6 +45,7 @@ struct Row {
         }
     }
 
+    const HalfErrorFunction& halfErf = HalfErrorFunction::instance();
     double slopeY = 0;
     std::vector<double> inverseSquare, inverse;  ///< 1/D and 1/√D
     std::vector<double> scene;                   ///< t1
@@ -58,11 +59,11 @@ struct RowPuff {
     double footAtZero, footPerSlope, inverseWidth;  ///< 1/(√2·s)
 };
 
-void addWhole(const RowPuff& puff, const double* slopesX, Row& row, std::size_t first, std::size_t end) {
+void addWhole(const RowPuff& puff, const double* slopesX, Row& row, std::size_t first) {
     double* const sums = row.sums.data();
     const double* const inverseSquare = row.inverseSquare.data();
 #pragma GCC ivdep
-    for (std::size_t i = first; i < end; ++i) {
+    for (std::size_t i = first; i < first + group; ++i) {
         const double u = slopesX[i] - puff.x0;
         const double exponent = puff.logDepth - (puff.gamma * u * u + puff.kappa) * inverseSquare[i];
         sums[i] += powerOfTwo(exponent > leastExponent ? exponent : leastExponent);
@@ -71,62 +72,44 @@ void addWhole(const RowPuff& puff, const double* slopesX, Row& row, std::size_t 
 
 /// ½[erf((t1 − tc)/√2s) − erf((0 − tc)/√2s)] of each; where the eye is far off, the second is −1.
 template <bool cutByEye>
-void addCut(const RowPuff& puff, const double* slopesX, Row& row, std::size_t first, std::size_t end) {
-    const HalfErrorFunction::Node* const middle = HalfErrorFunction::instance().middle();
+void addCut(const RowPuff& puff, const double* slopesX, Row& row, std::size_t first) {
+    const HalfErrorFunction& halfErf = row.halfErf;
     double* const sums = row.sums.data();
     const double* const inverseSquare = row.inverseSquare.data();
     const double* const inverse = row.inverse.data();
     const double* const scene = row.scene.data();
 #pragma GCC ivdep
-    for (std::size_t i = first; i < end; ++i) {
+    for (std::size_t i = first; i < first + group; ++i) {
         const double u = slopesX[i] - puff.x0;
         const double exponent = puff.logDepth - (puff.gamma * u * u + puff.kappa) * inverseSquare[i];
         const double depth = powerOfTwo(exponent > leastExponent ? exponent : leastExponent);
         const double foot = (puff.footAtZero + puff.footPerSlope * slopesX[i]) * inverse[i];
-        const double begin = cutByEye ? HalfErrorFunction::evaluate(middle, -foot * puff.inverseWidth) : -0.5;
-        const double finish = HalfErrorFunction::evaluate(middle, (scene[i] - foot) * puff.inverseWidth);
+        const double begin = cutByEye ? halfErf(-foot * puff.inverseWidth) : -0.5;
+        const double finish = halfErf((scene[i] - foot) * puff.inverseWidth);
         sums[i] += depth * (finish - begin);
     }
 }
 
-/// How far along its rays a puff can begin and end, and whether the eye is clear of it.
-struct Extent {
-    double nearestMetres, farthestMetres;
-    bool clearOfEye;
-};
-
-Extent extentOf(const Puff& puff) {
-    const double square = glm::dot(puff.centre, puff.centre);
-    const double depth = sigmasAlongRay * puff.deviationMetres;
-    // Within the footprint, b ≤ R, the foot is √(|c|² − R²) to |c| away.
-    const double rest = square - puff.reachMetres * puff.reachMetres;
-    const double nearestFoot = rest > 0 ? std::sqrt(rest) : 0;
-    return {nearestFoot - depth, std::sqrt(square) + depth, nearestFoot > depth};
-}
-
-/// Groups [first, end) of the row, by runs of the same kind. Returns how many pixels were computed.
-std::int64_t addGroups(const RowPuff& puff, const Extent& extent, const double* slopesX, Row& row, std::size_t first,
-                       std::size_t end) {
-    enum class Kind { hidden, cut, whole };
-    const auto kindOf = [&](std::size_t g) {
-        if (extent.clearOfEye && row.nearest[g] >= extent.farthestMetres) return Kind::whole;
-        return row.farthest[g] <= extent.nearestMetres ? Kind::hidden : Kind::cut;
-    };
-    std::int64_t evaluations = 0;
-    for (std::size_t g = first; g < end;) {
-        const Kind kind = kindOf(g);
-        std::size_t next = g + 1;
-        while (next < end && kindOf(next) == kind) ++next;
-        if (kind == Kind::whole)
-            addWhole(puff, slopesX, row, g * group, next * group);
-        else if (kind == Kind::cut && extent.clearOfEye)
-            addCut<false>(puff, slopesX, row, g * group, next * group);
-        else if (kind == Kind::cut)
-            addCut<true>(puff, slopesX, row, g * group, next * group);
-        if (kind != Kind::hidden) evaluations += static_cast<std::int64_t>((next - g) * group);
-        g = next;
+/// Groups [first, end) of the row. Returns how many pixels were computed.
+std::int64_t addGroups(const RowPuff& puff, double extentMetres, double footRangeMetres, const double* slopesX,
+                       Row& row, std::size_t first, std::size_t end) {
+    std::int64_t computed = 0;
+    for (std::size_t g = first; g < end; ++g) {
+        const std::size_t i = g * group;
+        // The foot in the group's middle, and the bounds for all of the group.
+        const double foot = (puff.footAtZero + puff.footPerSlope * slopesX[i + group / 2]) * row.inverse[i + group / 2];
+        const double nearMetres = foot - footRangeMetres - extentMetres;
+        const double farMetres = foot + footRangeMetres + extentMetres;
+        if (farMetres <= 0 || row.farthest[g] <= nearMetres) continue;  // behind the eye or the scene
+        ++computed;
+        if (nearMetres < 0)
+            addCut<true>(puff, slopesX, row, i);
+        else if (row.nearest[g] < farMetres)
+            addCut<false>(puff, slopesX, row, i);
+        else
+            addWhole(puff, slopesX, row, i);
     }
-    return evaluations;
+    return computed * group;
 }
 
 }  // namespace
@@ -150,7 +133,10 @@ DepthSum sumDepths(const std::vector<Puff>& puffs, const CameraRays& rays, const
                 const int first = std::max(puff.firstRow, static_cast<int>(from));
                 const int end = std::min(puff.endRow, static_cast<int>(from + count));
                 if (first >= end) continue;
-                const Extent extent = extentOf(puff);
+                const double extent = sigmasAlongRay * puff.deviationMetres;
+                // From the group's middle to its rim, a ray turns by less than the difference in slope, and the foot
+                // moves by less than that times the centre's distance.
+                const double footRange = glm::length(puff.centre) * (group / 2) * (slopesX[1] - slopesX[0]);
                 // exp(−b²/2s²) = 2^(−b²·log2(e)/2s²).
                 const double scale = std::numbers::log2e / (2 * puff.deviationMetres * puff.deviationMetres);
                 const double logDepth = std::log2(puff.opticalDepth);
@@ -166,9 +152,9 @@ DepthSum sumDepths(const std::vector<Puff>& puffs, const CameraRays& rays, const
                                           geometry.footAtZero,
                                           geometry.footPerSlope,
                                           1 / (std::numbers::sqrt2 * puff.deviationMetres)};
-                    done +=
-                        addGroups(rowPuff, extent, slopesX.data(), row, static_cast<std::size_t>(columns.first) / group,
-                                  (static_cast<std::size_t>(columns.end) + group - 1) / group);
+                    done += addGroups(rowPuff, extent, footRange, slopesX.data(), row,
+                                      static_cast<std::size_t>(columns.first) / group,
+                                      (static_cast<std::size_t>(columns.end) + group - 1) / group);
                 }
             }
             for (std::size_t k = 0; k < count; ++k)

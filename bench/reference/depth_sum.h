@@ -20,7 +20,7 @@ struct DepthSum {
 };
 
 /// Short of the exact sum by at most what `preparePuffs` neglects, 2e-9 of a puff's depth where the puff ends clear of
-/// eye and scene, and 1e-11 of it by the error function.
+/// eye and scene, and 1e-10 of it by the error function.
 /// `distances` must fit the rays (checkDistances).
 [[nodiscard]] DepthSum sumDepths(const std::vector<Puff>& puffs, const CameraRays& rays,
                                  const OpaqueDistances& distances);
