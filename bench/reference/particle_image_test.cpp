@@ -22,7 +22,7 @@ struct Case {
     OpaqueDistances distances;
 };
 
-scene::View viewFrom(glm::dvec3 eye, glm::dvec3 target, int width = 46, int height = 35) {
+scene::View viewFrom(glm::dvec3 eye, glm::dvec3 target, int width = 26, int height = 19) {
     scene::View view;
     view.width = width;
     view.height = height;
@@ -38,12 +38,12 @@ std::vector<Case> fiveScenes(MemoryLedger& ledger) {
     const auto far = viewFrom({2, 3, 14}, {0, 1, 0});
     cases.push_back({"sky", far, test::ball(ledger, 1, 40, {0, 1, 0}, 4, 0.5f), skyDistances(far)});
     const auto within = viewFrom({0.2, 1.1, -0.3}, {5, 1, 3});
-    cases.push_back({"within", within, test::ball(ledger, 2, 40, {0, 1, 0}, 3, 0.4f), skyDistances(within)});
+    cases.push_back({"within", within, test::ball(ledger, 2, 40, {0, 1, 0}, 3, 0.8f), skyDistances(within)});
     const auto low = viewFrom({-9, 1.5, 6}, {0, 0.2, 0});
     cases.push_back(
         {"half in the ground", low, test::ball(ledger, 3, 40, {0, 0, 0}, 4, 0.6f), test::groundDistances(low, 0)});
     const auto down = viewFrom({0, 1.2, 0}, {0.3, 0, -0.2});
-    cases.push_back({"within, over the ground", down, test::ball(ledger, 4, 40, {0, 0.3, 0}, 3, 0.3f),
+    cases.push_back({"within, over the ground", down, test::ball(ledger, 4, 60, {0, 0.2f, 0}, 2, 0.95f),
                      test::groundDistances(down, 0)});
     const auto walled = viewFrom({0, 0, 0}, {-1, 0.2, 0.4});
     Case last{"walls", walled, test::ball(ledger, 5, 30, {0, 0, 0}, 8, 0.999f), skyDistances(walled)};
@@ -173,7 +173,7 @@ TEST(ParticleImage, IsTransparentWithoutParticles) {
     MemoryLedger ledger;
     const scene::View view = viewFrom({0, 1, 12}, {0, 0, 0});
     const CloudImage cloud = renderParticles(ParticleStore(ledger), view, skyDistances(view));
-    ASSERT_EQ(cloud.image.pixels.size(), 46u * 35);
+    ASSERT_EQ(cloud.image.pixels.size(), 26u * 19);
     for (const glm::vec4& pixel : cloud.image.pixels) EXPECT_EQ(pixel, glm::vec4(0));
     EXPECT_EQ(cloud.evaluations, 0);
 }
@@ -193,7 +193,7 @@ TEST(ParticleImage, TakesAnyWidthAndPuffsSmallerThanAPixel) {
 TEST(ParticleImage, RefusesWhatDoesNotFit) {
     MemoryLedger ledger;
     ParticleStore store = test::ball(ledger, 9, 10, {0, 0, 0}, 3, 0.4f);
-    const scene::View view = viewFrom({0, 1, 12}, {0, 0, 0}), other = viewFrom({0, 1, 12}, {0, 0, 0}, 47, 35);
+    const scene::View view = viewFrom({0, 1, 12}, {0, 0, 0}), other = viewFrom({0, 1, 12}, {0, 0, 0}, 27, 19);
     const auto render = [&](const OpaqueDistances& distances, const ReferenceOptions& options = {}) {
         std::ignore = renderParticles(store, view, distances, options);
     };
