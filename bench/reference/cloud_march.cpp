@@ -17,8 +17,9 @@
 namespace dustbench::bench {
 namespace {
 
-constexpr double mostSlabs = 4e6;     ///< of one ray: beyond, memory and patience end
-constexpr double leastLight = 1e-12;  ///< transmittance at which nothing behind is seen any more
+constexpr double mostSlabs = 4e6;  ///< of one ray: beyond, memory and patience end
+/// Of the light, from one slab: what is less is not looked for, though it still dims what is behind.
+constexpr double leastShare = 1e-9;
 
 /// A puff as one row sees it.
 struct RowPuff {
@@ -90,12 +91,13 @@ class RayMarch {
             const Slab& slab = slabs_[k];
             if (!(slab.depth > 0)) continue;
             pixel.depth += slab.depth;
-            if (transmittance < leastLight) continue;
-            glm::dvec3 seen = slab.colour / slab.depth * (transmittance * -std::expm1(-slab.depth));
+            const double reached = transmittance;
+            transmittance *= std::exp(-slab.depth);
+            if (reached * slab.depth < leastShare) continue;
+            glm::dvec3 seen = slab.colour / slab.depth * (reached * -std::expm1(-slab.depth));
             if (lighting) seen *= lighting->at(eye + (begin_ + (static_cast<double>(k) + 0.5) * length_) * direction);
             pixel.colour += seen;
-            pixel.unevenness += transmittance * slab.depth * slab.depth / 8;
-            transmittance *= std::exp(-slab.depth);
+            pixel.unevenness += reached * slab.depth * slab.depth / 8;
         }
         return pixel;
     }

@@ -1,5 +1,6 @@
 #include "bench/reference/particle_image.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -66,7 +67,7 @@ TEST(ParticleImage, EqualsTheBruteForceMarchInEveryPixelOfFiveScenes) {
         for (std::size_t i = 0; i < marched.size(); ++i)
             worst = std::max(worst, std::abs(std::expm1(-marched[i]) - std::expm1(-cloud.opticalDepths[i])));
         EXPECT_LT(worst, 1e-6) << test.name;
-        RecordProperty("worst alpha error, " + test.name, std::to_string(worst));
+        RecordProperty("worst alpha error, " + test.name, fmt::format("{:.1e}", worst));
         EXPECT_GT(-std::expm1(-largest(marched)), 0.5) << test.name;
     }
 }
