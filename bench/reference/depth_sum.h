@@ -1,8 +1,8 @@
 // The optical depth of a cloud along every pixel's ray: the closed form, summed over the puffs.
 //
 // Per puff and pixel: τ·exp(−b²/2s²)·½[erf((t1 − tc)/√2s) − erf((0 − tc)/√2s)] in double precision, t1 being the scene.
-// Units: metres; depth has none. Threads: uses the current oneTBB arena; same bits at any number of threads and on any
-// machine, as a row's sum is made by one thread in the order of the puffs.
+// Units: metres; depth has none. Threads: uses the current oneTBB arena; same bits at any number of threads, as a row's
+// sum is made by one thread in the order of the puffs; builds for other machines may differ by rounding.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // 2^x and the error function in double precision, without branches, so that loops over them vectorise.
 //
-// Both are made of IEEE operations alone: the same bits at any vector width.
+// Both are made of sums and products alone: the same bits at any vector width, as long as the build fuses alike.
 // Threads: pure.
 #pragma once
 
