@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "bench/scene/cameras.h"
 #include "bench/scene/drive.h"
@@ -118,6 +119,7 @@ struct World::State {
     std::string driveId;
     CameraKind camera;
     std::int64_t fixedCount;
+    std::int64_t particlesPerPuff;
     particles::ParticleSystem dust;
     Steering steering;
     std::int64_t prerollSteps = 0;
@@ -131,7 +133,8 @@ struct World::State {
 };
 
 World::World(const std::string& sceneId, const std::string& driveId, const ParameterValues& parameters,
-             std::uint64_t seed) {
+             std::uint64_t seed, std::int64_t particlesPerPuff) {
+    if (particlesPerPuff < 1) throw std::invalid_argument("World: at least 1 particle is born for each puff");
     SceneFile file = readScene(files::findData("scene", "scenes", sceneId, ".toml"));
     const std::string drive = driveId.empty() ? file.drive : driveId;
     const auto driveFile = files::findData("drive", "drives", drive, ".csv");
@@ -143,6 +146,7 @@ World::World(const std::string& sceneId, const std::string& driveId, const Param
                                            .driveId = drive,
                                            .camera = parameters.choiceAs<CameraKind>("camera"),
                                            .fixedCount = parameters.integer("particles"),
+                                           .particlesPerPuff = particlesPerPuff,
                                            .dust = particles::ParticleSystem::load(dustFile, seed),
                                            .steering = std::move(steering)});
     State& s = *state_;
@@ -194,7 +198,7 @@ void World::simulate() {
     ++s.stepIndex;
     s.now.timeSeconds = s.time();
     s.lag = s.lag.followed(s.now.vehicle, s.file.cameras.chase.smoothingSeconds, stepSeconds);
-    s.dust.update({s.file.scene, s.now, stepSeconds, s.fixedCount});
+    s.dust.update({s.file.scene, s.now, stepSeconds, s.fixedCount, s.particlesPerPuff});
 }
 
 std::uint64_t World::stateHash() const {

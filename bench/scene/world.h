@@ -25,9 +25,10 @@ inline constexpr double stepSeconds = 1.0 / 60;
 class World {
  public:
     /// `sceneId` and `driveId` name files of data/ or are paths; an empty drive is the scene's own.
-    /// Throws InputError for whatever is wrong with them.
-    World(const std::string& sceneId, const std::string& driveId, const ParameterValues& parameters,
-          std::uint64_t seed);
+    /// `particlesPerPuff` (1 or more) particles are born in the place of each one, for the `continuum` reference.
+    /// Throws InputError for whatever is wrong with the files, std::invalid_argument for fewer than 1.
+    World(const std::string& sceneId, const std::string& driveId, const ParameterValues& parameters, std::uint64_t seed,
+          std::int64_t particlesPerPuff = 1);
     ~World();
     World(const World&) = delete;
     World& operator=(const World&) = delete;

@@ -84,6 +84,19 @@ TEST(World, KeepsTheWantedNumberOfParticlesAlive) {
     EXPECT_NEAR(static_cast<double>(world.dust().size()), 2000, 100);
 }
 
+TEST(World, RaisesManyParticlesInThePlaceOfEachForTheContinuum) {
+    for (const char* particles : {"0", "300"}) {
+        World one("plain", "", with({{"particles", particles}, {"preroll", "2"}}), 3);
+        World many("plain", "", with({{"particles", particles}, {"preroll", "2"}}), 3, 64);
+        run(one, 120);
+        run(many, 120);
+        // None has died yet, so only the births count, and they are even in time.
+        EXPECT_NEAR(static_cast<double>(many.dust().size()), 64 * static_cast<double>(one.dust().size()), 64);
+        EXPECT_EQ(many.state().vehicle.position, one.state().vehicle.position);
+    }
+    EXPECT_THROW(World("plain", "", with({}), 3, 0), std::invalid_argument);
+}
+
 TEST(World, RaisesMoreDustTheFasterItDrives) {
     std::size_t before = 0;
     for (const char* speed : {"5", "15", "30"}) {

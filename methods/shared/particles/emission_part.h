@@ -22,7 +22,8 @@ class EmissionPart : public Part {
     using Part::Part;
     [[nodiscard]] PartKind kind() const final { return PartKind::emission; }
 
-    /// Called once a step. May keep what it needs for the next (an accumulator, a counter of time).
+    /// Called once a step; `step.particlesPerPuff` multiplies every rate. May keep what it needs for the next (an
+    /// accumulator, a counter of time).
     [[nodiscard]] virtual Births births(const Step& step) = 0;
 };
 

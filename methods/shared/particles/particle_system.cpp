@@ -114,6 +114,8 @@ ParticleSystem::~ParticleSystem() = default;
 
 void ParticleSystem::update(const Surroundings& surroundings) {
     if (!(surroundings.stepSeconds > 0)) throw std::invalid_argument("ParticleSystem: a step must be longer than 0 s");
+    if (surroundings.particlesPerPuff < 1)
+        throw std::invalid_argument("ParticleSystem: at least 1 particle is born for each puff");
     State& s = *state_;
     if (const std::string missing = s.parts->missing(); !missing.empty()) throw std::logic_error(missing);
     const PartList& parts = *s.parts;
@@ -123,7 +125,8 @@ void ParticleSystem::update(const Surroundings& surroundings) {
                     surroundings.stepSeconds,
                     s.seed,
                     fixedRate,
-                    s.tracker.follow(surroundings.scene, surroundings.state, surroundings.stepSeconds)};
+                    s.tracker.follow(surroundings.scene, surroundings.state, surroundings.stepSeconds),
+                    surroundings.particlesPerPuff};
 
     const auto oneColour = parts.colour()->colourOfAll(step);
     if (oneColour) s.store.colourOfAll = *oneColour;

@@ -22,6 +22,9 @@ struct Surroundings {
     double stepSeconds = 1.0 / 60;
     /// Particles to keep alive on average; 0: the emission's own rate. (The harness's `particles=N`.)
     std::int64_t fixedCount = 0;
+    /// Particles that are born in the place of each one, evenly in time; 1 or more. (Above 1: the ground truth's
+    /// `continuum`, whose particles count for as much less.)
+    std::int64_t particlesPerPuff = 1;
 };
 
 class ParticleSystem {

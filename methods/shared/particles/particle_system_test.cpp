@@ -9,6 +9,7 @@
 
 #include "methods/shared/errors.h"
 #include "methods/shared/maths/philox.h"
+#include "methods/shared/maths/transmittance.h"
 #include "methods/shared/particles/death_list.h"
 #include "methods/shared/particles/part_table.h"
 #include "methods/shared/particles/test_world.h"
@@ -93,6 +94,46 @@ TEST(ParticleSystem, MeanCountConvergesToTheFixedCount) {
         const double error = 0.36 / std::sqrt(12.5 * static_cast<double>(count));
         EXPECT_NEAR(sum / steps / static_cast<double>(count), 1, 4 * error + 0.001);
     }
+}
+
+TEST(ParticleSystem, GivesBirthToManyParticlesInThePlaceOfEachAndToTheSameCloud) {
+    struct Cloud {
+        double count = 0, mass = 0;
+        glm::dvec3 mean{0}, deviation{0};
+    };
+    const auto scene = test::sceneWithCar();
+    const auto cloud = [&](std::int64_t fixedCount, std::int64_t particlesPerPuff) {
+        auto system = systemFrom(everyForce);
+        for (int i = 1; i <= 90; ++i) {
+            const auto state = test::drivingStraight(i / 60.0, 20);
+            system.update({scene, state, 1.0 / 60, fixedCount, particlesPerPuff});
+        }
+        const ParticleStore& store = system.store();
+        Cloud result{static_cast<double>(store.size())};
+        glm::dvec3 squares(0);
+        for (std::size_t i = 0; i < store.size(); ++i) {
+            const glm::dvec3 at = store.position(i);
+            result.mass += maths::puffMassSquareMetres(static_cast<double>(store.opacity[i]),
+                                                       static_cast<double>(store.radius[i]));
+            result.mean += at / result.count;
+            squares += at * at / result.count;
+        }
+        result.deviation = glm::sqrt(squares - result.mean * result.mean);
+        return result;
+    };
+    for (const std::int64_t fixedCount : {0, 700}) {
+        const Cloud one = cloud(fixedCount, 1), many = cloud(fixedCount, 64);
+        // Births are even in time; what scatters is lifetimes, 36 % of the mean, and what depends on them.
+        const double share = 0.36 / std::sqrt(one.count);
+        EXPECT_NEAR(many.count / one.count / 64, 1, 4 * share) << fixedCount;
+        EXPECT_NEAR(many.mass / one.mass / 64, 1, 8 * share) << fixedCount;
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(many.mean[axis], one.mean[axis], 4 * one.deviation[axis] / std::sqrt(one.count));
+            EXPECT_NEAR(many.deviation[axis] / one.deviation[axis], 1, 4 / std::sqrt(one.count));
+        }
+    }
+    auto system = systemFrom(everyForce);
+    EXPECT_THROW(system.update({scene, test::drivingStraight(1, 20), 1.0 / 60, 0, 0}), std::invalid_argument);
 }
 
 TEST(ParticleSystem, AMovedCarLeavesTheSameCloudElsewhere) {

@@ -24,8 +24,9 @@ struct Step {
     const scene::SceneState& state;
     double seconds;
     std::uint64_t seed;
-    double fixedRatePerSecond;        ///< above 0: births per second, whatever the emission says
-    std::span<const Emitter> wheels;  ///< empty without a vehicle
+    double fixedRatePerSecond;          ///< above 0: births per second, whatever the emission says
+    std::span<const Emitter> wheels;    ///< empty without a vehicle
+    std::int64_t particlesPerPuff = 1;  ///< how many times as many births the emission gives, at any rate
 };
 
 /// Every use of random numbers has a stream of its own, so that swapping one part leaves the others' numbers alone.

@@ -18,8 +18,9 @@ Stream::Stream(const ParameterValues& values)
 
 Births Stream::births(const Step& step) {
     const double speed = step.scene.vehicle ? step.state.vehicle.speed : 0;
-    const double rate =
+    const double ratePerPuff =
         step.fixedRatePerSecond > 0 ? step.fixedRatePerSecond : ratePerSecond_ + ratePerMetre_ * std::abs(speed);
+    const double rate = ratePerPuff * static_cast<double>(step.particlesPerPuff);
     if (rate <= 0) return {};
     const double due = carried_ + rate * step.seconds;
     const double whole = std::floor(due);

@@ -1,0 +1,237 @@
+#include "bench/reference/cloud_march.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "bench/reference/camera_rays.h"
+#include "bench/reference/fast_functions.h"
+#include "bench/reference/puff_list.h"
+#include "bench/reference/sun_depth.h"
+#include "methods/shared/parallel/for_each_block.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr double mostSlabs = 4e6;  ///< of one ray: beyond, memory and patience end
+/// Of the light, from one slab: what is less is not looked for, though it still dims what is behind.
+constexpr double leastShare = 1e-9;
+
+/// A puff as one row sees it.
+struct RowPuff {
+    const Puff* puff;
+    RowGeometry geometry;
+    Columns columns;
+    double scale, inverseWidth;  ///< 1/2s², 1/(√2·s)
+    glm::dvec3 colour;
+};
+
+/// A puff as one ray sees it: τ·exp(−b²/2s²), its foot, and where it begins and ends.
+struct RayPuff {
+    double depth, foot, inverseWidth, begin, end;
+    glm::dvec3 colour;
+};
+
+/// What lies between two distances along a ray: depth, and colours weighted by it.
+struct Slab {
+    double depth = 0;
+    glm::dvec3 colour{0};
+};
+
+struct Lighting {
+    const SunLight& light;
+    SunDepth depths;
+
+    [[nodiscard]] glm::dvec3 at(const glm::dvec3& position) const {
+        return light.sun / 4.0 * std::exp(-depths.at(position)) + light.ambient;
+    }
+};
+
+struct MarchedPixel {
+    glm::dvec3 colour{0};
+    double depth = 0;
+    double unevenness = 0;  ///< Σ T·Δ²/8
+};
+
+/// One ray after another; keeps its memory from ray to ray.
+class RayMarch {
+ public:
+    explicit RayMarch(double slabMetres) : slabMetres_(slabMetres) {}
+
+    void begin(double sceneMetres) {
+        sceneMetres_ = sceneMetres;
+        puffs_.clear();
+    }
+
+    /// The puff along the ray of column slope x, 1/D = `inverseSquare`.
+    void add(const RowPuff& row, double x, double inverseSquare) {
+        const double u = x - row.geometry.x0;
+        const double squareB = (row.geometry.gamma * u * u + row.geometry.kappa) * inverseSquare;
+        const double depth = row.puff->opticalDepth * std::exp(-squareB * row.scale);
+        const double foot = (row.geometry.footAtZero + row.geometry.footPerSlope * x) * std::sqrt(inverseSquare);
+        const double half = sigmasAlongRay * row.puff->deviationMetres;
+        const RayPuff puff{
+            depth, foot, row.inverseWidth, std::max(0.0, foot - half), std::min(sceneMetres_, foot + half), row.colour};
+        if (puff.begin < puff.end) puffs_.push_back(puff);
+    }
+
+    [[nodiscard]] std::size_t size() const { return puffs_.size(); }
+
+    /// `direction`, `eye`: of the ray in the world; `lighting` may be null.
+    MarchedPixel run(const Lighting* lighting, const glm::dvec3& eye, const glm::dvec3& direction) {
+        MarchedPixel pixel;
+        if (puffs_.empty()) return pixel;
+        fillSlabs();
+        double transmittance = 1;
+        for (std::size_t k = 0; k < slabs_.size(); ++k) {
+            const Slab& slab = slabs_[k];
+            if (!(slab.depth > 0)) continue;
+            pixel.depth += slab.depth;
+            const double reached = transmittance;
+            transmittance *= std::exp(-slab.depth);
+            if (reached * slab.depth < leastShare) continue;
+            glm::dvec3 seen = slab.colour / slab.depth * (reached * -std::expm1(-slab.depth));
+            if (lighting) seen *= lighting->at(eye + (begin_ + (static_cast<double>(k) + 0.5) * length_) * direction);
+            pixel.colour += seen;
+            pixel.unevenness += reached * slab.depth * slab.depth / 8;
+        }
+        return pixel;
+    }
+
+ private:
+    void fillSlabs() {
+        begin_ = puffs_.front().begin;
+        double end = puffs_.front().end;
+        for (const RayPuff& puff : puffs_) {
+            begin_ = std::min(begin_, puff.begin);
+            end = std::max(end, puff.end);
+        }
+        const double count = std::ceil((end - begin_) / slabMetres_);
+        if (count > mostSlabs)
+            throw std::invalid_argument(
+                fmt::format("ground truth: slabs of {} m cut the {} m of a ray into more than {} parts", slabMetres_,
+                            end - begin_, mostSlabs));
+        length_ = (end - begin_) / count;
+        slabs_.assign(static_cast<std::size_t>(count), Slab{});
+        for (const RayPuff& puff : puffs_) {
+            // From the slab that it begins in to the one that it ends in; the little beyond belongs to these two.
+            const std::size_t first = slabOf(puff.begin), last = slabOf(puff.end);
+            double before = halfErf_(((puff.begin > 0 ? -infinite : 0.0) - puff.foot) * puff.inverseWidth);
+            for (std::size_t k = first; k <= last; ++k) {
+                const double to = k < last ? begin_ + static_cast<double>(k + 1) * length_
+                                           : (puff.end < sceneMetres_ ? infinite : sceneMetres_);
+                const double after = halfErf_((to - puff.foot) * puff.inverseWidth);
+                const double depth = puff.depth * (after - before);
+                slabs_[k].depth += depth;
+                slabs_[k].colour += depth * puff.colour;
+                before = after;
+            }
+        }
+    }
+
+    [[nodiscard]] std::size_t slabOf(double metres) const {
+        const double index = std::floor((metres - begin_) / length_);
+        return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(slabs_.size() - 1)));
+    }
+
+    static constexpr double infinite = 1e300;
+
+    const HalfErrorFunction& halfErf_ = HalfErrorFunction::instance();
+    double slabMetres_;
+    double sceneMetres_ = 0;
+    double begin_ = 0, length_ = 0;
+    std::vector<RayPuff> puffs_;
+    std::vector<Slab> slabs_;
+};
+
+glm::dvec3 checkedColour(const particles::ParticleStore& store, std::size_t i) {
+    const glm::dvec3 colour(store.colour(i));
+    if (!std::isfinite(colour.r + colour.g + colour.b))
+        throw std::runtime_error(
+            fmt::format("ground truth: particle {} has the colour ({}, {}, {}); finite numbers are needed",
+                        store.serial[i], colour.r, colour.g, colour.b));
+    return colour;
+}
+
+CloudImage march(const particles::ParticleStore& store, const scene::View& view, const OpaqueDistances& given,
+                 const ReferenceOptions& options, const SunLight* light) {
+    checkOptions(options);
+    checkDistances(view, given);
+    const CameraRays rays(view);
+    const double neglected = neglectedDepth(options.toleratedDepth, store.size());
+    const auto puffs = preparePuffs(store, rays, options.opticalDepthShare, neglected);
+    const OpaqueDistances distances = options.ignoreScene ? skyDistances(view) : given;
+    std::optional<Lighting> lighting;
+    if (light) lighting.emplace(*light, SunDepth(store, light->toSun, options.opticalDepthShare, neglected));
+
+    std::vector<glm::dvec3> colours;
+    colours.reserve(puffs.size());
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const Puff& puff : puffs) {
+        colours.push_back(light && light->albedo ? *light->albedo : checkedColour(store, puff.index));
+        low = glm::min(low, colours.back());
+        high = glm::max(high, colours.back());
+    }
+
+    const auto width = static_cast<std::size_t>(view.width), height = static_cast<std::size_t>(view.height);
+    CloudImage cloud{
+        {view.width, view.height, std::vector<glm::vec4>(width * height)}, std::vector<double>(width * height), 0, 0};
+    std::vector<double> unevenness(height, 0.0);
+    std::atomic<std::int64_t> evaluations = 0;
+    parallel::forEachBlock(height, 1, [&](std::size_t y, std::size_t) {
+        const double slopeY = rays.rowSlope(static_cast<int>(y));
+        std::vector<RowPuff> touching;
+        for (std::size_t i = 0; i < puffs.size(); ++i) {
+            const Puff& puff = puffs[i];
+            if (static_cast<int>(y) < puff.firstRow || static_cast<int>(y) >= puff.endRow) continue;
+            const RowGeometry geometry = rowGeometry(puff, slopeY);
+            const Columns columns = columnsOf(puff, geometry, slopeY, rays);
+            const double s = puff.deviationMetres;
+            if (columns.first < columns.end)
+                touching.push_back(
+                    {&puff, geometry, columns, 1 / (2 * s * s), 1 / (std::numbers::sqrt2 * s), colours[i]});
+        }
+        RayMarch ray(options.slabMetres);
+        std::int64_t done = 0;
+        for (int x = 0; x < view.width; ++x) {
+            const std::size_t pixel = y * width + static_cast<std::size_t>(x);
+            const double slopeX = rays.columnSlope(x);
+            ray.begin(distances.metres[pixel]);
+            for (const RowPuff& puff : touching)
+                if (x >= puff.columns.first && x < puff.columns.end)
+                    ray.add(puff, slopeX, 1 / (1 + slopeX * slopeX + slopeY * slopeY));
+            const MarchedPixel marched =
+                ray.run(lighting ? &*lighting : nullptr, view.camera.eye, rays.direction(x, static_cast<int>(y)));
+            done += static_cast<std::int64_t>(ray.size());
+            cloud.opticalDepths[pixel] = marched.depth;
+            cloud.image.pixels[pixel] = glm::vec4(glm::dvec4(marched.colour, -std::expm1(-marched.depth)));
+            unevenness[y] = std::max(unevenness[y], marched.unevenness);
+        }
+        evaluations += done;
+    });
+    cloud.evaluations = evaluations;
+    if (!puffs.empty()) {
+        const glm::dvec3 range = high - low;
+        cloud.colourErrorBound = *std::ranges::max_element(unevenness) * std::max({range.r, range.g, range.b});
+    }
+    return cloud;
+}
+
+}  // namespace
+
+CloudImage marchParticles(const particles::ParticleStore& store, const scene::View& view,
+                          const OpaqueDistances& distances, const ReferenceOptions& options) {
+    return march(store, view, distances, options, nullptr);
+}
+
+CloudImage renderLitParticles(const particles::ParticleStore& store, const scene::View& view,
+                              const OpaqueDistances& distances, const SunLight& light,
+                              const ReferenceOptions& options) {
+    return march(store, view, distances, options, &light);
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,100 @@
+// 2^x and the error function in double precision, without branches, so that loops over them vectorise.
+//
+// Both are made of sums and products alone: the same bits at any vector width, as long as the build fuses alike.
+// Threads: pure.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace dustbench::bench {
+
+/// Added to a small number, it leaves the nearest whole number in the lowest bits of the sum.
+inline constexpr double roundingMagic = 0x1.8p52;
+
+/// ln2^k / k!, k = 0..9: Taylor's series of 2^x.
+inline constexpr std::array<double, 10> powerSeries = [] {
+    std::array<double, 10> series{};
+    double term = 1;
+    for (int k = 0; k < 10; ++k) {
+        series[static_cast<std::size_t>(k)] = term;
+        term *= std::numbers::ln2 / (k + 1);
+    }
+    return series;
+}();
+
+/// 2^x, relative error below 1e-11, for |x| ≤ 1000. 2^x = 2^n·2^f with whole n and |f| ≤ ½, where the first term that
+/// is left out is (ln2/2)^10/10! = 7e-12.
+[[nodiscard]] inline double powerOfTwo(double x) {
+    const auto& [c0, c1, c2, c3, c4, c5, c6, c7, c8, c9] = powerSeries;
+    const double shifted = x + roundingMagic;
+    const double f = x - (shifted - roundingMagic);
+    // In pairs, so that they do not wait for each other.
+    const double f2 = f * f, f4 = f2 * f2;
+    const double low = (c0 + c1 * f) + (c2 + c3 * f) * f2;
+    const double high = (c4 + c5 * f) + (c6 + c7 * f) * f2;
+    const double power = low + f4 * (high + f4 * (c8 + c9 * f));
+    // n goes from the sum's lowest bits into the exponent's place; unsigned, so that a negative n wraps as it should.
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(power) + (std::bit_cast<std::uint64_t>(shifted) << 52));
+}
+
+/// ½·erf(z), absolute error below 5e-11 for |z| ≤ 6/√2; beyond, it stays at the value there, 1e-9 from ±½.
+///
+/// erf(z)/z is even: a polynomial of degree 20 in u = z²/9 − 1, which is −1 to 1, through its values at Chebyshev's
+/// points. (A table would be shorter, but gathering from it takes longer than all of this.)
+class HalfErrorFunction {
+ public:
+    static constexpr double limit = 3 * std::numbers::sqrt2;  ///< 6/√2
+
+    [[nodiscard]] static const HalfErrorFunction& instance() {
+        static const HalfErrorFunction function;
+        return function;
+    }
+
+    [[nodiscard]] double operator()(double z) const {
+        const double above = z < -limit ? -limit : z;
+        const double x = above > limit ? limit : above;
+        const double u = x * x * (2 / (limit * limit)) - 1;
+        const double u2 = u * u, u4 = u2 * u2;
+        double sum = c_[20];
+#pragma GCC unroll 5
+        for (std::size_t k = 20; k > 0;) {
+            k -= 4;
+            sum = sum * u4 + ((c_[k] + c_[k + 1] * u) + (c_[k + 2] + c_[k + 3] * u) * u2);
+        }
+        return x * sum;
+    }
+
+ private:
+    static constexpr std::size_t degree = 20;
+
+    HalfErrorFunction() {
+        // Σ bⱼ·Tⱼ(u) through the degree + 1 zeros of T: bⱼ = 2/n·Σ f(cos θ)·cos(jθ), half of it for j = 0.
+        constexpr std::size_t n = degree + 1;
+        std::array<double, n> b{};
+        for (std::size_t k = 0; k < n; ++k) {
+            const double angle = std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(n);
+            const double z = limit * std::sqrt((std::cos(angle) + 1) / 2);
+            for (std::size_t j = 0; j < n; ++j)
+                b[j] += std::erf(z) / (2 * z) * std::cos(static_cast<double>(j) * angle) * (j == 0 ? 1.0 : 2.0) /
+                        static_cast<double>(n);
+        }
+        // In powers of u, by T₀ = 1, T₁ = u, Tⱼ₊₁ = 2u·Tⱼ − Tⱼ₋₁.
+        std::array<double, n> before{1}, now{0, 1};
+        c_[0] = b[0];
+        for (std::size_t j = 1; j < n; ++j) {
+            for (std::size_t k = 0; k <= j; ++k) c_[k] += b[j] * now[k];
+            std::array<double, n> next{};
+            for (std::size_t k = 0; k < n; ++k) next[k] = (k > 0 ? 2 * now[k - 1] : 0) - before[k];
+            before = now;
+            now = next;
+        }
+    }
+
+    std::array<double, degree + 1> c_{};
+};
+
+}  // namespace dustbench::bench
