@@ -9,8 +9,8 @@
 namespace dustbench::octree {
 namespace {
 
-/// As few chunks as keep the threads busy: each has counters of its own.
-constexpr std::size_t wantedChunks = 16;
+/// As few chunks as keep the threads busy: each has counters of its own. The order is the same whatever their number.
+constexpr std::size_t chunksPerThread = 4;
 constexpr std::size_t leastChunk = 16'384;
 /// Particles whose words are made at once, by the vector units, before they are counted.
 constexpr std::size_t stripSize = 1024;
@@ -66,7 +66,8 @@ void BrickPartition::sort(const particles::ParticleStore& store, const Lattice& 
 }
 
 void BrickPartition::setChunks(std::size_t count, std::uint32_t bins) {
-    chunkSize_ = std::max((count + wantedChunks - 1) / wantedChunks, leastChunk);
+    const std::size_t wanted = chunksPerThread * parallel::threadCount();
+    chunkSize_ = std::max((count + wanted - 1) / wanted, leastChunk);
     chunks_ = (count + chunkSize_ - 1) / chunkSize_;
     bins_ = bins;
     counts_.hold(chunks_ * bins_);

@@ -13,9 +13,19 @@
 #else
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #endif
 
 namespace dustbench::parallel {
+
+/// For choices that must not show in the result: how much work is worth splitting.
+[[nodiscard]] inline std::size_t threadCount() {
+#ifdef __SANITIZE_THREAD__
+    return 2;
+#else
+    return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+#endif
+}
 
 /// Runs `work(first, count)` over the blocks of 0..total: on the calling thread where there are no more than
 /// `fewBlocks`, else in parallel.
