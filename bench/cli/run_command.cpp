@@ -21,6 +21,7 @@ struct RunOptions {
     WorldOptions world;
     VolumeOptions volumes{"--volumes"};
     std::int64_t frames = bench::RunSpec().frames, images = 0;
+    bool metrics = false;
     std::string sync = "frame", out;
 };
 
@@ -30,7 +31,8 @@ bench::RunSpec toSpec(const RunOptions& options) {
     spec.sync = bench::parseSync(options.sync);
     spec.imagesEvery = options.images;
     spec.volumes = options.volumes.over({});
-    bench::requireVolumesWithinRun(spec);
+    if (options.metrics) spec.judging.emplace();
+    bench::requireFramesWithinRun(spec);
     return spec;
 }
 
@@ -87,6 +89,10 @@ Command runCommand() {
                 arguments.integer("--images", "save every N-th frame from frame 0 on as PNG and EXR; 0: none",
                                   options->images, 0);
                 options->volumes.declareOptional(arguments);
+                arguments.flag("--metrics",
+                               "afterwards, hold five frames and the last 31 against exact pictures "
+                               "(reports/METRICS.md)",
+                               options->metrics);
                 arguments.required("--out", "DIR", "folder for the results; made where it is missing", options->out);
             },
             [options] { return run(*options); }};

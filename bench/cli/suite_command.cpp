@@ -27,7 +27,7 @@ int runSuite(const SuiteOptions& options) {
     if (options.repetitions > 0) suite.repetitions = static_cast<int>(options.repetitions);
     for (bench::PlannedRun& cell : suite.cells) {
         cell.spec.volumes = options.volumes.over(cell.spec.volumes);
-        bench::requireVolumesWithinRun(cell.spec);
+        bench::requireFramesWithinRun(cell.spec);
     }
     const auto plan = bench::planRuns(suite);
     if (options.dryRun) {

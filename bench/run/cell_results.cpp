@@ -3,9 +3,7 @@
 namespace dustbench::bench {
 
 const StoredRun* doneRun(const PlannedRun& cell, int repetition, const StoredRuns& runs) {
-    RunSpec spec = cell.spec;
-    spec.repetition = repetition;
-    const auto found = runs.find(runId(spec));
+    const auto found = runs.find(runId(inRepetition(cell.spec, repetition)));
     return found != runs.end() && found->second.status == RunStatus::done ? &found->second : nullptr;
 }
 

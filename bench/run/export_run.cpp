@@ -7,6 +7,7 @@
 #include "bench/export/volume_exporter.h"
 #include "bench/export/whole_file.h"
 #include "bench/run/frame_runner.h"
+#include "bench/run/replay.h"
 #include "bench/run/run_record.h"
 #include "bench/run/thread_limit.h"
 #include "methods/shared/errors.h"
@@ -41,29 +42,19 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
     FrameRunner runner(spec, world, device, info.create(parameters.method), false);
 
     ExportResult result;
-    const std::int64_t preroll = stepsBeforeWarmup(world);
-    for (std::int64_t step = 0; step < preroll; ++step) {
-        if (interrupted()) return {.series = {}, .aborted = true};
-        progress("preroll", step, preroll);
-        const std::int64_t index = step - preroll - spec.warmup;
-        step + 1 < preroll ? runner.stepWithoutPicture(index) : runner.updateOnly(index);
-    }
     const FrameRange& frames = spec.volumes->frames;
-    for (std::int64_t index = -spec.warmup; index <= frames.last && !result.aborted; ++index) {
-        progress("frames", std::max<std::int64_t>(index, 0), frames.last + 1);
-        runner.updateOnly(index);
-        if (frames.contains(index)) {
-            CollectedVolume volume;
-            runner.volume(volume);
-            exporter.write({index, spec.method, volume, world.scene(), world.state(), world.dust()});
-            record.moments.push_back({index, world.state().timeSeconds, fmt::format("{:016x}", world.stateHash())});
-        }
-        result.aborted = interrupted();
-    }
+    const auto write = [&](std::int64_t index) {
+        if (!frames.contains(index)) return;
+        CollectedVolume volume;
+        runner.volume(volume);
+        exporter.write({index, spec.method, volume, world.scene(), world.state(), world.dust()});
+        record.moments.push_back({index, world.state().timeSeconds, fmt::format("{:016x}", world.stateHash())});
+    };
+    result.aborted = !replay({spec, runner, stepsBeforeWarmup(world), frames.last, [&] { return !interrupted(); },
+                              write, progress});
     result.series = exporter.seriesFiles();
     result.gridsDiffer = exporter.gridsDiffer();
     if (result.aborted) return result;
-    progress("frames", frames.last + 1, frames.last + 1);
     for (const fs::path& series : result.series) record.series.push_back(series.filename());
     writeWhole(folder / "export.json", toJson(record));
     return result;

@@ -215,6 +215,27 @@ void FrameRunner::volume(VolumeVisitor& visitor) const {
     method_->volume({lastIndex_, stepSeconds, world_.state(), world_.dust(), view, unheard}, visitor);
 }
 
+DrawnMoment FrameRunner::drawn(bool withDetail) {
+    const scene::View view = world_.view(spec_.size.width, spec_.size.height);
+    const StageClock unheard;
+    const Frame now{lastIndex_, stepSeconds, world_.state(), world_.dust(), view, unheard};
+    drawFrame(now);
+    DrawnMoment moment;
+    moment.scene = draw::readBack(scene_.colour());
+    moment.layer = draw::readBack(layer_.colour());
+    moment.sceneDepth = draw::readBackDepth(scene_.depth());
+    if (withDetail) {
+        if (noScene_.width() == 0)
+            noScene_ = gpu::Texture::make2D(device_, "no scene", gpu::Format::depth32F, view.width, view.height);
+        gpu::Framebuffer(device_, "no scene", nullptr, &noScene_).clearDepth();
+        gpu::Layer layer(device_, noScene_);
+        layer.clear();
+        method_->draw(now, layer);
+        moment.layerWithoutScene = draw::readBack(layer.colour());
+    }
+    return moment;
+}
+
 draw::Image FrameRunner::picture() {
     drain();
     return draw::over(draw::readBack(layer_.colour()), draw::readBack(scene_.colour()));

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/judge/moment_pictures.h"
 #include "bench/measure/frame_record.h"
 #include "bench/measure/stage_recorder.h"
 #include "bench/run/run_spec.h"
@@ -47,6 +48,9 @@ class FrameRunner {
     /// Waits for all frames in flight and completes their records.
     void drain();
 
+    /// Draws what the last `updateOnly` led to, apart from all that is timed. For metrics. `withDetail`: the layer
+    /// without the scene as well.
+    [[nodiscard]] DrawnMoment drawn(bool withDetail);
     /// The last frame over its scene, linear.
     [[nodiscard]] draw::Image picture();
     /// What the method says of the cloud of the last `frame` or `updateOnly` (Method::massKept, Method::volume).
@@ -68,6 +72,7 @@ class FrameRunner {
     draw::OpaqueScene scene_;
     gpu::Layer layer_;
     draw::Composite composite_;
+    gpu::Texture noScene_;  ///< a depth image of nothing; made when first wanted
     StageRecorder recorder_;
     gpu::Fence lastFrame_;
     std::int64_t lastEndNs_ = 0;  ///< where the next frame begins that overlaps this one; 0: nothing is in flight

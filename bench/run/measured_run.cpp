@@ -7,6 +7,7 @@
 #include "bench/measure/memory_probe.h"
 #include "bench/run/frame_files.h"
 #include "bench/run/frame_runner.h"
+#include "bench/run/judged_run.h"
 #include "bench/run/results_folder.h"
 #include "bench/run/summary.h"
 #include "bench/run/thread_limit.h"
@@ -116,7 +117,9 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     gpu::Device device;
     record.provenance.device = device.info();
     record.provenance.gpuTimersTrusted = gpu::timerQueriesAreTrue(device);
-    FrameRunner runner(spec, world, device, info.create(parameters.method), record.provenance.gpuTimersTrusted);
+    std::optional<FrameRunner> timed;
+    FrameRunner& runner =
+        timed.emplace(spec, world, device, info.create(parameters.method), record.provenance.gpuTimersTrusted);
     RunVolumes volumes(spec, folder, world, record.provenance.warnings);
     runFrames(spec, world, runner, folder, volumes, progress);
 
@@ -136,11 +139,15 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     for (auto& column : measuredColumns(runner.records(), peakResidentBytes()))
         record.summary.push_back(std::move(column));
     if (const auto kept = runner.massKept()) record.summary.emplace_back("mass_kept", *kept);
-    if (spec.imagesEvery > 0) record.summary.emplace_back("FILE_image", "runs/" + runId(spec) + "/images/f000000.png");
+    if (spec.imagesEvery > 0 || spec.judging) record.summary.emplace_back("FILE_image", "runs/" + runId(spec) + "/images/f000000.png");
     if (const std::string series = volumes.firstSeries(); !series.empty())
         record.summary.emplace_back("FILE_volume", series);
     writeWhole(folder / "frames.csv", framesCsv(runner.records()));
     writeWhole(folder / "stages.csv", stagesCsv(runner.records()));
+    if (!spec.judging) return;
+    timed.reset();
+    for (auto& [column, value] : summaryOf(judgeRun(spec, folder, device, record.stateHash, progress)))
+        record.summary.emplace_back(std::move(column), value);
 }
 
 }  // namespace

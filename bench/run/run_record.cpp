@@ -110,6 +110,18 @@ std::optional<VolumeSettings> readVolumes(const Json& json) {
     return volumes;
 }
 
+Json judgingObject(const std::optional<JudgingPlan>& judging) {
+    if (!judging) return nullptr;
+    return {{"frames", judging->moments ? Json(judging->moments->text()) : Json(nullptr)}};
+}
+
+std::optional<JudgingPlan> readJudging(const Json& json) {
+    if (json.is_null()) return std::nullopt;
+    JudgingPlan judging;
+    if (!json.at("frames").is_null()) judging.moments = parseFrameRange("metrics", json.at("frames").get<std::string>());
+    return judging;
+}
+
 /// Text that is no UTF-8 (a file name, a child's last words) must not keep a result from being written.
 std::string text(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -149,6 +161,7 @@ std::string toJson(const RunRecord& record) {
                  {"threads", spec.threads},
                  {"images", spec.imagesEvery},
                  {"volumes", volumesObject(spec.volumes)},
+                 {"metrics", judgingObject(spec.judging)},
                  {"parameters", parametersObject(spec.parameters)},
                  {"state_hash", record.stateHash},
                  {"method_hash", record.methodHash.empty() ? Json(nullptr) : Json(record.methodHash)},
@@ -213,6 +226,7 @@ std::string specToJson(const RunSpec& spec) {
                  {"sync", syncName(spec.sync)},
                  {"images", spec.imagesEvery},
                  {"volumes", volumesObject(spec.volumes)},
+                 {"metrics", judgingObject(spec.judging)},
                  {"repetition", spec.repetition}});
 }
 
@@ -233,6 +247,7 @@ RunSpec specFromJson(std::string_view text) {
         spec.sync = parseSync(json.at("sync").get<std::string>());
         spec.imagesEvery = json.at("images").get<std::int64_t>();
         spec.volumes = readVolumes(json.at("volumes"));
+        spec.judging = readJudging(json.at("metrics"));
         spec.repetition = json.at("repetition").get<int>();
         return spec;
     } catch (const nlohmann::json::exception& error) {

@@ -72,7 +72,8 @@ ParameterTexts canonicalParameters(const MethodInfo& method, const ParameterText
     return all;
 }
 
-void requireVolumesWithinRun(const RunSpec& spec) {
+void requireFramesWithinRun(const RunSpec& spec) {
+    if (spec.judging) requireMomentsWithinRun(*spec.judging, spec.frames);
     if (!spec.volumes || spec.volumes->frames.last < spec.frames) return;
     throw InputError(fmt::format("volumes: frame {} is beyond the run's end, allowed: frames 0..{} (--frames {})",
                                  spec.volumes->frames.last, spec.frames - 1, spec.frames));
@@ -90,6 +91,7 @@ std::string canonicalKey(const RunSpec& spec) {
                            volumes.frames.text(), formatsText(volumes.formats), volumes.resolution,
                            volumes.region ? regionText(*volumes.region) : "", precisionName(volumes.vdbPrecision));
     }
+    if (spec.judging) key += fmt::format("metrics={}\n", spec.judging->moments ? spec.judging->moments->text() : "");
     return key;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/export/volume_settings.h"
+#include "bench/judge/judging_plan.h"
 #include "methods/shared/method.h"
 #include "methods/shared/parameters.h"
 
@@ -42,11 +43,12 @@ struct RunSpec {
     Sync sync = Sync::frame;
     std::int64_t imagesEvery = 0;           ///< 0: no images
     std::optional<VolumeSettings> volumes;  ///< what is exported besides; none: nothing
+    std::optional<JudgingPlan> judging;     ///< which frames get metrics; none: no frame
     int repetition = 1;                     ///< from 1
 };
 
-/// Throws InputError where a volume is asked for of a frame that the run does not record.
-void requireVolumesWithinRun(const RunSpec& spec);
+/// Throws InputError where a volume or a metric is asked for of a frame that the run does not record.
+void requireFramesWithinRun(const RunSpec& spec);
 
 /// A specification's values, sorted out into the world's and the method's.
 struct ResolvedParameters {

@@ -70,11 +70,11 @@ TEST(RunSpec, EveryFieldTellsRunsApart) {
 TEST(RunSpec, VolumesOfFramesThatAreNotRecordedAreRefused) {
     RunSpec spec;
     spec.frames = 9;
-    EXPECT_NO_THROW(requireVolumesWithinRun(spec));
+    EXPECT_NO_THROW(requireFramesWithinRun(spec));
     spec.volumes.emplace().frames = {0, 8, 4};
-    EXPECT_NO_THROW(requireVolumesWithinRun(spec));
+    EXPECT_NO_THROW(requireFramesWithinRun(spec));
     spec.frames = 8;
-    EXPECT_THAT(messageOf([&] { requireVolumesWithinRun(spec); }),
+    EXPECT_THAT(messageOf([&] { requireFramesWithinRun(spec); }),
                 testing::AllOf(testing::HasSubstr("frame 8"), testing::HasSubstr("0..7")));
 }
 

@@ -117,6 +117,25 @@ void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volume
     read("vdb_precision", [&](const std::string& key) { volumes->vdbPrecision = parsePrecision(table.text(key, "")); });
 }
 
+/// `metrics` asks for them; `metric_frames` says of which frames.
+void readJudging(files::TomlReader& table, std::optional<JudgingPlan>& judging) {
+    if (table.has("metrics")) {
+        if (!table.boolean("metrics", false))
+            judging.reset();
+        else if (!judging)
+            judging.emplace();
+    }
+    if (!table.has("metric_frames")) return;
+    if (!judging)
+        throw InputError(table.where("metric_frames") + "key 'metric_frames': got it without 'metrics = true'");
+    const std::string text = table.text("metric_frames", "");
+    try {
+        judging->moments = parseFrameRange("metric_frames", text);
+    } catch (const InputError& error) {
+        throw at(table.where("metric_frames"), error);
+    }
+}
+
 void readDraft(files::TomlReader& table, Draft& draft) {
     readNames(table, "methods", draft.methods, [](const std::string& id) {
         if (id != "all") (void)findMethod(id);
@@ -137,6 +156,7 @@ void readDraft(files::TomlReader& table, Draft& draft) {
     base.threads = static_cast<int>(table.integer("threads", 0, 1024, base.threads));
     base.imagesEvery = table.integer("images", 0, mostFrames, base.imagesEvery);
     readVolumes(table, base.volumes);
+    readJudging(table, base.judging);
     if (table.has("sync")) base.sync = parseSync(table.choice("sync", {"frame", "stage", "none"}));
 
     Suite& suite = draft.suite;
@@ -171,7 +191,7 @@ void readDraft(files::TomlReader& table, Draft& draft) {
 }
 
 Suite multiplyOut(Draft draft) {
-    requireVolumesWithinRun(draft.base);
+    requireFramesWithinRun(draft.base);
     Suite suite = std::move(draft.suite);
     for (const std::string& id : draft.methods) {
         ParameterLists lists = draft.parameters;
@@ -282,10 +302,16 @@ std::vector<PlannedRun> expandParameters(const RunSpec& base, const MethodInfo& 
     }
 }
 
+RunSpec inRepetition(RunSpec cell, int repetition) {
+    cell.repetition = repetition;
+    if (repetition > 1) cell.judging.reset();
+    return cell;
+}
+
 std::vector<PlannedRun> planRuns(const Suite& suite) {
     std::vector<PlannedRun> plan;
     const auto add = [&plan](PlannedRun run, int repetition) {
-        run.spec.repetition = repetition;
+        run.spec = inRepetition(run.spec, repetition);
         plan.push_back(std::move(run));
     };
     if (suite.order == Order::batch) {

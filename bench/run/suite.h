@@ -41,6 +41,8 @@ struct Suite {
 [[nodiscard]] Suite loadSuite(const std::string& idOrFile, bool quick);
 [[nodiscard]] Suite parseSuite(std::string_view text, const std::string& name, bool quick);
 
+/// A cell's run, from 1. Metrics belong to the first: pictures do not depend on the repetition.
+[[nodiscard]] RunSpec inRepetition(RunSpec cell, int repetition);
 [[nodiscard]] std::vector<PlannedRun> planRuns(const Suite& suite);
 
 /// One value list a parameter, in order.

@@ -58,7 +58,9 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "FILE_image",
                                  "FILE_volume",
                                  "gpu_ms_median",
-                                 "harness_us_median"})
+                                 "harness_us_median",
+                                 "psnr_continuum_db",
+                                 "components_reference"})
             list.emplace_back(name);
         return list;
     }();

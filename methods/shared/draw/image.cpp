@@ -36,6 +36,17 @@ Image readBack(const gpu::Texture& texture) {
     return image;
 }
 
+std::vector<float> readBackDepth(const gpu::Texture& texture) {
+    if (texture.format() != gpu::Format::depth32F || texture.depth() != 1)
+        throw std::invalid_argument("readBackDepth: a flat texture of depths is needed");
+    std::vector<float> depths = texture.readFloats();
+    const std::ptrdiff_t width = texture.width(), height = texture.height();
+    for (std::ptrdiff_t y = 0; y < height / 2; ++y)
+        std::swap_ranges(depths.begin() + y * width, depths.begin() + (y + 1) * width,
+                         depths.begin() + (height - 1 - y) * width);
+    return depths;
+}
+
 Image over(const Image& layer, const Image& scene) {
     if (layer.width != scene.width || layer.height != scene.height)
         throw std::invalid_argument("over: the layer and the scene differ in size");

@@ -1,0 +1,20 @@
+// The metrics of a run, after its timed frames and apart from them: its states gone through again, some of them drawn
+// and held against the exact pictures.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bench/judge/judgement.h"
+#include "bench/run/measured_run.h"
+#include "methods/shared/gpu/device.h"
+
+namespace dustbench::bench {
+
+/// Judges the frames that `spec.judging` names. Leaves metrics.csv in `folder` and, of each moment, the method's
+/// picture, the reference (.png, .exr) and FLIP's map (.png) in images/. `stateHash` is that after the run's last frame:
+/// throws std::runtime_error where going through it again leads elsewhere.
+[[nodiscard]] Judgement judgeRun(const RunSpec& spec, const std::filesystem::path& folder, gpu::Device& device,
+                                 const std::string& stateHash, const RunProgress& progress);
+
+}  // namespace dustbench::bench
