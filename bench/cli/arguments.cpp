@@ -77,6 +77,11 @@ void Arguments::required(const std::string& name, const std::string& placeholder
     app_.add_option(name, value, help)->type_name(placeholder)->required();
 }
 
+void Arguments::requiredTexts(const std::string& name, const std::string& placeholder, const std::string& help,
+                              std::vector<std::string>& values) {
+    app_.add_option(name, values, help)->type_name(placeholder)->required()->expected(-1);
+}
+
 void Arguments::texts(const std::string& name, const std::string& placeholder, const std::string& help,
                       std::vector<std::string>& values) {
     app_.add_option(name, values, help)->type_name(placeholder)->allow_extra_args(false)->type_size(1);

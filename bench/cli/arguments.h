@@ -25,6 +25,9 @@ class Arguments {
     void text(const std::string& name, const std::string& placeholder, const std::string& help, std::string& value);
     /// A text that must be given.
     void required(const std::string& name, const std::string& placeholder, const std::string& help, std::string& value);
+    /// Positional, one or more.
+    void requiredTexts(const std::string& name, const std::string& placeholder, const std::string& help,
+                       std::vector<std::string>& values);
     /// May be given several times.
     void texts(const std::string& name, const std::string& placeholder, const std::string& help,
                std::vector<std::string>& values);

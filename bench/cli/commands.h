@@ -15,6 +15,7 @@ namespace dustbench::cli {
 [[nodiscard]] Command suiteCommand();
 [[nodiscard]] Command reproduceCommand();
 [[nodiscard]] Command diffCommand();
+[[nodiscard]] Command compareCommand();
 
 /// What a run's own process does: `measure-run SPEC FOLDER -- the user's command`. Not for people.
 inline constexpr const char* childCommandName = "measure-run";

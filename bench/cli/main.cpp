@@ -21,9 +21,9 @@ std::string oneLine(std::string message) {
 
 int run(const std::vector<std::string>& argv) {
     if (!argv.empty() && argv.front() == childCommandName) return measureRunCommand(argv);
-    return dispatch(
-        {listCommand(), envCommand(), runCommand(), exportCommand(), suiteCommand(), reproduceCommand(), diffCommand()},
-        "dustbench " + bench::buildFacts().version, argv);
+    return dispatch({listCommand(), envCommand(), runCommand(), compareCommand(), suiteCommand(), reproduceCommand(),
+                     exportCommand(), diffCommand()},
+                    "dustbench " + bench::buildFacts().version, argv);
 }
 
 }  // namespace

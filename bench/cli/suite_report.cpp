@@ -9,6 +9,20 @@
 namespace dustbench::cli {
 namespace {
 
+/// So many rows are better read as columns where there are many numbers.
+constexpr std::size_t mostColumns = 6;
+
+bench::TextRows transposed(const bench::TextRows& table) {
+    bench::TextRows turned;
+    turned.header.push_back("metric");
+    for (const auto& row : table.rows) turned.header.push_back(row.front());
+    for (std::size_t column = 1; column < table.header.size(); ++column) {
+        turned.rows.push_back({table.header[column]});
+        for (const auto& row : table.rows) turned.rows.back().push_back(row[column]);
+    }
+    return turned;
+}
+
 std::string textOf(bench::TextRows table) {
     table.rows.insert(table.rows.begin(), std::move(table.header));
     return textTable(table.rows);
@@ -22,6 +36,9 @@ std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs
                     suite.repetitions == 1 ? std::string("one run each")
                                            : fmt::format("medians over {} runs each", suite.repetitions));
     text += textOf(bench::tabulate(suite, runs));
+    if (bench::TextRows metrics = bench::tabulateMetrics(suite, runs); !metrics.rows.empty())
+        text += "\nmetrics, means over the judged moments (reports/METRICS.md)\n" +
+                textOf(metrics.rows.size() <= mostColumns ? transposed(metrics) : std::move(metrics));
     for (const bench::ComparisonResult& comparison : bench::compareSuite(suite, runs)) {
         text += fmt::format("\n{} against {}: ratio of their times, 95 % interval over paired runs\n", comparison.of,
                             comparison.with);

@@ -7,6 +7,10 @@ namespace dustbench::cli {
 
 void WorldOptions::declare(Arguments& arguments) {
     arguments.required("--method", "ID", "one of `dustbench list methods`", method);
+    declareWorld(arguments);
+}
+
+void WorldOptions::declareWorld(Arguments& arguments) {
     arguments.text("--scene", "ID", "one of `dustbench list scenes`, or a .toml file", scene);
     arguments.text("--drive", "ID", "one of `dustbench list drives`, or a .csv file; the scene's own unless given",
                    drive);
@@ -18,8 +22,14 @@ void WorldOptions::declare(Arguments& arguments) {
 }
 
 bench::RunSpec WorldOptions::toSpec() const {
+    const std::string id = findMethod(method).id;
+    bench::RunSpec spec = toWorldSpec();
+    spec.method = id;
+    return spec;
+}
+
+bench::RunSpec WorldOptions::toWorldSpec() const {
     bench::RunSpec spec;
-    spec.method = findMethod(method).id;
     spec.scene = scene;
     spec.drive = drive;
     (void)files::findData("scene", "scenes", spec.scene, ".toml");

@@ -1,4 +1,4 @@
-// The options by which `run` and `export` name one method in one world.
+// The options by which commands name one method in one world.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,12 @@ struct WorldOptions {
     std::int64_t seed = 1, threads = 0;
 
     void declare(Arguments& arguments);
+    /// All but the method.
+    void declareWorld(Arguments& arguments);
     /// All but the parameters. Throws InputError where a name is unknown.
     [[nodiscard]] bench::RunSpec toSpec() const;
+    /// All but the parameters and the method.
+    [[nodiscard]] bench::RunSpec toWorldSpec() const;
 };
 
 }  // namespace dustbench::cli

@@ -50,8 +50,8 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
         exporter.write({index, spec.method, volume, world.scene(), world.state(), world.dust()});
         record.moments.push_back({index, world.state().timeSeconds, fmt::format("{:016x}", world.stateHash())});
     };
-    result.aborted = !replay({spec, runner, stepsBeforeWarmup(world), frames.last, [&] { return !interrupted(); },
-                              write, progress});
+    result.aborted =
+        !replay({spec, runner, stepsBeforeWarmup(world), frames.last, [&] { return !interrupted(); }, write, progress});
     result.series = exporter.seriesFiles();
     result.gridsDiffer = exporter.gridsDiffer();
     if (result.aborted) return result;

@@ -12,8 +12,8 @@
 namespace dustbench::bench {
 
 /// Judges the frames that `spec.judging` names. Leaves metrics.csv in `folder` and, of each moment, the method's
-/// picture, the reference (.png, .exr) and FLIP's map (.png) in images/. `stateHash` is that after the run's last frame:
-/// throws std::runtime_error where going through it again leads elsewhere.
+/// picture, the reference (.png, .exr) and FLIP's map (.png) in images/. `stateHash` is that after the run's last
+/// frame: throws std::runtime_error where going through it again leads elsewhere.
 [[nodiscard]] Judgement judgeRun(const RunSpec& spec, const std::filesystem::path& folder, gpu::Device& device,
                                  const std::string& stateHash, const RunProgress& progress);
 

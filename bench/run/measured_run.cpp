@@ -139,7 +139,8 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     for (auto& column : measuredColumns(runner.records(), peakResidentBytes()))
         record.summary.push_back(std::move(column));
     if (const auto kept = runner.massKept()) record.summary.emplace_back("mass_kept", *kept);
-    if (spec.imagesEvery > 0 || spec.judging) record.summary.emplace_back("FILE_image", "runs/" + runId(spec) + "/images/f000000.png");
+    if (spec.imagesEvery > 0 || spec.judging)
+        record.summary.emplace_back("FILE_image", "runs/" + runId(spec) + "/images/f000000.png");
     if (const std::string series = volumes.firstSeries(); !series.empty())
         record.summary.emplace_back("FILE_volume", series);
     writeWhole(folder / "frames.csv", framesCsv(runner.records()));

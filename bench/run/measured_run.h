@@ -15,8 +15,8 @@ namespace dustbench::bench {
 /// `phase` is `preroll`, `warmup`, `frames` or `metrics`.
 using RunProgress = std::function<void(std::string_view phase, std::int64_t done, std::int64_t total)>;
 
-/// Measures and leaves frames.csv, stages.csv, metrics.csv, images/ and volumes/ in `folder`. `argv` is the command the user gave.
-/// Throws InputError for what a person can mend and std::runtime_error where the method fails.
+/// Measures and leaves frames.csv, stages.csv, metrics.csv, images/ and volumes/ in `folder`. `argv` is the command the
+/// user gave. Throws InputError for what a person can mend and std::runtime_error where the method fails.
 [[nodiscard]] RunRecord measureRun(const RunSpec& spec, const std::filesystem::path& folder,
                                    std::vector<std::string> argv, const RunProgress& progress);
 

@@ -118,7 +118,8 @@ Json judgingObject(const std::optional<JudgingPlan>& judging) {
 std::optional<JudgingPlan> readJudging(const Json& json) {
     if (json.is_null()) return std::nullopt;
     JudgingPlan judging;
-    if (!json.at("frames").is_null()) judging.moments = parseFrameRange("metrics", json.at("frames").get<std::string>());
+    if (!json.at("frames").is_null())
+        judging.moments = parseFrameRange("metrics", json.at("frames").get<std::string>());
     return judging;
 }
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "bench/judge/judgement.h"
 #include "bench/measure/statistics.h"
 #include "bench/run/suite_axes.h"
 #include "methods/shared/stage_clock.h"
@@ -18,19 +20,30 @@ std::string oneDecimal(double value) {
     return std::isfinite(value) ? fmt::format("{:.1f}", value) : "";
 }
 
-Row numberHeader() {
+Row timesHeader() {
     Row names{"fps", "min", "max", "frame"};
     for (const std::string_view stage : stageNames) names.emplace_back(stage);
     return names;
 }
 
-Row numbersOf(const std::vector<const StoredRun*>& done) {
+Row timesOf(const std::vector<const StoredRun*>& done) {
     const auto fps = numbersIn(done, "fps_avg");
     Row row;
     for (const double value : {median(fps), quantile(fps, 0), quantile(fps, 1)}) row.push_back(oneDecimal(value));
     row.push_back(fourDigits(median(numbersIn(done, "frame_ms_median"))));
     for (const std::string_view stage : stageNames)
         row.push_back(fourDigits(median(numbersIn(done, fmt::format("{}_ms_median", stage)))));
+    return row;
+}
+
+/// Of the first repetition, the one that is judged. Where none of three digits is left, the number is in powers of ten.
+Row metricsOf(const std::vector<const StoredRun*>& done) {
+    Row row;
+    for (const std::string& column : metricColumns()) {
+        const auto values = numbersIn(done, column);
+        const double value = values.empty() ? std::numeric_limits<double>::quiet_NaN() : values.front();
+        row.push_back(value != 0 && std::abs(value) < 0.0995 ? fmt::format("{:.3g}", value) : fourDigits(value));
+    }
     return row;
 }
 
@@ -52,15 +65,9 @@ std::vector<std::pair<std::string, std::vector<const PlannedRun*>>> groupByWorld
     return groups;
 }
 
-}  // namespace
-
-std::string fourDigits(double value) {
-    if (!std::isfinite(value)) return "";
-    const double size = std::abs(value);
-    return fmt::format("{:.{}f}", value, size < 9.9995 ? 3 : size < 99.995 ? 2 : size < 999.95 ? 1 : 0);
-}
-
-TextRows tabulate(const Suite& suite, const StoredRuns& runs) {
+/// `numbersOf` gives the cells under `numberHeader` for a cell's runs.
+template <typename NumbersOf>
+TextRows tabulateRuns(const Suite& suite, const StoredRuns& runs, const Row& numberHeader, const NumbersOf& numbersOf) {
     TextRows table;
     const auto cells = cellsOf(suite);
     if (cells.empty()) return table;
@@ -79,7 +86,7 @@ TextRows tabulate(const Suite& suite, const StoredRuns& runs) {
     table.header.emplace_back("method");
     if (inColumns)
         for (const Axis& axis : world) table.header.push_back(axis.name);
-    table.header = joined(std::move(table.header), numberHeader());
+    table.header = joined(std::move(table.header), numberHeader);
 
     for (const auto& [label, members] : groups) {
         const bool headed = !inColumns && !label.empty();
@@ -96,6 +103,27 @@ TextRows tabulate(const Suite& suite, const StoredRuns& runs) {
         }
     }
     return table;
+}
+
+}  // namespace
+
+std::string fourDigits(double value) {
+    if (!std::isfinite(value)) return "";
+    const double size = std::abs(value);
+    return fmt::format("{:.{}f}", value, size < 9.9995 ? 3 : size < 99.995 ? 2 : size < 999.95 ? 1 : 0);
+}
+
+TextRows tabulate(const Suite& suite, const StoredRuns& runs) {
+    return tabulateRuns(suite, runs, timesHeader(), timesOf);
+}
+
+TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs) {
+    const bool judged = std::ranges::any_of(suite.cells, [&](const PlannedRun& cell) {
+        const StoredRun* first = doneRun(cell, 1, runs);
+        return first && numberIn(*first, "rmse_linear");
+    });
+    if (!judged) return {};
+    return tabulateRuns(suite, runs, metricColumns(), metricsOf);
 }
 
 }  // namespace dustbench::bench

@@ -23,6 +23,9 @@ struct TextRows {
 /// all done tell so: `billboard (4 of 6 runs)`.
 [[nodiscard]] TextRows tabulate(const Suite& suite, const StoredRuns& runs);
 
+/// The same rows with the metrics of those that were judged (reports/METRICS.md); no rows where none were.
+[[nodiscard]] TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs);
+
 /// Four digits, three of them behind the point at most: `0.047`, `12.35`, `123.5`; empty for NaN.
 [[nodiscard]] std::string fourDigits(double value);
 
