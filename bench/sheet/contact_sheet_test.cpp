@@ -135,11 +135,10 @@ TEST(ContactSheet, ShowsEveryPictureInItsPlace) {
 
 TEST(ContactSheet, ShowsPicturesAsADisplayDoes) {
     ContactSheet sheet;
-    // A stripe far above white, as the sun's is, and one below black, at pictures of the tile's own size and half of
-    // it.
+    // A stripe far above white, as the sun is, and one below black; once of the tile's own size, once twice as large.
     for (const int width : {120, 240}) {
         const auto stripes = imageOf(width, width, [&](int x, int, int) {
-            return x < width / 3 ? 50.0 : x < 2 * width / 3 ? -3.0 : 0.25;
+            return x < width / 3 ? 50.0 : x < 2 * width / 3 ? 0.25 : -3.0;
         });
         sheet.cells.push_back({SheetCell{stripes, ""}});
     }
@@ -147,9 +146,10 @@ TEST(ContactSheet, ShowsPicturesAsADisplayDoes) {
     for (const PlacedPicture& placed : layOut(sheet, smallStyle()).pictures) {
         const auto at = [&](int x) { return image.at(placed.box.x + x, placed.box.y + 60).r; };
         EXPECT_NEAR(at(20), 1, 1e-5);
-        EXPECT_NEAR(at(37), 1, 1e-5) << "nothing spills from what is brighter than white";
-        EXPECT_NEAR(at(60), 0, 1e-5);
-        EXPECT_NEAR(at(82), 0.25, 1e-5);
+        EXPECT_NEAR(at(60), 0.25, 1e-5);
+        EXPECT_NEAR(at(100), 0, 1e-5);
+        EXPECT_LT(at(40), 0.25 + 0.5 * (1 - 0.25)) << "no more spills over the edge than would from white";
+        EXPECT_GT(at(79), 0.5 * 0.25) << "nor than would from black";
     }
     for (const glm::vec4& pixel : image.pixels) ASSERT_TRUE(pixel.a == 1 && pixel.r >= 0 && pixel.r <= 1);
 }
