@@ -113,6 +113,25 @@ TEST(ContactSheet, PlacesEverythingApartAndInside) {
     }
 }
 
+TEST(ContactSheet, HasRoomForItsScaleInTheNarrowestSheet) {
+    for (const auto& [tile, font] : {std::pair(64, 16), {64, 6}, {300, 75}}) {
+        ContactSheet sheet;
+        sheet.cells = {{SheetCell{plainPicture(40, 30, glm::vec3(0.2f)), ""}}};
+        sheet.scale = SheetScale{-1.2345e-5f, 1.5f, "a label of many words that no sheet as narrow has room for"};
+        SheetStyle style;
+        style.tileWidthPixels = tile;
+        style.fontPixels = font;
+        const SheetLayout layout = layOut(sheet, style);
+        ASSERT_EQ(layout.texts.size(), 3u);
+        EXPECT_GE(layout.bar->width, tile / 6);
+        EXPECT_GE(layout.texts[0].box.x, style.marginPixels);
+        EXPECT_LE(layout.texts[0].box.right(), layout.texts[1].box.x);
+        EXPECT_LT(layout.texts[1].box.right(), layout.bar->x);
+        EXPECT_LT(layout.bar->right(), layout.texts[2].box.x);
+        EXPECT_LE(layout.texts[2].box.right(), layout.width - style.marginPixels);
+    }
+}
+
 TEST(ContactSheet, ShowsEveryPictureInItsPlace) {
     const ContactSheet sheet = fullSheet();
     const draw::Image image = drawSheet(sheet, smallStyle());
