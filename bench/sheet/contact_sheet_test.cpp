@@ -113,6 +113,25 @@ TEST(ContactSheet, PlacesEverythingApartAndInside) {
     }
 }
 
+TEST(ContactSheet, HasRoomForItsScaleInTheNarrowestSheet) {
+    for (const auto& [tile, font] : {std::pair(64, 16), {64, 6}, {300, 75}}) {
+        ContactSheet sheet;
+        sheet.cells = {{SheetCell{plainPicture(40, 30, glm::vec3(0.2f)), ""}}};
+        sheet.scale = SheetScale{-1.2345e-5f, 1.5f, "a label of many words that no sheet as narrow has room for"};
+        SheetStyle style;
+        style.tileWidthPixels = tile;
+        style.fontPixels = font;
+        const SheetLayout layout = layOut(sheet, style);
+        ASSERT_EQ(layout.texts.size(), 3u);
+        EXPECT_GE(layout.bar->width, tile / 6);
+        EXPECT_GE(layout.texts[0].box.x, style.marginPixels);
+        EXPECT_LE(layout.texts[0].box.right(), layout.texts[1].box.x);
+        EXPECT_LT(layout.texts[1].box.right(), layout.bar->x);
+        EXPECT_LT(layout.bar->right(), layout.texts[2].box.x);
+        EXPECT_LE(layout.texts[2].box.right(), layout.width - style.marginPixels);
+    }
+}
+
 TEST(ContactSheet, ShowsEveryPictureInItsPlace) {
     const ContactSheet sheet = fullSheet();
     const draw::Image image = drawSheet(sheet, smallStyle());
@@ -135,11 +154,10 @@ TEST(ContactSheet, ShowsEveryPictureInItsPlace) {
 
 TEST(ContactSheet, ShowsPicturesAsADisplayDoes) {
     ContactSheet sheet;
-    // A stripe far above white, as the sun's is, and one below black, at pictures of the tile's own size and half of
-    // it.
+    // A stripe far above white, as the sun is, and one below black; once of the tile's own size, once twice as large.
     for (const int width : {120, 240}) {
         const auto stripes = imageOf(width, width, [&](int x, int, int) {
-            return x < width / 3 ? 50.0 : x < 2 * width / 3 ? -3.0 : 0.25;
+            return x < width / 3 ? 50.0 : x < 2 * width / 3 ? 0.25 : -3.0;
         });
         sheet.cells.push_back({SheetCell{stripes, ""}});
     }
@@ -147,9 +165,10 @@ TEST(ContactSheet, ShowsPicturesAsADisplayDoes) {
     for (const PlacedPicture& placed : layOut(sheet, smallStyle()).pictures) {
         const auto at = [&](int x) { return image.at(placed.box.x + x, placed.box.y + 60).r; };
         EXPECT_NEAR(at(20), 1, 1e-5);
-        EXPECT_NEAR(at(37), 1, 1e-5) << "nothing spills from what is brighter than white";
-        EXPECT_NEAR(at(60), 0, 1e-5);
-        EXPECT_NEAR(at(82), 0.25, 1e-5);
+        EXPECT_NEAR(at(60), 0.25, 1e-5);
+        EXPECT_NEAR(at(100), 0, 1e-5);
+        EXPECT_LT(at(40), 0.25 + 0.5 * (1 - 0.25)) << "no more spills over the edge than would from white";
+        EXPECT_GT(at(79), 0.5 * 0.25) << "nor than would from black";
     }
     for (const glm::vec4& pixel : image.pixels) ASSERT_TRUE(pixel.a == 1 && pixel.r >= 0 && pixel.r <= 1);
 }

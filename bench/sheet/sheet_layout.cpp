@@ -179,16 +179,17 @@ class Layouter {
         y_ = bottom;
     }
 
-    /// `label  least ▭ most` about the middle of the columns; the parts can always be fitted in.
+    /// `label  least ▭ most` about the middle of the columns. Of the room, a third is the label's at most, a fifth each
+    /// number's, a tenth all spaces': a sixth is left for the bar.
     void placeScale(const SheetScale& scale) {
-        const int room = right() - gridX_, space = share(0.4);
-        std::vector<FittedText> parts{fitText(scale.label, 2 * room / 5, font()),
-                                      fitText(fmt::format("{:.4g}", scale.least), room / 8, font()),
-                                      fitText(fmt::format("{:.4g}", scale.most), room / 8, font())};
+        const int room = right() - gridX_, space = std::min(share(0.4), room / 40);
+        std::vector<FittedText> parts{fitText(scale.label, room / 3, font()),
+                                      fitText(fmt::format("{:.4g}", scale.least), room / 5, font()),
+                                      fitText(fmt::format("{:.4g}", scale.most), room / 5, font())};
         int textWidth = 2 * space;
         for (const FittedText& part : parts) textWidth += part.width();
         if (!parts[0].lines.empty()) textWidth += 2 * space;
-        const int barWidth = std::max(1, std::min(style_.tileWidthPixels, room - textWidth));
+        const int barWidth = std::min(style_.tileWidthPixels, room - textWidth);
         const int height = std::max(tallestOf(parts), share(1)), barHeight = share(0.8);
 
         y_ += share(0.6);
