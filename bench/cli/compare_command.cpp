@@ -58,8 +58,10 @@ int compare(const CompareOptions& options) {
     base.frames = options.frames;
     base.judging.emplace();
     if (!options.moments.empty()) base.judging->moments = bench::parseFrameRange("--moments", options.moments);
-    const bench::Suite suite = bench::compareMethods(options.methods, singleValues(options.world.parameters), base,
-                                                     static_cast<int>(options.repetitions));
+    bench::Suite suite = bench::compareMethods(options.methods, singleValues(options.world.parameters), base,
+                                               static_cast<int>(options.repetitions));
+    suite.title +=
+        fmt::format(": {}{}, {} frames", base.scene, base.drive.empty() ? "" : ", " + base.drive, base.frames);
     const auto plan = bench::planRuns(suite);
     checkWorlds(plan);
     bench::ResultsFolder results(options.out);

@@ -1,0 +1,66 @@
+// `compare` as a user calls it.
+#include <gmock/gmock.h>
+
+#include "bench/cli/called_program.h"
+#include "methods/shared/draw/image.h"
+#include "methods/shared/files/csv.h"
+
+namespace dustbench::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CompareCommand : public Dustbench {
+ protected:
+    void SetUp() override {
+        Dustbench::SetUp();
+        if (std::ranges::none_of(methods(), [](const MethodInfo& info) { return info.id == "billboard"; }))
+            GTEST_SKIP() << "no billboards here";
+    }
+    [[nodiscard]] Called compare(const std::string& more) const {
+        return call(fmt::format("compare --out '{}' {}", out(), more));
+    }
+};
+
+TEST_F(CompareCommand, WritesMetricsSummaryAndContactSheetAndGoesOnWhereItWas) {
+    const std::string both =
+        "billboard billboard:soft=true --size 96x72 --frames 6 --warmup 1 --repetitions 2 -P preroll=0.3 "
+        "-P particles=200";
+    const Called first = compare(both);
+    ASSERT_EQ(first.code, 0) << first.err;
+    EXPECT_THAT(first.out, AllOf(HasSubstr("psnr_db"), HasSubstr("billboard soft=on"), HasSubstr("UNRESOLVED")));
+    const auto summary = files::CsvTable::parseFile(fs::path(out()) / "summary.csv");
+    ASSERT_EQ(summary.rows(), 4u);
+    for (std::size_t row = 0; row < 4; ++row)
+        EXPECT_EQ(summary.cell(row, "flip").empty(), summary.cell(row, "repetition") != "1");
+    const draw::Image sheet = draw::readImage(fs::path(out()) / "contact_sheet.png");
+    EXPECT_GT(sheet.width, 5 * 400);
+    EXPECT_GT(sheet.height, 5 * 300);
+
+    const Called again = compare(both);
+    EXPECT_EQ(again.code, 0);
+    EXPECT_THAT(again.err, HasSubstr("4 were there"));
+    EXPECT_EQ(again.out, first.out);
+}
+
+TEST_F(CompareCommand, RefusesInOneLine) {
+    const auto refused = [&](const std::string& more) {
+        const Called called = compare(more);
+        EXPECT_EQ(called.code, 3) << more;
+        EXPECT_EQ(std::ranges::count(called.err, '\n'), 1) << called.err;
+        EXPECT_FALSE(fs::exists(out())) << more;
+        return called.err;
+    };
+    EXPECT_THAT(refused(""), HasSubstr("methods"));
+    EXPECT_THAT(refused("billboard"), HasSubstr("2 or more"));
+    EXPECT_THAT(refused("billboard billbord"), HasSubstr("did you mean"));
+    EXPECT_THAT(refused("billboard a/b"), HasSubstr("a/b"));
+    EXPECT_THAT(refused("billboard billboard:soft=true --moments 0:4"), HasSubstr("got 4 moments"));
+    EXPECT_THAT(refused("billboard billboard:soft=true --moments 0:200:2"), HasSubstr("beyond the run's end"));
+    EXPECT_THAT(refused("billboard billboard:soft=true -P particles=1,2"), HasSubstr("got 2 values"));
+    EXPECT_THAT(refused("billboard billboard:soft=true --drive nowhere"), HasSubstr("nowhere"));
+}
+
+}  // namespace
+}  // namespace dustbench::cli

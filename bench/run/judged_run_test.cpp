@@ -1,0 +1,110 @@
+// The flaws of whole runs, as small as they can be told apart.
+#include "bench/run/judged_run.h"
+
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "bench/run/suite.h"
+#include "bench/scene/test_folder.h"
+#include "methods/shared/files/csv.h"
+#include "methods/shared/registry.h"
+
+namespace dustbench::bench {
+namespace {
+
+class JudgedRun : public testing::Test {
+ protected:
+    /// The summary of a judged run of so many frames.
+    std::map<std::string, double> judged(const std::string& method, const ParameterTexts& parameters,
+                                         std::int64_t frames = 31, const std::string& drive = "straight") {
+        RunSpec spec;
+        spec.method = method;
+        spec.drive = drive;
+        spec.size = {240, 180};
+        spec.frames = frames;
+        spec.warmup = 2;
+        spec.parameters = canonicalParameters(findMethod(method), parameters);
+        spec.judging.emplace();
+        std::map<std::string, double> numbers;
+        const RunRecord record =
+            measureRun(spec, folder_.path(), {}, [](std::string_view, std::int64_t, std::int64_t) {});
+        for (const auto& [name, value] : record.summary) {
+            if (const auto* number = std::get_if<double>(&value)) numbers[name] = *number;
+            if (const auto* number = std::get_if<std::int64_t>(&value)) numbers[name] = static_cast<double>(*number);
+        }
+        return numbers;
+    }
+    [[nodiscard]] static bool hasMethod(std::string_view id) {
+        return std::ranges::any_of(methods(), [id](const MethodInfo& info) { return info.id == id; });
+    }
+
+    TestFolder folder_;
+};
+
+TEST_F(JudgedRun, SoftBillboardsAreTheExactPictureAndHardOnesAreCutOff) {
+    if (!hasMethod("billboard")) GTEST_SKIP() << "no billboards here";
+    auto soft = judged("billboard", {{"soft", "on"}, {"particles", "1000"}});
+    auto hard = judged("billboard", {{"soft", "off"}, {"particles", "1000"}});
+    EXPECT_GT(soft.at("psnr_db"), 60);
+    EXPECT_LT(soft.at("popping"), 0.001);
+    EXPECT_LT(hard.at("psnr_db"), soft.at("psnr_db") - 10);
+    EXPECT_GT(hard.at("cutoff"), 5 * soft.at("cutoff"));
+    EXPECT_EQ(soft.at("volume_error"), 0);
+    EXPECT_GT(soft.at("quads_per_pixel"), 0);
+}
+
+TEST_F(JudgedRun, GapsOfBillboardsRiseWithSpeed) {
+    if (!hasMethod("billboard")) GTEST_SKIP() << "no billboards here";
+    std::vector<double> gaps;
+    for (const char* speed : {"5", "15", "40"})
+        gaps.push_back(judged("billboard", {{"speed", speed}, {"particles", "600"}, {"soft", "on"}}, 5).at("gaps"));
+    EXPECT_LT(gaps[0], gaps[1]);
+    EXPECT_LT(gaps[1], gaps[2]);
+}
+
+TEST_F(JudgedRun, VoxelsPopAndCrossFadingPopsLess) {
+    if (!hasMethod("octree_search") || !hasMethod("billboard")) GTEST_SKIP() << "no octree here";
+    const ParameterTexts world{{"particles", "1000"}};
+    const auto with = [&](const char* name, const char* value) {
+        ParameterTexts texts = world;
+        texts[name] = value;
+        return texts;
+    };
+    const double soft = judged("billboard", with("soft", "on")).at("popping");
+    const double plain = judged("octree_search", with("crossfade", "off")).at("popping");
+    const double faded = judged("octree_search", with("crossfade", "on")).at("popping");
+    EXPECT_LT(faded, plain);
+    EXPECT_LT(soft, 0.1 * faded);
+}
+
+TEST_F(JudgedRun, LeavesARowAndThePicturesOfEachJudgedFrame) {
+    const std::string method = methods().front().id;
+    const auto numbers = judged(method, {{"particles", "100"}}, 33);
+    const auto table = files::CsvTable::parseFile(folder_.path() / "metrics.csv");
+    ASSERT_EQ(table.rows(), 32u);  // moments 0, 8, 16, 24, 32, and the last 31: 2 to 32
+    EXPECT_EQ(table.cell(0, "frame"), "0");
+    EXPECT_EQ(table.cell(1, "frame"), "2");
+    double sum = 0;
+    for (std::size_t row = 0; row < table.rows(); ++row)
+        if (!table.cell(row, "rmse_linear").empty()) sum += table.number(row, "rmse_linear");
+    EXPECT_NEAR(numbers.at("rmse_linear"), sum / 5, 1e-12);
+    for (const char* frame : {"f000000", "f000008", "f000032"})
+        for (const char* file : {".png", ".exr", "_reference.png", "_reference.exr", "_difference.png"})
+            EXPECT_TRUE(std::filesystem::exists(folder_.path() / "images" / (std::string(frame) + file)))
+                << frame << file;
+}
+
+TEST_F(JudgedRun, HasNoPoppingInAShortRunAndNoMetricsWithoutDust) {
+    const std::string method = methods().front().id;
+    EXPECT_FALSE(judged(method, {{"particles", "100"}}, 30).contains("popping"));
+    const auto empty = judged(method, {{"preroll", "0"}}, 31, "stop_and_go");  // it stands at first
+    for (const char* name :
+         {"popping", "gaps", "components", "cutoff", "self_similarity", "quads_per_pixel", "psnr_db"})
+        EXPECT_FALSE(empty.contains(name)) << name;
+    EXPECT_EQ(empty.at("identical"), 1);
+    EXPECT_EQ(empty.at("ssim"), 1);
+}
+
+}  // namespace
+}  // namespace dustbench::bench
