@@ -65,14 +65,25 @@ std::vector<std::pair<std::string, double>> summaryOf(const Judgement& judgement
     return cells;
 }
 
-const std::vector<std::string>& metricColumns() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> list;
-        for (const auto& [name, metric] : metrics) list.emplace_back(name);
-        for (const char* name : {"identical", "popping", "popping_max"}) list.emplace_back(name);
-        return list;
-    }();
-    return names;
+std::span<const MetricInfo> metricInfos() {
+    static constexpr std::array<MetricInfo, 15> infos{{
+        {"psnr_db", "peak signal-to-noise ratio against the exact picture, dB"},
+        {"ssim", "structural similarity to the exact picture, 1: the same"},
+        {"flip", "difference from the exact picture that an eye sees when the two alternate, 0: none"},
+        {"rmse_linear", "root of the mean squared difference of linear light"},
+        {"psnr_continuum_db", "psnr_db against 64 times as many particles, dB"},
+        {"gaps", "share of the trail that is not covered"},
+        {"components", "parts into which the trail falls"},
+        {"components_reference", "parts into which the exact trail falls"},
+        {"cutoff", "edges where dust meets ground and solids that are not there in truth, alpha per pixel"},
+        {"self_similarity", "how much all primitives look alike, 0: not at all"},
+        {"quads_per_pixel", "primitives by pixels of dust"},
+        {"volume_error", "distance of the volume from the particles' own, 0: none"},
+        {"identical", "1: every judged picture is the exact one"},
+        {"popping", "what jumps from frame to frame and should not: mean over the last frames"},
+        {"popping_max", "the largest of these jumps"},
+    }};
+    return infos;
 }
 
 }  // namespace dustbench::bench

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,7 +25,11 @@ struct Judgement {
 /// are. A metric that is defined at none is left out.
 [[nodiscard]] std::vector<std::pair<std::string, double>> summaryOf(const Judgement& judgement);
 
-/// Names of the metrics, as columns, in order.
-[[nodiscard]] const std::vector<std::string>& metricColumns();
+struct MetricInfo {
+    std::string_view column;  ///< of summary.csv
+    std::string_view title;   ///< a line
+};
+/// All metrics in order. reports/METRICS.md defines them.
+[[nodiscard]] std::span<const MetricInfo> metricInfos();
 
 }  // namespace dustbench::bench

@@ -28,6 +28,13 @@ std::vector<std::int64_t> JudgingPlan::stretchOf(std::int64_t frames) {
     return list;
 }
 
+std::string JudgingPlan::referenceText() const {
+    if (finer.empty()) return "exact";
+    std::string text;
+    for (const auto& [name, value] : finer) text += (text.empty() ? "" : " ") + name + "=" + value;
+    return text;
+}
+
 void requireMomentsWithinRun(const JudgingPlan& plan, std::int64_t frames) {
     if (!plan.moments) return;
     if (plan.moments->count() < fewestMoments)

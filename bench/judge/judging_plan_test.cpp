@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "bench/judge/judgement.h"
 #include "bench/scene/test_folder.h"
 
@@ -22,11 +25,14 @@ TEST(JudgingPlan, TakesFiveMomentsFromTheFirstFrameToTheLast) {
 }
 
 TEST(JudgingPlan, TakesTheMomentsThatAreNamed) {
-    const JudgingPlan plan{FrameRange{2, 14, 3}};
+    const JudgingPlan plan{FrameRange{2, 14, 3}, {}};
     EXPECT_THAT(plan.momentsOf(120), ElementsAre(2, 5, 8, 11, 14));
     EXPECT_NO_THROW(requireMomentsWithinRun(plan, 15));
     EXPECT_THAT(inputError([&] { requireMomentsWithinRun(plan, 14); }), HasSubstr("frame 14 is beyond"));
-    EXPECT_THAT(inputError([] { requireMomentsWithinRun({FrameRange{0, 3, 1}}, 100); }), HasSubstr("got 4 moments"));
+    EXPECT_THAT(inputError([] {
+                    requireMomentsWithinRun({FrameRange{0, 3, 1}, {}}, 100);
+                }),
+                HasSubstr("got 4 moments"));
 }
 
 TEST(JudgingPlan, PoppingIsSeenOverTheLastFramesOrNotAtAll) {
@@ -50,6 +56,13 @@ TEST(Judgement, AveragesOverTheMomentsAtWhichAMetricIsDefined) {
                 ElementsAre(Pair("psnr_db", 35), Pair("flip", 0), Pair("identical", 0), Pair("popping_max", 0.5)));
     judgement.frames.erase(judgement.frames.begin(), judgement.frames.begin() + 2);
     EXPECT_THAT(summaryOf(judgement), testing::Contains(Pair("identical", 1)));
+}
+
+TEST(Judgement, EveryMetricIsDefinedInTheDocument) {
+    std::ifstream file(std::string(DUSTBENCH_SOURCE_DIR) + "/reports/METRICS.md");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (const MetricInfo& metric : metricInfos())
+        EXPECT_THAT(text, HasSubstr("`" + std::string(metric.column) + "`")) << metric.column;
 }
 
 TEST(Judgement, LeavesCellsEmptyWhereNothingIsDefined) {

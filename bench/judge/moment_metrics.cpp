@@ -14,11 +14,9 @@
 namespace dustbench::bench {
 namespace {
 
-/// On the default export grid of the particles.
-std::optional<double> volumeErrorOf(const CollectedVolume& volume, const particles::ParticleStore& dust) {
-    if (volume.isNothing()) return std::nullopt;
-    CollectedVolume exact;
-    exact.puffs(dust);
+/// On the reference's default export grid.
+std::optional<double> volumeErrorOf(const CollectedVolume& volume, const CollectedVolume& exact) {
+    if (volume.isNothing() || exact.isNothing()) return std::nullopt;
     const GridPlan plan = planGrid(exact.bounds(), VolumeSettings().resolution);
     const ExtinctionGrid reference = computeGrid(exact, plan), grid = computeGrid(volume, plan);
     return volumeError({plan.cells, reference.extinctionPerMetre}, {plan.cells, grid.extinctionPerMetre}).value;
@@ -68,7 +66,7 @@ JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, con
     metrics.selfSimilarity =
         selfSimilarity(alpha, exactAlpha, primitivesOnScreen(facts.volume, facts.view), facts.seed).value;
     metrics.quadsPerPixel = quadsPerPixel(facts.primitives, exactAlpha);
-    metrics.volumeError = volumeErrorOf(facts.volume, facts.dust);
+    metrics.volumeError = volumeErrorOf(facts.volume, facts.referenceVolume);
     return judged;
 }
 

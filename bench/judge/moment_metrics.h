@@ -25,7 +25,7 @@ struct MomentMetrics {
 struct MomentFacts {
     std::int64_t primitives = 0;  ///< that the method handed to the GPU
     const CollectedVolume& volume;
-    const particles::ParticleStore& dust;
+    const CollectedVolume& referenceVolume;
     const scene::View& view;
     std::uint64_t seed = 1;
 };

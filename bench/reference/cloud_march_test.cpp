@@ -16,15 +16,6 @@ namespace {
 
 using particles::ParticleStore;
 
-scene::View viewFrom(glm::dvec3 eye, glm::dvec3 target, int width = 41, int height = 31) {
-    scene::View view;
-    view.width = width;
-    view.height = height;
-    view.camera.eye = eye;
-    view.camera.target = target;
-    return view;
-}
-
 /// Puffs of random colours.
 ParticleStore colouredBall(MemoryLedger& ledger, std::uint64_t seed, float densest = 0.5f) {
     ParticleStore store = test::ball(ledger, seed, 60, {0, 0.5f, 0}, 3, densest);
@@ -57,7 +48,7 @@ TEST(CloudMarch, HasTheOpacityOfTheClosedFormWhateverTheSlabs) {
     MemoryLedger ledger;
     ParticleStore store = colouredBall(ledger, 2);
     for (const glm::dvec3 eye : {glm::dvec3(1, 2, 10), glm::dvec3(0.3, 0.5, 0.2)}) {
-        const scene::View view = viewFrom(eye, {0, 0, -1});
+        const scene::View view = test::viewFrom(eye, {0, 0, -1}, 41, 31);
         const OpaqueDistances ground = test::groundDistances(view, 0);
         const auto plain = test::plainDepths(store, view, ground);
         for (const double slab : {0.05, 0.31, 100.0}) {
@@ -70,7 +61,7 @@ TEST(CloudMarch, HasTheOpacityOfTheClosedFormWhateverTheSlabs) {
 
 TEST(CloudMarch, IsExactForOneColour) {
     MemoryLedger ledger;
-    const scene::View view = viewFrom({1, 2, 10}, {0, 0, 0});
+    const scene::View view = test::viewFrom({1, 2, 10}, {0, 0, 0}, 41, 31);
     const OpaqueDistances ground = test::groundDistances(view, 0);
     ParticleStore store = test::ball(ledger, 2, 60, {0, 0.5f, 0}, 3, 0.5f);
     const CloudImage one = renderParticles(store, view, ground);
@@ -89,7 +80,7 @@ TEST(CloudMarch, PuffsApartAreDrawnOneOverTheOther) {
     store.keepOneColour(false);
     store.red[0] = 1, store.green[0] = 0, store.blue[0] = 0.5f;
     store.red[1] = 0, store.green[1] = 1, store.blue[1] = 0.5f;
-    const scene::View view = viewFrom({0, 0, 10}, {0, 0, 0});
+    const scene::View view = test::viewFrom({0, 0, 10}, {0, 0, 0}, 41, 31);
     const glm::vec4 middle = renderParticles(store, view, skyDistances(view)).image.at(20, 15);
     EXPECT_NEAR(middle.r, 0.6 * 0.7, 1e-6);
     EXPECT_NEAR(middle.g, 0.4, 1e-6);
@@ -101,7 +92,7 @@ TEST(CloudMarch, ConvergesAtOrderTwoAndStaysWithinItsBound) {
     MemoryLedger ledger;
     const ParticleStore store = colouredBall(ledger, 4);
     for (const glm::dvec3 eye : {glm::dvec3(1, 2, 10), glm::dvec3(0.3, 0.5, 0.2)}) {
-        const scene::View view = viewFrom(eye, {0, 0, -1});
+        const scene::View view = test::viewFrom(eye, {0, 0, -1}, 41, 31);
         const OpaqueDistances ground = test::groundDistances(view, 0);
         const CloudImage finest = marched(store, view, ground, 0.00625);
         double before = 0;
@@ -123,7 +114,7 @@ TEST(CloudMarch, ConvergesAtOrderTwoAndStaysWithinItsBound) {
 TEST(CloudMarch, EqualsABruteForceMarchOfColours) {
     MemoryLedger ledger;
     const ParticleStore store = colouredBall(ledger, 5);
-    const scene::View view = viewFrom({1, 2, 9}, {0, 0, -1}, 15, 11);
+    const scene::View view = test::viewFrom({1, 2, 9}, {0, 0, -1}, 15, 11);
     const OpaqueDistances ground = test::groundDistances(view, 0);
     const CloudImage cloud = marched(store, view, ground, 0.02);
     const CameraRays rays(view);
@@ -183,7 +174,7 @@ TEST(LitParticles, EqualTheClosedFormsWithTheSunAlongTheRay) {
     ParticleStore store(ledger);
     test::add(store, {0, 0, 0.3f}, 1.2f, 0.6f);
     test::add(store, {0.2f, 0.1f, -1}, 0.9f, 0.5f);
-    const scene::View view = viewFrom({0, 0, 12}, {0, 0, 0});
+    const scene::View view = test::viewFrom({0, 0, 12}, {0, 0, 0}, 41, 31);
     SunLight light{.toSun = {0, 0, 1}, .sun = {1, 0.9, 0.8}, .ambient = glm::dvec3(0), .albedo = glm::dvec3(0.8)};
     ReferenceOptions options;
     options.slabMetres = 0.01;
@@ -207,7 +198,7 @@ TEST(LitParticles, ConvergeAtOrderTwoAndToWhatIsPromised) {
     MemoryLedger ledger;
     ParticleStore store = test::ball(ledger, 7, 60, {0, 0.8f, 0}, 3, 0.5f);
     for (std::size_t i = 0; i < store.size(); ++i) store.radius[i] = std::max(store.radius[i], 0.5f);
-    const scene::View view = viewFrom({1, 2, 10}, {0, 0.5, 0});
+    const scene::View view = test::viewFrom({1, 2, 10}, {0, 0.5, 0}, 41, 31);
     const OpaqueDistances ground = test::groundDistances(view, 0);
     const SunLight light{.toSun = {-0.93, 0.26, -0.25}, .sun = {4, 3.7, 3.2}};
     const auto render = [&](double slab) {
@@ -228,7 +219,7 @@ TEST(LitParticles, AreDarkerAwayFromTheSunAndSameAtAnyNumberOfThreads) {
     const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
     MemoryLedger ledger;
     const ParticleStore store = test::ball(ledger, 7, 80, {0, 0, 0}, 2, 0.7f);
-    const scene::View view = viewFrom({0, 0, 12}, {0, 0, 0});
+    const scene::View view = test::viewFrom({0, 0, 12}, {0, 0, 0}, 41, 31);
     const SunLight light{.toSun = {0, 1, 0}};
     const auto render = [&] { return renderLitParticles(store, view, skyDistances(view), light); };
     const CloudImage cloud = tbb::task_arena(1).execute(render);
@@ -245,7 +236,8 @@ TEST(LitParticles, AreDarkerAwayFromTheSunAndSameAtAnyNumberOfThreads) {
 TEST(CloudMarch, RefusesWhatDoesNotFit) {
     MemoryLedger ledger;
     ParticleStore store = colouredBall(ledger, 1);
-    const scene::View view = viewFrom({1, 2, 10}, {0, 0, 0}), other = viewFrom({1, 2, 10}, {0, 0, 0}, 40, 31);
+    const scene::View view = test::viewFrom({1, 2, 10}, {0, 0, 0}, 41, 31),
+                      other = test::viewFrom({1, 2, 10}, {0, 0, 0}, 40, 31);
     EXPECT_THROW(std::ignore = renderParticles(store, view, skyDistances(other)), std::invalid_argument);
     EXPECT_THROW(std::ignore = renderLitParticles(store, view, skyDistances(view), {.toSun = {0, 0, 0}}),
                  std::invalid_argument);
@@ -262,7 +254,7 @@ TEST(CloudMarch, RefusesWhatDoesNotFit) {
 
 TEST(CloudMarch, IsTransparentWithoutParticles) {
     MemoryLedger ledger;
-    const scene::View view = viewFrom({1, 2, 10}, {0, 0, 0});
+    const scene::View view = test::viewFrom({1, 2, 10}, {0, 0, 0}, 41, 31);
     const ParticleStore none(ledger);
     for (const CloudImage& cloud :
          {marchParticles(none, view, skyDistances(view)), renderLitParticles(none, view, skyDistances(view), {})})

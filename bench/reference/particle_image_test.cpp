@@ -23,30 +23,21 @@ struct Case {
     OpaqueDistances distances;
 };
 
-scene::View viewFrom(glm::dvec3 eye, glm::dvec3 target, int width = 26, int height = 19) {
-    scene::View view;
-    view.width = width;
-    view.height = height;
-    view.camera.eye = eye;
-    view.camera.target = target;
-    return view;
-}
-
 /// Five random scenes: sky alone; camera in the middle of the cloud; puffs half in the ground; both, looking down;
 /// thick puffs all round a camera that stands among walls of its own.
 std::vector<Case> fiveScenes(MemoryLedger& ledger) {
     std::vector<Case> cases;
-    const auto far = viewFrom({2, 3, 14}, {0, 1, 0});
+    const auto far = test::viewFrom({2, 3, 14}, {0, 1, 0});
     cases.push_back({"sky", far, test::ball(ledger, 1, 40, {0, 1, 0}, 4, 0.5f), skyDistances(far)});
-    const auto within = viewFrom({0.2, 1.1, -0.3}, {5, 1, 3});
+    const auto within = test::viewFrom({0.2, 1.1, -0.3}, {5, 1, 3});
     cases.push_back({"within", within, test::ball(ledger, 2, 40, {0, 1, 0}, 3, 0.8f), skyDistances(within)});
-    const auto low = viewFrom({-9, 1.5, 6}, {0, 0.2, 0});
+    const auto low = test::viewFrom({-9, 1.5, 6}, {0, 0.2, 0});
     cases.push_back(
         {"half in the ground", low, test::ball(ledger, 3, 40, {0, 0, 0}, 4, 0.6f), test::groundDistances(low, 0)});
-    const auto down = viewFrom({0, 1.2, 0}, {0.3, 0, -0.2});
+    const auto down = test::viewFrom({0, 1.2, 0}, {0.3, 0, -0.2});
     cases.push_back({"within, over the ground", down, test::ball(ledger, 4, 60, {0, 0.2f, 0}, 2, 0.95f),
                      test::groundDistances(down, 0)});
-    const auto walled = viewFrom({0, 0, 0}, {-1, 0.2, 0.4});
+    const auto walled = test::viewFrom({0, 0, 0}, {-1, 0.2, 0.4});
     Case last{"walls", walled, test::ball(ledger, 5, 30, {0, 0, 0}, 8, 0.999f), skyDistances(walled)};
     for (std::size_t i = 0; i < last.distances.metres.size(); ++i)
         last.distances.metres[i] = 9 * static_cast<double>(maths::uniform4(6, 1, i)[0]);
@@ -109,7 +100,7 @@ TEST(ParticleImage, IsTheSameBitForBitAtAnyNumberOfThreads) {
     const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
     MemoryLedger ledger;
     const ParticleStore store = test::trail(ledger, 3000, 40);
-    const scene::View view = viewFrom({6.8, 2.5, 9.4}, {-4.2, 1.2, 0}, 163, 121);
+    const scene::View view = test::viewFrom({6.8, 2.5, 9.4}, {-4.2, 1.2, 0}, 163, 121);
     const OpaqueDistances ground = test::groundDistances(view, 0);
     const CloudImage expected = tbb::task_arena(1).execute([&] { return renderParticles(store, view, ground); });
     EXPECT_GT(largest(expected.opticalDepths), 0.5);
@@ -127,7 +118,7 @@ TEST(ParticleImage, HoldsThePuffsMass) {
     ParticleStore store(ledger);
     test::add(store, {0, 0, 0}, 1, 0.3f);
     constexpr double distance = 25;
-    const scene::View view = viewFrom({0, 0, distance}, {1.1, -0.4, 0}, 200, 150);
+    const scene::View view = test::viewFrom({0, 0, distance}, {1.1, -0.4, 0}, 200, 150);
     const CameraRays rays(view);
     const CloudImage cloud = renderParticles(store, view, skyDistances(view));
     double sum = 0;
@@ -146,13 +137,13 @@ TEST(ParticleImage, SeesHalfOfAPuffFromItsCentreAndNothingOfOneBehind) {
     MemoryLedger ledger;
     ParticleStore store(ledger);
     test::add(store, {0, 0, 0}, 2, 0.5f);
-    const scene::View from = viewFrom({0, 0, 0}, {0, 0, -1});
+    const scene::View from = test::viewFrom({0, 0, 0}, {0, 0, -1});
     for (const double depth : renderParticles(store, from, skyDistances(from)).opticalDepths)
         EXPECT_NEAR(depth, std::log(2) / 2, 1e-9);
-    const scene::View away = viewFrom({0, 0, -8}, {0, 0, -9});
+    const scene::View away = test::viewFrom({0, 0, -8}, {0, 0, -9});
     for (const double depth : renderParticles(store, away, skyDistances(away)).opticalDepths) EXPECT_LT(depth, 1e-9);
     // At one s before the eye and looking away: ½·erfc(1/√2) in the middle.
-    const scene::View near = viewFrom({0, 0, -1}, {0, 0, -9}, 45, 35);
+    const scene::View near = test::viewFrom({0, 0, -1}, {0, 0, -9}, 45, 35);
     EXPECT_NEAR(renderParticles(store, near, skyDistances(near)).opticalDepths[17 * 45 + 22],
                 std::log(2) * std::erfc(std::numbers::sqrt2 / 2) / 2, 1e-8);
 }
@@ -160,7 +151,7 @@ TEST(ParticleImage, SeesHalfOfAPuffFromItsCentreAndNothingOfOneBehind) {
 TEST(ParticleImage, EndsAtTheSceneUnlessItIsIgnored) {
     MemoryLedger ledger;
     const ParticleStore store = test::ball(ledger, 9, 60, {0, 0, 0}, 3, 0.4f);
-    const scene::View view = viewFrom({0, 1, 12}, {0, 0, 0});
+    const scene::View view = test::viewFrom({0, 1, 12}, {0, 0, 0});
     OpaqueDistances distances = skyDistances(view);
     const CloudImage free = renderParticles(store, view, distances);
     std::fill(distances.metres.begin(), distances.metres.end(), 0.0);
@@ -172,7 +163,7 @@ TEST(ParticleImage, EndsAtTheSceneUnlessItIsIgnored) {
 
 TEST(ParticleImage, IsTransparentWithoutParticles) {
     MemoryLedger ledger;
-    const scene::View view = viewFrom({0, 1, 12}, {0, 0, 0});
+    const scene::View view = test::viewFrom({0, 1, 12}, {0, 0, 0});
     const CloudImage cloud = renderParticles(ParticleStore(ledger), view, skyDistances(view));
     ASSERT_EQ(cloud.image.pixels.size(), 26u * 19);
     for (const glm::vec4& pixel : cloud.image.pixels) EXPECT_EQ(pixel, glm::vec4(0));
@@ -184,7 +175,7 @@ TEST(ParticleImage, TakesAnyWidthAndPuffsSmallerThanAPixel) {
     ParticleStore store = test::ball(ledger, 8, 50, {0, 0, 0}, 3, 0.4f);
     for (std::size_t i = 0; i < store.size(); i += 2) store.radius[i] = 1e-6f;
     for (const int width : {1, 7, 8, 9, 65}) {
-        const scene::View view = viewFrom({0, 1, 12}, {0, 0, 0}, width, 5);
+        const scene::View view = test::viewFrom({0, 1, 12}, {0, 0, 0}, width, 5);
         const auto depths = renderParticles(store, view, skyDistances(view)).opticalDepths;
         const auto plain = test::plainDepths(store, view, skyDistances(view));
         for (std::size_t i = 0; i < plain.size(); ++i) ASSERT_NEAR(depths[i], plain[i], 1e-6) << width;
@@ -194,7 +185,8 @@ TEST(ParticleImage, TakesAnyWidthAndPuffsSmallerThanAPixel) {
 TEST(ParticleImage, RefusesWhatDoesNotFit) {
     MemoryLedger ledger;
     ParticleStore store = test::ball(ledger, 9, 10, {0, 0, 0}, 3, 0.4f);
-    const scene::View view = viewFrom({0, 1, 12}, {0, 0, 0}), other = viewFrom({0, 1, 12}, {0, 0, 0}, 27, 19);
+    const scene::View view = test::viewFrom({0, 1, 12}, {0, 0, 0}),
+                      other = test::viewFrom({0, 1, 12}, {0, 0, 0}, 27, 19);
     const auto render = [&](const OpaqueDistances& distances, const ReferenceOptions& options = {}) {
         std::ignore = renderParticles(store, view, distances, options);
     };

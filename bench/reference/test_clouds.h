@@ -17,6 +17,15 @@
 
 namespace dustbench::bench::test {
 
+inline scene::View viewFrom(glm::dvec3 eye, glm::dvec3 target, int width = 26, int height = 19) {
+    scene::View view;
+    view.width = width;
+    view.height = height;
+    view.camera.eye = eye;
+    view.camera.target = target;
+    return view;
+}
+
 inline void add(particles::ParticleStore& store, const glm::vec3& position, float radius, float opacity) {
     const std::size_t i = store.size();
     store.resize(i + 1);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/judge/judgement.h"
 #include "bench/run/run_record.h"
 #include "bench/run/suite.h"
 #include "bench/scene/data_list.h"
@@ -14,7 +15,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// What this build measures, by column of summary.csv; reports/SCHEMA.md has the definitions.
+/// What this build measures, by column of summary.csv; reports/SCHEMA.md and METRICS.md have the definitions.
 std::vector<CatalogueItem> listMetrics() {
     std::vector<CatalogueItem> items;
     const auto add = [&items](const std::string& id, const std::string& title) {
@@ -35,6 +36,7 @@ std::vector<CatalogueItem> listMetrics() {
     add("rss_peak_bytes", "largest resident set of the run's process, bytes");
     add("particles_median", "median number of dust particles");
     add("primitives_median", "median number of primitives that the method drew");
+    for (const MetricInfo& metric : metricInfos()) add(std::string(metric.column), std::string(metric.title));
     add("state_hash", "hash of vehicle and dust after the last frame (run.json)");
     add("method_hash", "hash of the method's own simulation after the last frame (run.json)");
     return items;

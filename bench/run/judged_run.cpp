@@ -17,6 +17,40 @@ bool isAmong(const std::vector<std::int64_t>& frames, std::int64_t frame) {
     return std::ranges::binary_search(frames, frame);
 }
 
+ResolvedParameters resolvedWith(const RunSpec& spec, const ParameterTexts& finer) {
+    ParameterTexts all = spec.parameters;
+    for (const auto& [name, value] : finer) all[name] = value;
+    return resolveParameters(findMethod(spec.method), all);
+}
+
+/// The same method at a finer setting, in a world of its own that goes along step by step.
+class FinerRun {
+ public:
+    FinerRun(const RunSpec& spec, gpu::Device& device)
+        : parameters_(resolvedWith(spec, spec.judging->finer)),
+          world_(spec.scene, spec.drive, parameters_.world, spec.seed),
+          runner_(spec, world_, device, findMethod(spec.method).create(parameters_.method), false) {}
+
+    void step(std::int64_t step, std::int64_t prerollSteps, std::int64_t warmup) {
+        const std::int64_t index = step - prerollSteps - warmup;
+        step + 1 < prerollSteps ? runner_.stepWithoutPicture(index) : runner_.updateOnly(index);
+    }
+    [[nodiscard]] ExactMoment moment(bool withDetail) {
+        DrawnMoment drawn = runner_.drawn(withDetail);
+        ExactMoment exact;
+        if (withDetail) exact.continuum = drawn.layer;
+        exact.layer = std::move(drawn.layer);
+        exact.layerWithoutScene = std::move(drawn.layerWithoutScene);
+        return exact;
+    }
+    void volume(VolumeVisitor& visitor) const { runner_.volume(visitor); }
+
+ private:
+    ResolvedParameters parameters_;
+    World world_;
+    FrameRunner runner_;
+};
+
 void savePictures(const JudgedMoment& judged, const fs::path& folder) {
     const auto file = [&](const char* what, const char* extension) {
         return folder / fmt::format("f{:06}{}.{}", judged.metrics.frame, what, extension);
@@ -30,12 +64,23 @@ void savePictures(const JudgedMoment& judged, const fs::path& folder) {
 
 }  // namespace
 
+std::string whyNotJudged(const JudgingPlan& plan, const Method& method) {
+    if (!method.stateHash() || !plan.finer.empty()) return {};
+    return "no metrics: the method has a simulation of its own, and no finer setting is named to judge it against "
+           "([metric_reference.ID] in a suite)";
+}
+
 Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& device, const std::string& stateHash,
                    const RunProgress& progress) {
     const MethodInfo& info = findMethod(spec.method);
     const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
     World world(spec.scene, spec.drive, parameters.world, spec.seed);
-    World continuum(spec.scene, spec.drive, parameters.world, spec.seed, continuumParticles);
+    std::optional<World> continuum;
+    std::optional<FinerRun> finer;
+    if (spec.judging->finer.empty())
+        continuum.emplace(spec.scene, spec.drive, parameters.world, spec.seed, continuumParticles);
+    else
+        finer.emplace(spec, device);
     FrameRunner runner(spec, world, device, info.create(parameters.method), false);
     const std::vector<std::int64_t> moments = spec.judging->momentsOf(spec.frames);
     const std::vector<std::int64_t> stretch = JudgingPlan::stretchOf(spec.frames);
@@ -49,13 +94,15 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         const scene::View view = world.view(spec.size.width, spec.size.height);
         const DrawnMoment drawn = runner.drawn(isMoment);
         const ExactMoment exact =
-            exactMoment(view, drawn, world.dust(), isMoment, isMoment ? &continuum.dust() : nullptr);
+            finer ? finer->moment(isMoment)
+                  : exactMoment(view, drawn, world.dust(), isMoment, isMoment ? &continuum->dust() : nullptr);
         MomentMetrics metrics;
         if (isMoment) {
-            CollectedVolume volume;
+            CollectedVolume volume, reference;
             runner.volume(volume);
+            finer ? finer->volume(reference) : reference.puffs(world.dust());
             JudgedMoment judged =
-                judgeMoment(drawn, exact, {runner.method().primitives(), volume, world.dust(), view, spec.seed});
+                judgeMoment(drawn, exact, {runner.method().primitives(), volume, reference, view, spec.seed});
             judged.metrics.frame = frame;
             savePictures(judged, folder / "images");
             metrics = judged.metrics;
@@ -65,18 +112,21 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         if (inStretch) metrics.popping = poppingJudge.add(drawn, exact);
         judgement.frames.push_back(metrics);
     };
+    const std::int64_t preroll = stepsBeforeWarmup(world);
     // The continuum goes along up to the last moment that needs it.
-    const auto total = stepsBeforeWarmup(world) + spec.warmup + moments.back() + 1;
+    const std::int64_t continuumSteps = preroll + spec.warmup + moments.back() + 1;
     std::int64_t steps = 0;
     const auto stepped = [&] {
-        if (steps++ < total) {
-            continuum.readInput();
-            continuum.simulate();
+        if (finer) finer->step(steps, preroll, spec.warmup);
+        if (continuum && steps < continuumSteps) {
+            continuum->readInput();
+            continuum->simulate();
         }
+        ++steps;
         return true;
     };
     const auto judging = [&](std::string_view, std::int64_t done, std::int64_t of) { progress("metrics", done, of); };
-    replay({spec, runner, stepsBeforeWarmup(world), spec.frames - 1, stepped, judge, judging});
+    replay({spec, runner, preroll, spec.frames - 1, stepped, judge, judging});
 
     if (const std::string again = fmt::format("{:016x}", world.stateHash()); again != stateHash)
         throw std::runtime_error("metrics: the run's states gone through again end in " + again + ", not in " +

@@ -17,7 +17,8 @@ class JudgedRun : public testing::Test {
  protected:
     /// The summary of a judged run of so many frames.
     std::map<std::string, double> judged(const std::string& method, const ParameterTexts& parameters,
-                                         std::int64_t frames = 31, const std::string& drive = "straight") {
+                                         std::int64_t frames = 31, const std::string& drive = "straight",
+                                         const ParameterTexts& finer = {}) {
         RunSpec spec;
         spec.method = method;
         spec.drive = drive;
@@ -25,7 +26,7 @@ class JudgedRun : public testing::Test {
         spec.frames = frames;
         spec.warmup = 2;
         spec.parameters = canonicalParameters(findMethod(method), parameters);
-        spec.judging.emplace();
+        spec.judging.emplace().finer = finer;
         std::map<std::string, double> numbers;
         const RunRecord record =
             measureRun(spec, folder_.path(), {}, [](std::string_view, std::int64_t, std::int64_t) {});
@@ -76,6 +77,18 @@ TEST_F(JudgedRun, VoxelsPopAndCrossFadingPopsLess) {
     const double faded = judged("octree_search", with("crossfade", "on")).at("popping");
     EXPECT_LT(faded, plain);
     EXPECT_LT(soft, 0.1 * faded);
+}
+
+TEST_F(JudgedRun, HoldsAMethodAgainstItselfAtAFinerSetting) {
+    if (!hasMethod("octree_search")) GTEST_SKIP() << "no octree here";
+    const ParameterTexts coarse{{"particles", "300"}, {"depth", "7"}, {"policy", "accumulate"}};
+    const auto self = judged("octree_search", coarse, 5, "straight", {{"depth", "7"}});
+    EXPECT_EQ(self.at("identical"), 1);
+    EXPECT_EQ(self.at("volume_error"), 0);
+    EXPECT_EQ(self.at("gaps"), 0);
+    const auto finer = judged("octree_search", coarse, 5, "straight", {{"depth", "9"}});
+    EXPECT_EQ(finer.at("identical"), 0);
+    EXPECT_GT(finer.at("volume_error"), 0.1);
 }
 
 TEST_F(JudgedRun, LeavesARowAndThePicturesOfEachJudgedFrame) {

@@ -146,6 +146,11 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     writeWhole(folder / "frames.csv", framesCsv(runner.records()));
     writeWhole(folder / "stages.csv", stagesCsv(runner.records()));
     if (!spec.judging) return;
+    if (std::string reason = whyNotJudged(*spec.judging, runner.method()); !reason.empty()) {
+        record.provenance.warnings.push_back(std::move(reason));
+        return;
+    }
+    record.summary.emplace_back("metric_reference", spec.judging->referenceText());
     timed.reset();
     for (auto& [column, value] : summaryOf(judgeRun(spec, folder, device, record.stateHash, progress)))
         record.summary.emplace_back(std::move(column), value);

@@ -112,7 +112,7 @@ std::optional<VolumeSettings> readVolumes(const Json& json) {
 
 Json judgingObject(const std::optional<JudgingPlan>& judging) {
     if (!judging) return nullptr;
-    return {{"frames", judging->moments ? Json(judging->moments->text()) : Json(nullptr)}};
+    return {{"frames", judging->moments ? Json(judging->moments->text()) : Json(nullptr)}, {"finer", judging->finer}};
 }
 
 std::optional<JudgingPlan> readJudging(const Json& json) {
@@ -120,6 +120,7 @@ std::optional<JudgingPlan> readJudging(const Json& json) {
     JudgingPlan judging;
     if (!json.at("frames").is_null())
         judging.moments = parseFrameRange("metrics", json.at("frames").get<std::string>());
+    for (const auto& [name, value] : json.at("finer").items()) judging.finer[name] = value.get<std::string>();
     return judging;
 }
 

@@ -91,7 +91,9 @@ std::string canonicalKey(const RunSpec& spec) {
                            volumes.frames.text(), formatsText(volumes.formats), volumes.resolution,
                            volumes.region ? regionText(*volumes.region) : "", precisionName(volumes.vdbPrecision));
     }
-    if (spec.judging) key += fmt::format("metrics={}\n", spec.judging->moments ? spec.judging->moments->text() : "");
+    if (spec.judging)
+        key += fmt::format("metrics={}\nmetric_reference={}\n",
+                           spec.judging->moments ? spec.judging->moments->text() : "", spec.judging->referenceText());
     return key;
 }
 

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "bench/scene/world.h"
-#include "methods/shared/errors.h"
 #include "methods/shared/registry.h"
+#include "methods/shared/test_input_error.h"
 
 namespace dustbench::bench {
 namespace {
@@ -17,15 +17,6 @@ MethodInfo haze() {
     info.id = "haze";
     info.parameters.real("thickness", 0.5, 0, 1, "", "how thick").choice("mode", "soft", {"soft", "hard"}, "which");
     return info;
-}
-
-std::string messageOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "nothing thrown";
 }
 
 TEST(RunSpec, IdDoesNotDependOnOrderOrSpellingOfParameters) {
@@ -74,7 +65,7 @@ TEST(RunSpec, VolumesOfFramesThatAreNotRecordedAreRefused) {
     spec.volumes.emplace().frames = {0, 8, 4};
     EXPECT_NO_THROW(requireFramesWithinRun(spec));
     spec.frames = 8;
-    EXPECT_THAT(messageOf([&] { requireFramesWithinRun(spec); }),
+    EXPECT_THAT(inputError([&] { requireFramesWithinRun(spec); }),
                 testing::AllOf(testing::HasSubstr("frame 8"), testing::HasSubstr("0..7")));
 }
 
@@ -91,19 +82,19 @@ TEST(RunSpec, IdIsAReadablePlainFolderName) {
 }
 
 TEST(RunSpec, UnknownParameterNamesTheNearestOfMethodAndWorld) {
-    EXPECT_THAT(messageOf([] {
+    EXPECT_THAT(inputError([] {
                     (void)resolveParameters(haze(), {{"thicknes", "1"}});
                 }),
                 testing::HasSubstr("did you mean 'thickness'"));
     const std::string worlds = worldParameters().all().front().name;
-    EXPECT_THAT(messageOf([&] {
+    EXPECT_THAT(inputError([&] {
                     (void)resolveParameters(haze(), {{worlds + "x", "1"}});
                 }),
                 testing::HasSubstr("did you mean '" + worlds + "'"));
 }
 
 TEST(RunSpec, ValueOutOfRangeSaysTheRange) {
-    EXPECT_THAT(messageOf([] {
+    EXPECT_THAT(inputError([] {
                     (void)resolveParameters(haze(), {{"thickness", "2"}});
                 }),
                 testing::AllOf(testing::HasSubstr("thickness"), testing::HasSubstr("'2'"), testing::HasSubstr("0..1")));

@@ -30,6 +30,7 @@ struct Draft {
     Suite suite;
     ParameterLists parameters;
     std::vector<std::pair<std::string, ParameterLists>> methodParameters;
+    std::map<std::string, ParameterTexts> finerSettings;  ///< by method: what it is judged against
 };
 
 [[nodiscard]] InputError at(const std::string& where, const InputError& error) {
@@ -136,6 +137,32 @@ void readJudging(files::TomlReader& table, std::optional<JudgingPlan>& judging) 
     }
 }
 
+/// `[metric_reference.ID]`: parameters of the method's own, one value each.
+void readFinerSettings(files::TomlReader& table, Draft& draft) {
+    files::TomlReader perMethod = table.table("metric_reference");
+    for (const std::string& id : perMethod.keys()) {
+        if (std::ranges::find(draft.methods, id) == draft.methods.end())
+            throw at(perMethod.where(id), unknownName("method of this suite", id, draft.methods));
+        files::TomlReader settings = perMethod.table(id);
+        ParameterTexts& finer = draft.finerSettings[id];
+        for (const std::string& name : settings.keys()) {
+            const std::vector<std::string> values = readValues(settings, name);
+            if (values.size() != 1)
+                throw InputError(
+                    fmt::format("{}key '{}': got {} values, expected one", settings.where(name), name, values.size()));
+            try {
+                ParameterValues own(findMethod(id).parameters);
+                own.set(name, values.front());
+                finer[name] = own.canonical().at(name);
+            } catch (const InputError& error) {
+                throw at(settings.where(name), error);
+            }
+        }
+        settings.finish();
+    }
+    perMethod.finish();
+}
+
 void readDraft(files::TomlReader& table, Draft& draft) {
     readNames(table, "methods", draft.methods, [](const std::string& id) {
         if (id != "all") (void)findMethod(id);
@@ -187,6 +214,7 @@ void readDraft(files::TomlReader& table, Draft& draft) {
         }
         perMethod.finish();
     }
+    if (table.has("metric_reference")) readFinerSettings(table, draft);
     if (table.has("compare")) suite.comparisons = readComparisons(table, draft.methods);
 }
 
@@ -206,6 +234,9 @@ Suite multiplyOut(Draft draft) {
                     base.scene = scene;
                     base.drive = drive;
                     base.size = parseSize(size);
+                    if (const auto finer = draft.finerSettings.find(id);
+                        base.judging && finer != draft.finerSettings.end())
+                        base.judging->finer = finer->second;
                     for (PlannedRun& run : expandParameters(base, findMethod(id), lists)) {
                         if (draft.drives.size() > 1) run.label = drive + " " + run.label;
                         if (draft.sizes.size() > 1) run.label = size + " " + run.label;

@@ -39,8 +39,8 @@ Row timesOf(const std::vector<const StoredRun*>& done) {
 /// Of the first repetition, the one that is judged. Where none of three digits is left, the number is in powers of ten.
 Row metricsOf(const std::vector<const StoredRun*>& done) {
     Row row;
-    for (const std::string& column : metricColumns()) {
-        const auto values = numbersIn(done, column);
+    for (const MetricInfo& metric : metricInfos()) {
+        const auto values = numbersIn(done, metric.column);
         const double value = values.empty() ? std::numeric_limits<double>::quiet_NaN() : values.front();
         row.push_back(value != 0 && std::abs(value) < 0.0995 ? fmt::format("{:.3g}", value) : fourDigits(value));
     }
@@ -123,7 +123,9 @@ TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs) {
         return first && numberIn(*first, "rmse_linear");
     });
     if (!judged) return {};
-    return tabulateRuns(suite, runs, metricColumns(), metricsOf);
+    Row names;
+    for (const MetricInfo& metric : metricInfos()) names.emplace_back(metric.column);
+    return tabulateRuns(suite, runs, names, metricsOf);
 }
 
 }  // namespace dustbench::bench

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bench/measure/paired_comparison.h"
+#include "bench/run/run_record.h"
 #include "bench/scene/world.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/registry.h"
@@ -185,6 +186,47 @@ TEST(Suite, SaysWhereVolumesAreAskedForWrongly) {
     for (const auto& [lines, expected] : mistakes)
         EXPECT_THAT(messageOf(lines), AllOf(HasSubstr("s.toml:"), HasSubstr(expected))) << lines;
     EXPECT_THAT(messageOf("frames = 4\nvolumes = \"4\""), HasSubstr("frame 4 is beyond"));
+}
+
+TEST(Suite, AsksForMetricsOfEachCellsFirstRepetition) {
+    const Suite suite = parseSuite(R"(
+methods = ["billboard"]
+sizes = ["64x48"]
+frames = 40
+repetitions = 3
+metrics = true
+metric_frames = "0:40:8"
+[metric_reference.billboard]
+soft = true
+)",
+                                   "s", false);
+    ASSERT_EQ(suite.cells.size(), 1u);
+    int judged = 0;
+    for (const PlannedRun& run : planRuns(suite)) {
+        if (!run.spec.judging) continue;
+        ++judged;
+        EXPECT_EQ(run.spec.repetition, 1);
+        EXPECT_EQ(run.spec.judging->moments->text(), "0:33:8");
+        EXPECT_EQ(run.spec.judging->referenceText(), "soft=on");
+        const RunSpec again = specFromJson(specToJson(run.spec));
+        EXPECT_EQ(runId(again), runId(run.spec));
+    }
+    EXPECT_EQ(judged, 1);
+}
+
+TEST(Suite, SaysWhereMetricsAreAskedForWrongly) {
+    EXPECT_THAT(messageOf("metric_frames = \"0:40:8\""), AllOf(HasSubstr("s.toml:1"), HasSubstr("without 'metrics")));
+    EXPECT_THAT(messageOf("frames = 20\nmetrics = true\nmetric_frames = \"0:40:8\""),
+                HasSubstr("beyond the run's end"));
+    EXPECT_THAT(messageOf("metrics = true\nmetric_frames = \"0:4\""), HasSubstr("got 4 moments"));
+    EXPECT_THAT(messageOf("metrics = true\nmethods = [\"billboard\"]\n[metric_reference.bilboard]\nsoft = true"),
+                HasSubstr("bilboard"));
+    EXPECT_THAT(messageOf("metrics = true\nmethods = [\"billboard\"]\n[metric_reference.billboard]\nsofd = true"),
+                AllOf(HasSubstr("s.toml:4"), HasSubstr("sofd")));
+    EXPECT_THAT(
+        messageOf(
+            "metrics = true\nmethods = [\"billboard\"]\n[metric_reference.billboard]\nsort = [\"radix\", \"none\"]"),
+        HasSubstr("got 2 values"));
 }
 
 }  // namespace

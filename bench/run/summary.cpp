@@ -60,7 +60,8 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "gpu_ms_median",
                                  "harness_us_median",
                                  "psnr_continuum_db",
-                                 "components_reference"})
+                                 "components_reference",
+                                 "metric_reference"})
             list.emplace_back(name);
         return list;
     }();

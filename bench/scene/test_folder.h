@@ -1,4 +1,4 @@
-// For tests: a folder that vanishes with the test, and the line that a call throws.
+// For tests: a folder that vanishes with the test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -6,10 +6,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <string>
 #include <string_view>
 
-#include "methods/shared/errors.h"
+#include "methods/shared/test_input_error.h"
 
 namespace dustbench::bench {
 
@@ -37,19 +36,5 @@ class TestFolder {
  private:
     std::filesystem::path path_;
 };
-
-/// The message of the InputError that `call` throws; a failure where it throws none or several lines.
-template <typename Call>
-std::string inputError(const Call& call) {
-    try {
-        call();
-    } catch (const InputError& error) {
-        const std::string message = error.what();
-        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-        return message;
-    }
-    ADD_FAILURE() << "expected an InputError";
-    return "";
-}
 
 }  // namespace dustbench::bench

@@ -10,7 +10,7 @@
 #include "bench/measure/image/heat_map.h"
 #include "bench/sheet/sheet_layout.h"
 #include "bench/sheet/sheet_test_pictures.h"
-#include "methods/shared/errors.h"
+#include "methods/shared/test_input_error.h"
 
 namespace dustbench::bench {
 namespace {
@@ -45,15 +45,6 @@ int inkedPixels(const draw::Image& image, const SheetBox& box) {
     for (int y = box.y; y < box.bottom(); ++y)
         for (int x = box.x; x < box.right(); ++x) inked += image.at(x, y) != glm::vec4(1);
     return inked;
-}
-
-std::string messageOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no InputError";
 }
 
 TEST(ContactSheet, HasTheSizeOfItsCells) {
@@ -292,7 +283,7 @@ TEST(ContactSheet, TakesPicturesOfOneShapeInAnySize) {
 
 TEST(ContactSheet, RefusesPicturesThatItCannotShow) {
     const auto with = [](const std::function<void(draw::Image&)>& change) {
-        return messageOf([&] {
+        return inputError([&] {
             ContactSheet sheet = fullSheet();
             change(sheet.cells[1][1]->picture);
             (void)drawSheet(sheet, smallStyle());
@@ -342,13 +333,13 @@ TEST(ContactSheet, RefusesStylesAndSizesOutOfRange) {
     ContactSheet sheet = fullSheet();
     SheetStyle style = smallStyle();
     style.font = "NoSuchFont";
-    EXPECT_THAT(messageOf([&] { (void)drawSheet(sheet, style); }), HasSubstr("'NoSuchFont'"));
+    EXPECT_THAT(inputError([&] { (void)drawSheet(sheet, style); }), HasSubstr("'NoSuchFont'"));
 
     sheet = {};
     sheet.cells.assign(1, {SheetCell{plainPicture(1, 100000, glm::vec3(0)), ""}});
     style = {};
     style.tileWidthPixels = 8192;
-    EXPECT_THAT(messageOf([&] { (void)drawSheet(sheet, style); }), HasSubstr("allowed: 134 million"));
+    EXPECT_THAT(inputError([&] { (void)drawSheet(sheet, style); }), HasSubstr("allowed: 134 million"));
 }
 
 TEST(Resampled, AveragesInLinearLight) {

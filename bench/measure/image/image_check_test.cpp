@@ -14,7 +14,7 @@
 #include "bench/measure/image/test_images.h"
 #include "bench/measure/image/trail_gaps.h"
 #include "bench/measure/image/volume_error.h"
-#include "methods/shared/errors.h"
+#include "methods/shared/test_input_error.h"
 
 namespace dustbench::bench {
 namespace {
@@ -25,41 +25,32 @@ draw::Image grey(int width, int height) {
     return imageOf(width, height, [](int, int, int) { return 0.5; });
 }
 
-std::string messageOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no InputError";
-}
-
 TEST(ImageCheck, CountsAndNamesPixelsThatAreNotFinite) {
     draw::Image image = grey(7, 5);
     image.pixels[7 * 2 + 3].g = nan;
     image.pixels[7 * 2 + 4] = {inf, nan, 0, 1};
     image.pixels[7 * 4].a = -inf;
-    EXPECT_EQ(messageOf([&] { static_cast<void>(preparePicture(image, "'a.exr'")); }),
+    EXPECT_EQ(inputError([&] { static_cast<void>(preparePicture(image, "'a.exr'")); }),
               "'a.exr': 3 pixels are not finite, the first at (3, 2)");
     image = grey(2, 2);
     image.pixels[1].b = inf;
-    EXPECT_EQ(messageOf([&] { requireFinite(image, "the reference"); }),
+    EXPECT_EQ(inputError([&] { requireFinite(image, "the reference"); }),
               "the reference: 1 pixel is not finite, the first at (1, 0)");
 }
 
 TEST(ImageCheck, RefusesAlphaWhereNoneIsExpected) {
     draw::Image image = grey(3, 2);
     image.pixels[4].a = 0.5f;
-    EXPECT_EQ(messageOf([&] { static_cast<void>(preparePicture(image, "b.png")); }),
+    EXPECT_EQ(inputError([&] { static_cast<void>(preparePicture(image, "b.png")); }),
               "b.png: 1 pixel is not opaque (expected alpha 1), the first at (1, 1)");
     image.pixels[4].a = 1 - 1e-5f;  // a layer over its scene, rounded
-    EXPECT_EQ(messageOf([&] { static_cast<void>(preparePicture(image, "b.png")); }), "no InputError");
+    EXPECT_NO_THROW(static_cast<void>(preparePicture(image, "b.png")));
 }
 
 TEST(ImageCheck, RefusesAlphasThatAreNone) {
     draw::Image layer = grey(3, 2);
     layer.pixels[5].a = 1.5f;
-    EXPECT_EQ(messageOf([&] { static_cast<void>(alphaOf(layer, "the layer")); }),
+    EXPECT_EQ(inputError([&] { static_cast<void>(alphaOf(layer, "the layer")); }),
               "the layer: 1 pixel is of an alpha outside 0..1, the first at (2, 1)");
     layer.pixels[5].a = 1.0005f;
     layer.pixels[0].a = -0.0005f;
@@ -69,8 +60,8 @@ TEST(ImageCheck, RefusesAlphasThatAreNone) {
 }
 
 TEST(ImageCheck, RefusesImagesWithoutPixels) {
-    EXPECT_THAT(messageOf([] { static_cast<void>(preparePicture({}, "c")); }), testing::HasSubstr("c: got 0x0"));
-    EXPECT_THAT(messageOf([] {
+    EXPECT_THAT(inputError([] { static_cast<void>(preparePicture({}, "c")); }), testing::HasSubstr("c: got 0x0"));
+    EXPECT_THAT(inputError([] {
                     static_cast<void>(preparePicture({2, 2, {{0, 0, 0, 1}}}, "c"));
                 }),
                 testing::HasSubstr("c: got 2x2 with 1 pixels"));
@@ -79,9 +70,9 @@ TEST(ImageCheck, RefusesImagesWithoutPixels) {
 TEST(ImageCheck, EveryMetricRefusesDifferentSizes) {
     const Picture a = preparePicture(grey(16, 12), "a.png"), b = preparePicture(grey(12, 16), "b.png");
     const std::string both = "images of different size: a.png has 16x12, b.png has 12x16";
-    EXPECT_EQ(messageOf([&] { static_cast<void>(pictureError(a, b)); }), both);
-    EXPECT_EQ(messageOf([&] { static_cast<void>(ssim(a, b)); }), both);
-    EXPECT_EQ(messageOf([&] { static_cast<void>(flip(a, b)); }), both);
+    EXPECT_EQ(inputError([&] { static_cast<void>(pictureError(a, b)); }), both);
+    EXPECT_EQ(inputError([&] { static_cast<void>(ssim(a, b)); }), both);
+    EXPECT_EQ(inputError([&] { static_cast<void>(flip(a, b)); }), both);
     const Plane p(16, 12), q(12, 16);
     EXPECT_THROW(static_cast<void>(gaps(p, q)), InputError);
     EXPECT_THROW(static_cast<void>(components(p, q)), InputError);
@@ -97,21 +88,21 @@ TEST(ImageCheck, EveryMetricRefusesDifferentSizes) {
 TEST(ImageCheck, FlipRefusesViewingDistancesThatAreNone) {
     const Picture a = preparePicture(grey(16, 12), "a.png");
     for (const double wrong : {0.0, -67.0, 1e6, static_cast<double>(nan)})
-        EXPECT_THAT(messageOf([&] { static_cast<void>(flip(a, a, wrong)); }), testing::HasSubstr("allowed: 1..1000"));
+        EXPECT_THAT(inputError([&] { static_cast<void>(flip(a, a, wrong)); }), testing::HasSubstr("allowed: 1..1000"));
 }
 
 TEST(ImageCheck, GridsMustBeWholeFiniteAndAlike) {
     const std::vector<float> eight(8, 1.0f), broken{1, nan, 1, 1, 1, inf, 1, 1};
     const GridCells good{{2, 2, 2}, eight};
-    EXPECT_THAT(messageOf([&] {
+    EXPECT_THAT(inputError([&] {
                     static_cast<void>(volumeError(good, {{2, 2, 2}, broken}));
                 }),
                 testing::HasSubstr("the grid: 2 cells are not finite"));
-    EXPECT_THAT(messageOf([&] {
+    EXPECT_THAT(inputError([&] {
                     static_cast<void>(volumeError(good, {{4, 2, 1}, eight}));
                 }),
                 testing::HasSubstr("different size"));
-    EXPECT_THAT(messageOf([&] {
+    EXPECT_THAT(inputError([&] {
                     static_cast<void>(volumeError({{3, 2, 2}, eight}, good));
                 }),
                 testing::HasSubstr("got 8 cells, expected 3x2x2"));

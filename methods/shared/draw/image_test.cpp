@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
-#include "methods/shared/errors.h"
 #include "methods/shared/gpu/texture.h"
+#include "methods/shared/test_input_error.h"
 
 namespace dustbench::draw {
 namespace {
@@ -39,15 +39,6 @@ Image randomImage(int width, int height, bool opaque, unsigned seed) {
         image.pixels.emplace_back(alpha * share(engine), alpha * share(engine), alpha * share(engine), alpha);
     }
     return image;
-}
-
-std::string messageOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no InputError";
 }
 
 TEST(Srgb, MeetsTheStandardsConstants) {
@@ -154,10 +145,10 @@ TEST_F(ImageFile, NothingButTheTargetIsLeftInTheFolder) {
 TEST_F(ImageFile, UnreadableOnesAreNamedInOneLine) {
     const fs::path file = folder_ / "broken.png";
     std::ofstream(file) << "this is no picture";
-    const std::string broken = messageOf([&] { static_cast<void>(readImage(file)); });
+    const std::string broken = inputError([&] { static_cast<void>(readImage(file)); });
     EXPECT_THAT(broken, testing::HasSubstr("broken.png"));
     EXPECT_EQ(broken.find('\n'), std::string::npos);
-    const std::string missing = messageOf([&] { static_cast<void>(readImage(folder_ / "missing.exr")); });
+    const std::string missing = inputError([&] { static_cast<void>(readImage(folder_ / "missing.exr")); });
     EXPECT_THAT(missing, testing::HasSubstr("missing.exr"));
     EXPECT_EQ(missing.find('\n'), std::string::npos);
 }
@@ -166,16 +157,16 @@ TEST_F(ImageFile, CutOffOnesAreRefused) {
     const fs::path file = folder_ / "cut.exr";
     writeImage(randomImage(64, 64, true, 9), file);
     fs::resize_file(file, fs::file_size(file) / 2);
-    EXPECT_THAT(messageOf([&] { static_cast<void>(readImage(file)); }), testing::HasSubstr("cut.exr"));
+    EXPECT_THAT(inputError([&] { static_cast<void>(readImage(file)); }), testing::HasSubstr("cut.exr"));
 }
 
 TEST_F(ImageFile, UnwritableTargetsAreNamedInOneLine) {
     const Image image = randomImage(2, 2, true, 10);
-    const std::string folder = messageOf([&] { writeImage(image, folder_ / "none" / "a.png"); });
+    const std::string folder = inputError([&] { writeImage(image, folder_ / "none" / "a.png"); });
     EXPECT_THAT(folder, testing::HasSubstr("a.png"));
     EXPECT_EQ(folder.find('\n'), std::string::npos);
-    EXPECT_THAT(messageOf([&] { writeImage(image, folder_ / "a.jpg"); }), testing::HasSubstr("expected .png or .exr"));
-    EXPECT_THAT(messageOf([&] { writeImage(Image{}, folder_ / "a.png"); }), testing::HasSubstr("no pixels"));
+    EXPECT_THAT(inputError([&] { writeImage(image, folder_ / "a.jpg"); }), testing::HasSubstr("expected .png or .exr"));
+    EXPECT_THAT(inputError([&] { writeImage(Image{}, folder_ / "a.png"); }), testing::HasSubstr("no pixels"));
 }
 
 TEST(ReadBack, HasItsFirstRowAtTheTop) {

@@ -1,24 +1,14 @@
 #include "methods/shared/files/toml_reader.h"
+#include "methods/shared/test_input_error.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "methods/shared/errors.h"
 
 namespace dustbench::files {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-std::string errorOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 TEST(TomlReader, GivesTypedValuesAndDefaults) {
     auto reader = TomlReader::parseText("a = 1.5\nb = 3\nc = 'x'\nd = true\ne = [1, 2.5, 3]\n", "t.toml");
@@ -34,9 +24,9 @@ TEST(TomlReader, GivesTypedValuesAndDefaults) {
 
 TEST(TomlReader, NamesFileLineKeyGotAndExpected) {
     auto reader = TomlReader::parseText("\nwind = 'strong'\n", "s.toml");
-    EXPECT_EQ(errorOf([&] { (void)reader.number("wind", 0, 9); }),
+    EXPECT_EQ(inputError([&] { (void)reader.number("wind", 0, 9); }),
               "s.toml:2: key 'wind': got 'strong', expected a number 0..9");
-    EXPECT_THAT(errorOf([&] { (void)reader.number("rain", 0, 9); }), HasSubstr("'rain' is missing"));
+    EXPECT_THAT(inputError([&] { (void)reader.number("rain", 0, 9); }), HasSubstr("'rain' is missing"));
 }
 
 TEST(TomlReader, RefusesValuesOutOfRangeAndNotFinite) {
@@ -48,12 +38,13 @@ TEST(TomlReader, RefusesKeysThatNobodyAskedForWithTheNearest) {
     auto reader = TomlReader::parseText("[sun]\nelevatoin = 3\n", "t.toml");
     auto sun = reader.table("sun");
     (void)sun.number("elevation", 0, 90, 45);
-    EXPECT_EQ(errorOf([&] { sun.finish(); }),
+    EXPECT_EQ(inputError([&] { sun.finish(); }),
               "t.toml:2: unknown key in [sun] 'elevatoin' (did you mean 'elevation'?); known: elevation");
 }
 
 TEST(TomlReader, NamesTheLineOfASyntaxError) {
-    EXPECT_THAT(errorOf([] { TomlReader::parseText("a = 1\nb = = 2\n", "t.toml"); }), HasSubstr("t.toml:2: not valid"));
+    EXPECT_THAT(inputError([] { TomlReader::parseText("a = 1\nb = = 2\n", "t.toml"); }),
+                HasSubstr("t.toml:2: not valid"));
 }
 
 TEST(TomlReader, ReadsArraysOfTablesInOrder) {
