@@ -29,7 +29,8 @@ struct Image {
 /// Throws std::invalid_argument for any other texture.
 [[nodiscard]] Image readBack(const gpu::Texture& texture);
 
-/// Depths of a flat Depth32F texture, rows from the top (waits for the GPU). Throws std::invalid_argument for any other.
+/// Depths of a flat Depth32F texture, rows from the top (waits for the GPU). Throws std::invalid_argument for any
+/// other.
 [[nodiscard]] std::vector<float> readBackDepth(const gpu::Texture& texture);
 
 /// `layer` (premultiplied) over `scene`: C = L + (1 − α)·S. Throws std::invalid_argument for different sizes.
