@@ -57,6 +57,7 @@ void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results)
               << fmt::format("  {:.1f} fps, 95 % of the frames within {:.2f} ms, {:.0f} particles, {:.0f} primitives\n",
                              number("fps_avg"), number("frame_ms_p95"), number("particles_median"),
                              number("primitives_median"));
+    for (const std::string& warning : stored.warnings) std::cout << "  warning: " << warning << "\n";
 }
 
 int run(const RunOptions& options) {

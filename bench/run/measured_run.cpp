@@ -5,6 +5,7 @@
 
 #include "bench/export/volume_exporter.h"
 #include "bench/measure/memory_probe.h"
+#include "bench/measure/steadiness.h"
 #include "bench/run/frame_files.h"
 #include "bench/run/frame_runner.h"
 #include "bench/run/judged_run.h"
@@ -127,6 +128,10 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
         record.provenance.warnings.push_back(
             fmt::format("the run ends at {:.1f} s, the drive at {:.1f} s: its last row was held",
                         world.state().timeSeconds, world.driveSeconds()));
+
+    std::vector<double> frameMs;
+    for (const FrameRecord& frame : runner.records()) frameMs.push_back(frame.frameMs);
+    for (std::string& warning : steadinessWarnings(frameMs)) record.provenance.warnings.push_back(std::move(warning));
 
     record.stateHash = hexadecimal(world.stateHash());
     if (const auto hash = runner.method().stateHash()) record.methodHash = hexadecimal(*hash);

@@ -208,6 +208,7 @@ StoredRun readRunFile(const std::filesystem::path& file) {
         run.status = static_cast<RunStatus>(found - statusNames.begin());
         for (const auto& [name, value] : json.at("parameters").items()) run.parameters[name] = cellText(value);
         for (const auto& [name, value] : json.at("summary").items()) run.cells[name] = cellText(value);
+        for (const Json& warning : json.at("warnings")) run.warnings.push_back(warning.get<std::string>());
         return run;
     } catch (const std::exception& error) {
         throw InputError(file.string() + ": is no run.json of dustbench: " + error.what());

@@ -59,13 +59,14 @@ struct ExportRecord {
 /// export.json as text.
 [[nodiscard]] std::string toJson(const ExportRecord& record);
 
-/// What a run.json says, as far as summary.csv and resuming need it.
+/// What a run.json says, as far as summary.csv, resuming and people at the console need it.
 struct StoredRun {
     std::string runId;
     RunStatus status = RunStatus::done;
     std::string reason;
     ParameterTexts parameters;
     std::map<std::string, std::string, std::less<>> cells;  ///< by column of summary.csv
+    std::vector<std::string> warnings{};
 };
 /// Throws InputError with the file where it is no such thing.
 [[nodiscard]] StoredRun readRunFile(const std::filesystem::path& file);
