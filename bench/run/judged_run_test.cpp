@@ -22,7 +22,7 @@ class JudgedRun : public testing::Test {
         RunSpec spec;
         spec.method = method;
         spec.drive = drive;
-        spec.size = {240, 180};
+        spec.size = {160, 120};
         spec.frames = frames;
         spec.warmup = 2;
         spec.parameters = canonicalParameters(findMethod(method), parameters);
@@ -45,8 +45,8 @@ class JudgedRun : public testing::Test {
 
 TEST_F(JudgedRun, SoftBillboardsAreTheExactPictureAndHardOnesAreCutOff) {
     if (!hasMethod("billboard")) GTEST_SKIP() << "no billboards here";
-    auto soft = judged("billboard", {{"soft", "on"}, {"particles", "1000"}});
-    auto hard = judged("billboard", {{"soft", "off"}, {"particles", "1000"}});
+    auto soft = judged("billboard", {{"soft", "on"}, {"particles", "600"}});
+    auto hard = judged("billboard", {{"soft", "off"}, {"particles", "600"}});
     EXPECT_GT(soft.at("psnr_db"), 60);
     EXPECT_LT(soft.at("popping"), 0.001);
     EXPECT_LT(hard.at("psnr_db"), soft.at("psnr_db") - 10);
@@ -66,7 +66,7 @@ TEST_F(JudgedRun, GapsOfBillboardsRiseWithSpeed) {
 
 TEST_F(JudgedRun, VoxelsPopAndCrossFadingPopsLess) {
     if (!hasMethod("octree_search") || !hasMethod("billboard")) GTEST_SKIP() << "no octree here";
-    const ParameterTexts world{{"particles", "1000"}};
+    const ParameterTexts world{{"particles", "600"}};
     const auto with = [&](const char* name, const char* value) {
         ParameterTexts texts = world;
         texts[name] = value;

@@ -61,7 +61,9 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "harness_us_median",
                                  "psnr_continuum_db",
                                  "components_reference",
-                                 "metric_reference"})
+                                 "metric_reference",
+                                 "frame_ms_p999",
+                                 "fps_01pct_low"})
             list.emplace_back(name);
         return list;
     }();
@@ -92,7 +94,9 @@ Columns measuredColumns(std::span<const FrameRecord> frames, std::int64_t peakRe
                     {"frame_ms_p95", quantile(frameMs, 0.95)},
                     {"frame_ms_p99", quantile(frameMs, 0.99)},
                     {"frame_ms_max", maximum(frameMs)},
-                    {"fps_1pct_low", lowFps(frameMs)}};
+                    {"fps_1pct_low", lowFps(frameMs)},
+                    {"frame_ms_p999", quantile(frameMs, 0.999)},
+                    {"fps_01pct_low", lowFps(frameMs, 0.001)}};
     for (std::size_t stage = 0; stage < stageNames.size(); ++stage)
         columns.emplace_back(
             std::string(stageNames[stage]) + "_ms_median",
