@@ -10,6 +10,7 @@ PROGRAM := build/release/dustbench
 
 # Paths inside the tree count relative to it, so that a copy of the tree finds its objects in the compiler cache.
 export CCACHE_BASEDIR ?= $(CURDIR)
+export CCACHE_NOHASHDIR ?= true
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 SOURCES = $(shell find methods bench tests -name '*.h' -o -name '*.cpp' | LC_ALL=C sort)
