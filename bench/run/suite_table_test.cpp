@@ -5,6 +5,9 @@
 
 #include <limits>
 
+#include "bench/judge/judgement.h"
+#include "bench/run/summary.h"
+
 namespace dustbench::bench {
 namespace {
 
@@ -95,6 +98,11 @@ TEST(SuiteTable, NumbersKeepFourDigits) {
     EXPECT_EQ(fourDigits(99.996), "100.0");
     EXPECT_EQ(fourDigits(1234.5), "1234");
     EXPECT_EQ(fourDigits(std::numeric_limits<double>::quiet_NaN()), "");
+}
+
+TEST(Summary, HasAColumnForEveryMetric) {
+    for (const MetricInfo& metric : metricInfos())
+        EXPECT_THAT(columnsAfterParameters(), testing::Contains(std::string(metric.column)));
 }
 
 }  // namespace
