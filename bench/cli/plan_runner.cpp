@@ -11,23 +11,29 @@
 #include "methods/shared/gpu/device.h"
 
 namespace dustbench::cli {
+
+bench::ExecutionOptions childExecution() {
+    listenForInterruption();
+    bench::ExecutionOptions execution;
+    execution.argv = bench::commandLine();
+    execution.interrupted = [] { return interrupted(); };
+    execution.command = [argv = execution.argv](const std::filesystem::path& spec,
+                                                const std::filesystem::path& folder) {
+        std::vector<std::string> command{"/proc/self/exe", childCommandName, spec.string(), folder.string(), "--"};
+        command.insert(command.end(), argv.begin(), argv.end());
+        return command;
+    };
+    return execution;
+}
+
 int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,
             const PlanOptions& options) {
     { const gpu::Device mustExist; }
-    listenForInterruption();
-
-    bench::ExecutionOptions execution;
+    bench::ExecutionOptions execution = childExecution();
     execution.force = options.force;
     execution.retryFailed = options.retryFailed;
     execution.timeoutSeconds = options.timeoutSeconds;
     execution.badInputEnds = options.badInputEnds;
-    execution.argv = bench::commandLine();
-    execution.interrupted = [] { return interrupted(); };
-    execution.command = [&execution](const std::filesystem::path& spec, const std::filesystem::path& folder) {
-        std::vector<std::string> command{"/proc/self/exe", childCommandName, spec.string(), folder.string(), "--"};
-        command.insert(command.end(), execution.argv.begin(), execution.argv.end());
-        return command;
-    };
     ProgressPrinter printer;
     const bench::ExecutionResult result = bench::execute(plan, repetitions, results, execution, printer);
     if (result.aborted) {

@@ -16,6 +16,9 @@ struct PlanOptions {
     bool badInputEnds = false;
 };
 
+/// How this program runs one process a run, for provenance with the user's command; Ctrl-C ends it.
+[[nodiscard]] bench::ExecutionOptions childExecution();
+
 /// Executes and gives the exit code. Where there is something to run, it makes sure first that OpenGL is there.
 /// Throws InputError.
 [[nodiscard]] int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,

@@ -76,17 +76,23 @@ Json provenanceObject(const Provenance& provenance) {
             {"compiler", build.compiler},
             {"flags", build.flags},
             {"build_type", build.buildType},
+            {"build_id", build.buildId},
             {"cpu", machine.cpu},
             {"governor", machine.governor},
             {"cores", machine.cores},
             {"ram_bytes", machine.ramBytes},
             {"kernel", machine.kernel},
             {"load_average", machine.loadAverage},
+            {"virtual_machine", machine.virtualMachine},
+            {"stolen_share", machine.stolenShare},
+            {"quota_cores", machine.quotaCores},
             {"gl_vendor", provenance.device.vendor},
             {"gl_renderer", provenance.device.renderer},
             {"gl_version", provenance.device.version},
             {"gl_platform", provenance.device.platform},
             {"gpu_timers", provenance.gpuTimersTrusted},
+            {"clock_reading_ns", provenance.clock.readingNs},
+            {"clock_stage_ns", provenance.clock.stageNs},
             {"inputs", inputs}};
 }
 
@@ -276,8 +282,9 @@ std::string listToJson(const std::vector<ListedItem>& items) {
     return text(list);
 }
 
-std::string provenanceToJson(const Provenance& provenance) {
+std::string provenanceToJson(const Provenance& provenance, const Columns& more) {
     Json object = provenanceObject(provenance);
+    object.update(columnsObject(more));
     object["warnings"] = provenance.warnings;
     return text(object);
 }

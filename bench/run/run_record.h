@@ -82,6 +82,7 @@ struct ListedItem {
 };
 /// An array of objects with the items' cells in order, and `parameters` where asked for. For `--json`.
 [[nodiscard]] std::string listToJson(const std::vector<ListedItem>& items);
-[[nodiscard]] std::string provenanceToJson(const Provenance& provenance);
+/// One object, with `more` behind what is known of every run.
+[[nodiscard]] std::string provenanceToJson(const Provenance& provenance, const Columns& more);
 
 }  // namespace dustbench::bench

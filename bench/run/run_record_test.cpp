@@ -80,7 +80,7 @@ TEST(Summary, EveryMeasuredColumnIsOneOfTheTable) {
     std::vector<std::string> known = columnsBeforeParameters();
     known.insert(known.end(), columnsAfterParameters().begin(), columnsAfterParameters().end());
     Columns columns = identityColumns(record, 1);
-    for (auto& column : measuredColumns({}, 0)) columns.push_back(column);
+    for (auto& column : measuredColumns({}, WholeRun())) columns.push_back(column);
     for (const auto& [name, value] : columns) EXPECT_THAT(known, testing::Contains(name));
 }
 
@@ -92,14 +92,35 @@ TEST(Summary, SharesOfTheFrameAreMediansOfTheirColumns) {
         frames[i].stageMs.fill(1.0);
         frames[i].particles = 5;
     }
+    WholeRun run;
+    run.peakResidentBytes = 77;
+    run.cpuJoules = 6;
     std::map<std::string, std::string> cells;
-    for (const auto& [name, value] : measuredColumns(frames, 77)) cells[name] = valueText(value);
+    for (const auto& [name, value] : measuredColumns(frames, run)) cells[name] = valueText(value);
     EXPECT_EQ(cells.at("frame_ms_median"), "11");
     EXPECT_EQ(cells.at("wait_ms_median"), "1");
     EXPECT_EQ(cells.at("harness_us_median"), "3000");
     EXPECT_EQ(cells.at("gpu_ms_median"), "");
     EXPECT_EQ(cells.at("particles_median"), "5");
     EXPECT_EQ(cells.at("rss_peak_bytes"), "77");
+    EXPECT_EQ(cells.at("energy_cpu_j"), "2");
+}
+
+TEST(Summary, EnergyIsASumOnlyWhereEveryPartTells) {
+    const std::vector<FrameRecord> frames(2);
+    const auto energy = [&](std::optional<double> cpu, std::optional<double> gpu, bool software) {
+        WholeRun run;
+        run.cpuJoules = cpu;
+        run.gpuJoules = gpu;
+        run.softwareRenderer = software;
+        for (const auto& [name, value] : measuredColumns(frames, run))
+            if (name == "energy_j") return valueText(value);
+        return std::string("none");
+    };
+    EXPECT_EQ(energy(6, std::nullopt, true), "3");
+    EXPECT_EQ(energy(6, std::nullopt, false), "none");
+    EXPECT_EQ(energy(std::nullopt, 4, false), "none");
+    EXPECT_EQ(energy(6, 4, false), "5");
 }
 
 TEST(FrameFiles, AreTablesOfOneRowAFrame) {

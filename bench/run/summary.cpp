@@ -63,7 +63,11 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "components_reference",
                                  "metric_reference",
                                  "frame_ms_p999",
-                                 "fps_01pct_low"})
+                                 "fps_01pct_low",
+                                 "start_s",
+                                 "gpu_driver_bytes",
+                                 "energy_cpu_j",
+                                 "energy_gpu_j"})
             list.emplace_back(name);
         return list;
     }();
@@ -86,7 +90,7 @@ Columns identityColumns(const RunRecord& record, int threads) {
             {"threads", std::int64_t{threads}}};
 }
 
-Columns measuredColumns(std::span<const FrameRecord> frames, std::int64_t peakResidentBytes) {
+Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run) {
     const auto frameMs = column(frames, [](const FrameRecord& frame) { return frame.frameMs; });
     Columns columns{{"frames", static_cast<std::int64_t>(frames.size())},
                     {"fps_avg", averageFps(frameMs)},
@@ -103,7 +107,7 @@ Columns measuredColumns(std::span<const FrameRecord> frames, std::int64_t peakRe
             median(column(frames, [stage](const FrameRecord& frame) { return frame.stageMs[stage]; })));
     columns.emplace_back("cpu_bytes", largest(frames, &FrameRecord::cpuBytes));
     columns.emplace_back("gpu_bytes", largest(frames, &FrameRecord::gpuBytes));
-    columns.emplace_back("rss_peak_bytes", peakResidentBytes);
+    columns.emplace_back("rss_peak_bytes", run.peakResidentBytes);
     columns.emplace_back(
         "particles_median",
         median(column(frames, [](const FrameRecord& frame) { return static_cast<double>(frame.particles); })));
@@ -120,6 +124,20 @@ Columns measuredColumns(std::span<const FrameRecord> frames, std::int64_t peakRe
     columns.emplace_back("gpu_ms_median", median(gpuMs));
     columns.emplace_back("harness_us_median",
                          median(column(frames, [](const FrameRecord& frame) { return frame.harnessMs() * 1000; })));
+    const auto add = [&columns](const char* name, const auto& value) {
+        if (value) columns.emplace_back(name, *value);
+    };
+    add("start_s", run.startSeconds);
+    add("gpu_driver_bytes", run.driverBytes);
+    const auto perFrame = [&](std::optional<double> joules) {
+        if (joules) *joules /= static_cast<double>(std::max<std::size_t>(frames.size(), 1));
+        return joules;
+    };
+    const std::optional<double> cpu = perFrame(run.cpuJoules), gpu = perFrame(run.gpuJoules);
+    add("energy_cpu_j", cpu);
+    add("energy_gpu_j", gpu);
+    // A sum without one of its parts would look like a saving.
+    if (cpu && (gpu || run.softwareRenderer)) columns.emplace_back("energy_j", *cpu + gpu.value_or(0));
     return columns;
 }
 
