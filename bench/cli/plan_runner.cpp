@@ -32,8 +32,11 @@ int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::
     bench::ExecutionOptions execution = childExecution();
     execution.force = options.force;
     execution.retryFailed = options.retryFailed;
+    execution.redoOutdated = options.redoOutdated;
     execution.timeoutSeconds = options.timeoutSeconds;
+    execution.cooldownSeconds = options.cooldownSeconds;
     execution.badInputEnds = options.badInputEnds;
+    for (const std::string& sentence : results.setAside()) std::cerr << "warning: " << sentence << std::endl;
     ProgressPrinter printer;
     const bench::ExecutionResult result = bench::execute(plan, repetitions, results, execution, printer);
     if (result.aborted) {
@@ -43,6 +46,9 @@ int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::
     if (plan.size() > 1)
         std::cerr << result.done << " done, " << result.skipped << " skipped, " << result.failed << " failed, "
                   << result.kept << " were there" << std::endl;
+    if (result.outdated > 0)
+        std::cerr << "outdated: " << result.outdated << " of those that were there; --redo-outdated does them again ("
+                  << result.whyOutdated << ")" << std::endl;
     return result.failed > 0 ? exitRunFailed : exitOk;
 }
 

@@ -12,7 +12,9 @@ namespace dustbench::cli {
 struct PlanOptions {
     bool force = false;
     bool retryFailed = false;
+    bool redoOutdated = false;
     double timeoutSeconds = 0;
+    double cooldownSeconds = 0;
     bool badInputEnds = false;
 };
 

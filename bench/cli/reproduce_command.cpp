@@ -43,6 +43,7 @@ int reproduce(const ReproduceOptions& options) {
             checkWorlds(plan);
             PlanOptions planOptions;
             planOptions.timeoutSeconds = suite.timeoutSeconds;
+            planOptions.cooldownSeconds = suite.cooldownSeconds;
             const int suiteCode = runPlan(plan, suite.repetitions, results, planOptions);
             if (suiteCode == exitAborted) return suiteCode;
             code = std::max(code, suiteCode);

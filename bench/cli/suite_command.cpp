@@ -15,9 +15,10 @@ namespace {
 
 struct SuiteOptions {
     std::string suite, out, order;
-    bool quick = false, force = false, retryFailed = false, dryRun = false;
+    bool quick = false, force = false, retryFailed = false, redoOutdated = false, dryRun = false;
     std::int64_t repetitions = 0;
     double timeoutSeconds = 0;
+    double cooldownSeconds = -1;
     VolumeOptions volumes{"--volumes"};
 };
 
@@ -42,6 +43,8 @@ int runSuite(const SuiteOptions& options) {
     PlanOptions planOptions;
     planOptions.force = options.force;
     planOptions.retryFailed = options.retryFailed;
+    planOptions.redoOutdated = options.redoOutdated;
+    planOptions.cooldownSeconds = options.cooldownSeconds >= 0 ? options.cooldownSeconds : suite.cooldownSeconds;
     planOptions.timeoutSeconds = options.timeoutSeconds > 0 ? options.timeoutSeconds : suite.timeoutSeconds;
     const int code = runPlan(plan, suite.repetitions, results, planOptions);
     if (code != exitAborted) std::cout << suiteReport(suite, results.runs()) << "\n";
@@ -54,7 +57,7 @@ int runSuite(const SuiteOptions& options) {
 Command suiteCommand() {
     auto options = std::make_shared<SuiteOptions>();
     return {"suite", "Work through a list of runs, or go on where it was stopped",
-            "Runs whose results are there already are left alone.",
+            "Runs whose results are there already are left alone; those that are outdated are named.",
             [options](Arguments& arguments) {
                 arguments.required("suite", "", "one of `dustbench list suites`, or a .toml file", options->suite);
                 arguments.required("--out", "DIR", "folder for the results; made where it is missing", options->out);
@@ -63,12 +66,17 @@ Command suiteCommand() {
                                   options->repetitions, 0, 1000);
                 arguments.flag("--force", "do again what is there", options->force);
                 arguments.flag("--retry-failed", "do again what failed or ran out of time", options->retryFailed);
+                arguments.flag("--redo-outdated",
+                               "do again what another build measured, or whose input files have changed since",
+                               options->redoOutdated);
                 arguments.text("--order", "interleaved|batch",
                                "repetitions as shuffled rounds over all runs, or all of a run together; as the suite "
                                "says unless given",
                                options->order);
                 arguments.number("--timeout", "seconds that one run may take; 0: as the suite says",
                                  options->timeoutSeconds, 0, 1e6);
+                arguments.number("--cooldown", "seconds of rest between two runs; below 0: as the suite says",
+                                 options->cooldownSeconds, -1, 3600);
                 options->volumes.declareOptional(arguments);
                 arguments.flag("--dry-run", "only print the list of runs", options->dryRun);
             },

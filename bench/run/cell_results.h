@@ -1,19 +1,15 @@
 // The stored runs of a suite's cells, and the numbers in them.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "bench/run/run_record.h"
+#include "bench/run/stored_run.h"
 #include "bench/run/suite.h"
 
 namespace dustbench::bench {
-
-/// By run id, as a ResultsFolder holds them.
-using StoredRuns = std::map<std::string, StoredRun>;
 
 /// The cell's run of this repetition (from 1) where it is done, or null.
 [[nodiscard]] const StoredRun* doneRun(const PlannedRun& cell, int repetition, const StoredRuns& runs);

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <set>
+#include <thread>
 
 #include "bench/run/summary.h"
 #include "methods/shared/errors.h"
@@ -19,6 +21,7 @@ namespace {
 
 constexpr std::string_view hiddenStart = ".unfinished-";
 constexpr std::string_view oldStart = ".replaced-";
+constexpr std::string_view asideStart = ".damaged-";
 
 }  // namespace
 
@@ -32,6 +35,9 @@ ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)) {
 
     lock_ = open(runs.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock_ < 0) throw cannotWrite(runs, std::strerror(errno));
+    // What a program that was just killed had locked is free a moment later, when its child has gone as well.
+    for (int attempt = 0; attempt < 10 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++attempt)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
     if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
         const bool busy = errno == EWOULDBLOCK;
         const std::string reason = busy ? "another dustbench is writing into it" : std::strerror(errno);
@@ -40,19 +46,49 @@ ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)) {
     }
 
     try {
-        for (const auto& entry : fs::directory_iterator(runs)) {
-            const std::string name = entry.path().filename();
-            if (name.starts_with(hiddenStart) || name.starts_with(oldStart))
-                fs::remove_all(entry.path());
-            else if (fs::exists(entry.path() / "run.json"))
-                runs_[name] = readRunFile(entry.path() / "run.json");
-        }
+        cleanUp();
+        readRuns();
     } catch (const fs::filesystem_error& failure) {
         close(lock_);
         throw cannotWrite(folder_, failure.code().message());
     } catch (...) {
         close(lock_);
         throw;
+    }
+}
+
+void ResultsFolder::cleanUp() {
+    std::vector<fs::path> left;
+    for (const auto& entry : fs::directory_iterator(folder_ / "runs"))
+        if (const std::string name = entry.path().filename();
+            name.starts_with(hiddenStart) || name.starts_with(oldStart))
+            left.push_back(entry.path());
+    for (const fs::path& path : left) {
+        const std::string name = path.filename();
+        // A kill between the two renames of `publish` left the old result without a successor.
+        if (name.starts_with(oldStart) && !fs::exists(runFolder(name.substr(oldStart.size()))))
+            fs::rename(path, runFolder(name.substr(oldStart.size())));
+        else
+            fs::remove_all(path);
+    }
+}
+
+void ResultsFolder::readRuns() {
+    std::vector<fs::path> folders;
+    for (const auto& entry : fs::directory_iterator(folder_ / "runs"))
+        if (!entry.path().filename().string().starts_with('.') && fs::exists(entry.path() / "run.json"))
+            folders.push_back(entry.path());
+    for (const fs::path& folder : folders) {
+        const std::string name = folder.filename();
+        try {
+            runs_[name] = readRunFile(folder / "run.json");
+        } catch (const InputError& damage) {
+            fs::path aside = folder.parent_path() / fmt::format("{}{}", asideStart, name);
+            for (int i = 2; fs::exists(aside); ++i)
+                aside = folder.parent_path() / fmt::format("{}{}-{}", asideStart, name, i);
+            fs::rename(folder, aside);
+            setAside_.push_back(fmt::format("{}; set aside as {}", damage.what(), aside.string()));
+        }
     }
 }
 

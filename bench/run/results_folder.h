@@ -4,18 +4,19 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
+#include <vector>
 
 #include "bench/export/whole_file.h"
-#include "bench/run/run_record.h"
+#include "bench/run/stored_run.h"
 
 namespace dustbench::bench {
 
 class ResultsFolder {
  public:
     /// Makes the folder, checks that it can be written, removes what killed runs left behind, and reads the runs that
-    /// are there. Throws InputError where it cannot be written or another program is writing into it.
+    /// are there; those whose run.json is damaged are set aside. Throws InputError where it cannot be written or
+    /// another program is writing into it.
     explicit ResultsFolder(std::filesystem::path folder);
     ~ResultsFolder();
     ResultsFolder(const ResultsFolder&) = delete;
@@ -24,7 +25,9 @@ class ResultsFolder {
     [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
     [[nodiscard]] std::filesystem::path runFolder(const std::string& runId) const { return folder_ / "runs" / runId; }
     /// By run id.
-    [[nodiscard]] const std::map<std::string, StoredRun>& runs() const { return runs_; }
+    [[nodiscard]] const StoredRuns& runs() const { return runs_; }
+    /// A sentence for each run that was set aside: why, and under which name it lies in runs/ now.
+    [[nodiscard]] const std::vector<std::string>& setAside() const { return setAside_; }
 
     /// A new hidden folder in which the run is written until it is complete.
     [[nodiscard]] std::filesystem::path beginRun(const std::string& runId);
@@ -38,10 +41,13 @@ class ResultsFolder {
 
  private:
     [[nodiscard]] std::filesystem::path hidden(const std::string& runId) const;
+    void readRuns();
+    void cleanUp();
 
     std::filesystem::path folder_;
     int lock_ = -1;
-    std::map<std::string, StoredRun> runs_;
+    StoredRuns runs_;
+    std::vector<std::string> setAside_;
 };
 
 }  // namespace dustbench::bench

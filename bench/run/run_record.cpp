@@ -1,11 +1,10 @@
 #include "bench/run/run_record.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "methods/shared/errors.h"
 #include "methods/shared/files/csv.h"
@@ -141,6 +140,12 @@ std::string_view statusName(RunStatus status) {
     return statusNames[static_cast<std::size_t>(status)];
 }
 
+RunStatus parseStatus(std::string_view name) {
+    const auto found = std::ranges::find(statusNames, name);
+    if (found == statusNames.end()) throw InputError("unknown status '" + std::string(name) + "'");
+    return static_cast<RunStatus>(found - statusNames.begin());
+}
+
 std::string valueText(const Value& value) {
     return cellText(toValue(value));
 }
@@ -197,28 +202,6 @@ std::string toJson(const ExportRecord& record) {
                  {"frames", frames},
                  {"series", record.series},
                  {"provenance", provenanceObject(record.provenance)}});
-}
-
-StoredRun readRunFile(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::stringstream content;
-    content << stream.rdbuf();
-    try {
-        const Json json = Json::parse(content.str());
-        StoredRun run;
-        run.runId = json.at("run_id").get<std::string>();
-        run.reason = json.at("reason").get<std::string>();
-        const auto status = json.at("status").get<std::string>();
-        const auto found = std::ranges::find(statusNames, status);
-        if (found == statusNames.end()) throw InputError("unknown status '" + status + "'");
-        run.status = static_cast<RunStatus>(found - statusNames.begin());
-        for (const auto& [name, value] : json.at("parameters").items()) run.parameters[name] = cellText(value);
-        for (const auto& [name, value] : json.at("summary").items()) run.cells[name] = cellText(value);
-        for (const Json& warning : json.at("warnings")) run.warnings.push_back(warning.get<std::string>());
-        return run;
-    } catch (const std::exception& error) {
-        throw InputError(file.string() + ": is no run.json of dustbench: " + error.what());
-    }
 }
 
 std::string specToJson(const RunSpec& spec) {

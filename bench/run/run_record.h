@@ -1,6 +1,6 @@
-// What is kept of one run: run.json, and the specification a run's process is given.
+// What is kept of one run as run.json is written, and the specification a run's process is given.
 //
-// The JSON library behind it stays in one source file.
+// The JSON library behind it stays in one source file. stored_run.h reads what is written here.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,8 @@ namespace dustbench::bench {
 
 enum class RunStatus { done, failed, timeout, skipped };
 [[nodiscard]] std::string_view statusName(RunStatus status);
+/// Throws InputError.
+[[nodiscard]] RunStatus parseStatus(std::string_view name);
 
 /// A cell of summary.csv; nothing, and numbers that are not finite, are empty there and null in JSON.
 using Value = std::variant<std::monostate, std::int64_t, double, std::string>;
@@ -58,18 +60,6 @@ struct ExportRecord {
 };
 /// export.json as text.
 [[nodiscard]] std::string toJson(const ExportRecord& record);
-
-/// What a run.json says, as far as summary.csv, resuming and people at the console need it.
-struct StoredRun {
-    std::string runId;
-    RunStatus status = RunStatus::done;
-    std::string reason;
-    ParameterTexts parameters;
-    std::map<std::string, std::string, std::less<>> cells;  ///< by column of summary.csv
-    std::vector<std::string> warnings{};
-};
-/// Throws InputError with the file where it is no such thing.
-[[nodiscard]] StoredRun readRunFile(const std::filesystem::path& file);
 
 [[nodiscard]] std::string specToJson(const RunSpec& spec);
 /// Throws InputError.

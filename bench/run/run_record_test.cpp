@@ -9,6 +9,7 @@
 
 #include "bench/run/frame_files.h"
 #include "bench/run/results_folder.h"
+#include "bench/run/stored_run.h"
 #include "bench/run/summary.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/files/csv.h"

@@ -24,6 +24,7 @@ enum class Sync { frame, stage, none };
 struct ImageSize {
     int width = 640;
     int height = 480;
+    friend bool operator==(const ImageSize&, const ImageSize&) = default;
 };
 /// `640x480`. Throws InputError.
 [[nodiscard]] ImageSize parseSize(std::string_view text);

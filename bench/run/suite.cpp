@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <limits>
 
 #include "bench/run/suite_comparison.h"
-#include "bench/run/value_list.h"
+#include "bench/run/suite_draft.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/files/data_folder.h"
 #include "methods/shared/files/toml_reader.h"
@@ -18,207 +16,28 @@ namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::int64_t mostFrames = 10'000'000;
-
-/// What a suite's file says, before anything is multiplied out. `[quick]` is read over it with the same function.
-struct Draft {
-    std::vector<std::string> methods{"all"};
-    std::vector<std::string> scenes{"plain"};
-    std::vector<std::string> drives{""};
-    std::vector<std::string> sizes{"640x480"};
-    RunSpec base;
-    Suite suite;
-    ParameterLists parameters;
-    std::vector<std::pair<std::string, ParameterLists>> methodParameters;
-    std::map<std::string, ParameterTexts> finerSettings;  ///< by method: what it is judged against
-};
-
-[[nodiscard]] InputError at(const std::string& where, const InputError& error) {
-    return InputError(where + error.what());
-}
-
-void setList(ParameterLists& lists, const std::string& name, std::vector<std::string> values) {
-    const auto known = std::ranges::find(lists, name, &ParameterLists::value_type::first);
-    if (known != lists.end())
-        known->second = std::move(values);
-    else
-        lists.emplace_back(name, std::move(values));
-}
-
-std::vector<std::string> readValues(files::TomlReader& table, const std::string& name) {
-    try {
-        std::vector<std::string> values;
-        for (const std::string& text : table.scalars(name))
-            for (std::string& value : expandValues(name, text)) values.push_back(std::move(value));
-        if (values.empty()) throw InputError("parameter " + name + ": no values");
-        return values;
-    } catch (const InputError& error) {
-        const std::string message = error.what();
-        throw message.starts_with(table.where(name)) ? error : at(table.where(name), error);
-    }
-}
-
-/// Every value must suit each of the methods, or the file is wrong at this line.
-void readParameters(files::TomlReader& table, const std::vector<std::string>& methodIds, ParameterLists& lists) {
-    for (const std::string& name : table.keys()) {
-        const std::vector<std::string> values = readValues(table, name);
-        for (const std::string& id : methodIds)
-            for (const std::string& value : values) try {
-                    (void)resolveParameters(findMethod(id), {{name, value}});
-                } catch (const InputError& error) {
-                    throw at(table.where(name), error);
-                }
-        setList(lists, name, values);
-    }
-}
-
-template <typename Check>
-void readNames(files::TomlReader& table, const std::string& key, std::vector<std::string>& names, const Check& check) {
-    if (!table.has(key)) return;
-    names = table.texts(key);
-    if (names.empty()) throw InputError(table.where(key) + "key '" + key + "': got an empty array, expected names");
-    for (const std::string& name : names) try {
-            check(name);
-        } catch (const InputError& error) {
-            throw at(table.where(key), error);
-        }
-}
-
-std::vector<std::string> allMethods() {
-    std::vector<std::string> ids;
-    for (const MethodInfo& info : methods()) ids.push_back(info.id);
-    return ids;
-}
-
-/// `volumes` asks for them; the other keys say more about it.
-void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volumes) {
-    const auto read = [&](const std::string& key, const auto& apply) {
-        if (!table.has(key)) return;
-        if (!volumes)
-            throw InputError(table.where(key) + "key '" + key +
-                             "': got it without 'volumes', which says of which frames");
-        try {
-            apply(key);
-        } catch (const InputError& error) {
-            const std::string message = error.what();
-            throw message.starts_with(table.where(key)) ? error : at(table.where(key), error);
-        }
+bool covers(const Exception& exception, const RunSpec& cell) {
+    const auto isOneOf = [](const std::string& value, const std::vector<std::string>& list) {
+        return list.empty() || std::ranges::find(list, value) != list.end();
     };
-    if (table.has("volumes") && !volumes) volumes.emplace();
-    read("volumes", [&](const std::string& key) { volumes->frames = parseFrameRange(key, table.text(key, "")); });
-    read("formats", [&](const std::string& key) {
-        std::string joined;
-        for (const std::string& name : table.texts(key)) joined.append(joined.empty() ? "" : ",").append(name);
-        volumes->formats = parseFormats(joined);
-    });
-    read("resolution", [&](const std::string& key) {
-        volumes->resolution = static_cast<int>(table.integer(key, 1, mostCellsPerEdge, volumes->resolution));
-    });
-    read("region", [&](const std::string& key) { volumes->region = parseRegion(table.text(key, "")); });
-    read("vdb_precision", [&](const std::string& key) { volumes->vdbPrecision = parsePrecision(table.text(key, "")); });
+    const auto hasOneOf = [&](const auto& parameter) {
+        const auto& [name, values] = parameter;
+        const auto own = cell.parameters.find(name);
+        return own != cell.parameters.end() && std::ranges::any_of(values, [&](const std::string& value) {
+                   return canonicalParameters(findMethod(cell.method), {{name, value}}).at(name) == own->second;
+               });
+    };
+    const auto hasSize = [&](const ImageSize& size) {
+        return exception.sizes.empty() ||
+               std::ranges::any_of(exception.sizes, [&](const std::string& text) { return parseSize(text) == size; });
+    };
+    return isOneOf(cell.method, exception.methods) && isOneOf(cell.scene, exception.scenes) &&
+           isOneOf(cell.drive, exception.drives) && hasSize(cell.size) &&
+           std::ranges::all_of(exception.parameters, hasOneOf);
 }
 
-/// `metrics` asks for them; `metric_frames` says of which frames.
-void readJudging(files::TomlReader& table, std::optional<JudgingPlan>& judging) {
-    if (table.has("metrics")) {
-        if (!table.boolean("metrics", false))
-            judging.reset();
-        else if (!judging)
-            judging.emplace();
-    }
-    if (!table.has("metric_frames")) return;
-    if (!judging)
-        throw InputError(table.where("metric_frames") + "key 'metric_frames': got it without 'metrics = true'");
-    const std::string text = table.text("metric_frames", "");
-    try {
-        judging->moments = parseFrameRange("metric_frames", text);
-    } catch (const InputError& error) {
-        throw at(table.where("metric_frames"), error);
-    }
-}
-
-/// `[metric_reference.ID]`: parameters of the method's own, one value each.
-void readFinerSettings(files::TomlReader& table, Draft& draft) {
-    files::TomlReader perMethod = table.table("metric_reference");
-    for (const std::string& id : perMethod.keys()) {
-        if (std::ranges::find(draft.methods, id) == draft.methods.end())
-            throw at(perMethod.where(id), unknownName("method of this suite", id, draft.methods));
-        files::TomlReader settings = perMethod.table(id);
-        ParameterTexts& finer = draft.finerSettings[id];
-        for (const std::string& name : settings.keys()) {
-            const std::vector<std::string> values = readValues(settings, name);
-            if (values.size() != 1)
-                throw InputError(
-                    fmt::format("{}key '{}': got {} values, expected one", settings.where(name), name, values.size()));
-            try {
-                ParameterValues own(findMethod(id).parameters);
-                own.set(name, values.front());
-                finer[name] = own.canonical().at(name);
-            } catch (const InputError& error) {
-                throw at(settings.where(name), error);
-            }
-        }
-        settings.finish();
-    }
-    perMethod.finish();
-}
-
-void readDraft(files::TomlReader& table, Draft& draft) {
-    readNames(table, "methods", draft.methods, [](const std::string& id) {
-        if (id != "all") (void)findMethod(id);
-    });
-    if (std::ranges::find(draft.methods, "all") != draft.methods.end()) draft.methods = allMethods();
-    readNames(table, "scenes", draft.scenes,
-              [](const std::string& id) { (void)files::findData("scene", "scenes", id, ".toml"); });
-    readNames(table, "drives", draft.drives, [](const std::string& id) {
-        if (!id.empty()) (void)files::findData("drive", "drives", id, ".csv");
-    });
-    readNames(table, "sizes", draft.sizes, [](const std::string& size) { (void)parseSize(size); });
-
-    RunSpec& base = draft.base;
-    base.frames = table.integer("frames", 1, mostFrames, base.frames);
-    base.warmup = table.integer("warmup", 0, mostFrames, base.warmup);
-    base.seed = static_cast<std::uint64_t>(
-        table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), static_cast<std::int64_t>(base.seed)));
-    base.threads = static_cast<int>(table.integer("threads", 0, 1024, base.threads));
-    base.imagesEvery = table.integer("images", 0, mostFrames, base.imagesEvery);
-    readVolumes(table, base.volumes);
-    readJudging(table, base.judging);
-    if (table.has("sync")) base.sync = parseSync(table.choice("sync", {"frame", "stage", "none"}));
-
-    Suite& suite = draft.suite;
-    suite.title = table.text("title", suite.title);
-    suite.summary = table.text("summary", suite.summary);
-    suite.repetitions = static_cast<int>(table.integer("repetitions", 1, 1000, suite.repetitions));
-    suite.timeoutSeconds = table.number("timeout_s", 1, 1e6, suite.timeoutSeconds);
-    if (table.has("order")) suite.order = parseOrder(table.choice("order", {"interleaved", "batch"}));
-
-    if (table.has("parameters")) {
-        files::TomlReader parameters = table.table("parameters");
-        readParameters(parameters, draft.methods, draft.parameters);
-        parameters.finish();
-    }
-    if (table.has("method")) {
-        files::TomlReader perMethod = table.table("method");
-        for (const std::string& id : perMethod.keys()) {
-            if (std::ranges::find(draft.methods, id) == draft.methods.end())
-                throw at(perMethod.where(id), unknownName("method of this suite", id, draft.methods));
-            files::TomlReader parameters = perMethod.table(id);
-            auto known = std::ranges::find(draft.methodParameters, id, [](const auto& entry) { return entry.first; });
-            if (known == draft.methodParameters.end()) {
-                draft.methodParameters.emplace_back(id, ParameterLists{});
-                known = std::prev(draft.methodParameters.end());
-            }
-            readParameters(parameters, {id}, known->second);
-            parameters.finish();
-        }
-        perMethod.finish();
-    }
-    if (table.has("metric_reference")) readFinerSettings(table, draft);
-    if (table.has("compare")) suite.comparisons = readComparisons(table, draft.methods);
-}
-
-Suite multiplyOut(Draft draft) {
+/// `wholeFile`: an exception that leaves nothing out is a mistake; in `[quick]`, which has fewer cells, it is not.
+Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     requireFramesWithinRun(draft.base);
     Suite suite = std::move(draft.suite);
     for (const std::string& id : draft.methods) {
@@ -244,20 +63,25 @@ Suite multiplyOut(Draft draft) {
                     }
                 }
     }
+    for (const Exception& exception : draft.exceptions)
+        if (std::erase_if(suite.cells, [&](const PlannedRun& cell) { return covers(exception, cell.spec); }) == 0 &&
+            wholeFile)
+            throw InputError(exception.where + "except: leaves nothing out, no cell has these values");
+    if (suite.cells.empty()) throw InputError("suite: nothing is left of it by its exceptions");
     for (const PlannedComparison& comparison : suite.comparisons) (void)matchCells(suite, comparison);
     return suite;
 }
 
 Suite readSuite(files::TomlReader file, std::string id, bool quick) {
-    Draft draft;
-    readDraft(file, draft);
-    Suite suite = multiplyOut(draft);
+    SuiteDraft draft;
+    draft.read(file);
+    Suite suite = multiplyOut(draft, true);
     if (file.has("quick")) {
         // Read in any case, so that a mistake in it shows early.
         files::TomlReader table = file.table("quick");
-        readDraft(table, draft);
+        draft.read(table);
         table.finish();
-        Suite shorter = multiplyOut(std::move(draft));
+        Suite shorter = multiplyOut(std::move(draft), false);
         if (quick) suite = std::move(shorter);
     }
     file.finish();

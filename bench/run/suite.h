@@ -33,6 +33,7 @@ struct Suite {
     int repetitions = 1;
     Order order = Order::interleaved;
     double timeoutSeconds = 600;  ///< of one run
+    double cooldownSeconds = 0;   ///< of rest between two runs
     std::vector<PlannedComparison> comparisons;
 };
 

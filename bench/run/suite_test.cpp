@@ -120,6 +120,25 @@ TEST(Suite, EveryMethodOfTheBuildTakesPartWhereAllAre) {
     EXPECT_EQ(suite.cells.size(), methods().size());
 }
 
+TEST(Suite, ExceptionsLeaveOutTheCellsThatHaveAllTheirValues) {
+    const std::string text =
+        "methods = [\"null\"]\ndrives = [\"straight\", \"slalom\"]\n[parameters]\nwork = [0, 1, 2]\nspeed = [5, 10]\n"
+        "[[except]]\ndrives = [\"slalom\"]\n[except.parameters]\nwork = [1, 2.0]\n[[except]]\n[except.parameters]\n"
+        "speed = \"10\"\nwork = 0\n[quick]\ndrives = [\"straight\"]\n";
+    const Suite suite = parseSuite(text, "s.toml", false);
+    EXPECT_EQ(suite.cells.size(), 2u * 3u * 2u - 4u - 2u);
+    for (const PlannedRun& cell : suite.cells) {
+        const auto& parameters = cell.spec.parameters;
+        EXPECT_FALSE(cell.spec.drive == "slalom" && parameters.at("work") != "0");
+        EXPECT_FALSE(parameters.at("speed") == "10" && parameters.at("work") == "0");
+    }
+    EXPECT_EQ(parseSuite(text, "s.toml", true).cells.size(), 6u - 1u);
+    EXPECT_THAT(messageOf("[[except]]\nmethods = [\"nul\"]"), AllOf(HasSubstr("s.toml:2"), HasSubstr("'null'")));
+    EXPECT_THAT(messageOf("\n[[except]]\n[except.parameters]\nwrok = 1"),
+                AllOf(HasSubstr("s.toml:2"), HasSubstr("leaves nothing out")));
+    EXPECT_THAT(messageOf("[[except]]\n[except.parameters]\nspeed = 0"), HasSubstr("nothing is left"));
+}
+
 TEST(Suite, MistakesNameFileLineAndWhatIsNear) {
     EXPECT_THAT(messageOf("methods = [\n\"bilboard\"]"), AllOf(HasSubstr("s.toml:1"), HasSubstr("'billboard'")));
     EXPECT_THAT(messageOf("frames = 5\nscenes = [\"plainn\"]"), AllOf(HasSubstr("s.toml:2"), HasSubstr("'plain'")));
