@@ -38,16 +38,17 @@ ComparedSide readSide(files::TomlReader& table, const std::string& key, const st
     }
 }
 
-std::vector<std::string> readColumns(files::TomlReader& table) {
+/// `table` is an element of the array `ofWhat`.
+std::vector<std::string> readColumns(files::TomlReader& table, const std::string& ofWhat) {
+    const std::string key = "key '" + ofWhat + ".columns': ";
     const std::vector<std::string> columns = table.texts("columns");
     const std::vector<std::string> known = comparableColumns();
-    if (columns.empty())
-        throw InputError(table.where("columns") + "key 'compare.columns': got an empty array, expected names");
+    if (columns.empty()) throw InputError(table.where("columns") + key + "got an empty array, expected names");
     for (auto column = columns.begin(); column != columns.end(); ++column) {
         if (std::ranges::find(known, *column) == known.end())
             throw InputError(table.where("columns") + unknownName("column to compare", *column, known).what());
         if (std::find(columns.begin(), column, *column) != column)
-            throw InputError(table.where("columns") + "key 'compare.columns': got '" + *column + "' twice");
+            throw InputError(table.where("columns") + key + "got '" + *column + "' twice");
     }
     return columns;
 }
@@ -72,11 +73,20 @@ std::vector<PlannedComparison> readComparisons(files::TomlReader& suite, const s
         comparison.where = table.where();
         comparison.of = readSide(table, "of", methods);
         comparison.with = readSide(table, "with", methods);
-        comparison.columns = readColumns(table);
+        comparison.columns = readColumns(table, "compare");
         table.finish();
         comparisons.push_back(std::move(comparison));
     }
     return comparisons;
+}
+
+std::vector<PlannedFit> readFits(files::TomlReader& suite) {
+    std::vector<PlannedFit> fits;
+    for (files::TomlReader& table : suite.tables("fit")) {
+        fits.push_back({readColumns(table, "fit"), table.text("against"), table.where()});
+        table.finish();
+    }
+    return fits;
 }
 
 }  // namespace dustbench::bench

@@ -1,4 +1,5 @@
-// What a suite's `[[compare]]` table asks for: the times of one method against those of another.
+// What a suite's `[[compare]]` and `[[fit]]` tables ask for: the times of one method against those of another, and
+// times against a load.
 #pragma once
 
 #include <string>
@@ -26,6 +27,15 @@ struct PlannedComparison {
 /// InputError with file and line.
 [[nodiscard]] std::vector<PlannedComparison> readComparisons(files::TomlReader& suite,
                                                              const std::vector<std::string>& methods);
+
+struct PlannedFit {
+    std::vector<std::string> columns;  ///< of summary.csv
+    std::string against;               ///< the parameter that is the load
+    std::string where;                 ///< `file:line: `, for messages
+};
+
+/// The `[[fit]]` tables, none where the key is missing or an empty array. Throws InputError with file and line.
+[[nodiscard]] std::vector<PlannedFit> readFits(files::TomlReader& suite);
 
 /// The columns of summary.csv that can be compared: times, and rates as the time a frame takes.
 [[nodiscard]] std::vector<std::string> comparableColumns();

@@ -6,6 +6,7 @@
 
 #include "bench/run/suite_comparison.h"
 #include "bench/run/suite_draft.h"
+#include "bench/run/suite_fit.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/files/data_folder.h"
 #include "methods/shared/files/toml_reader.h"
@@ -69,6 +70,7 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
             throw InputError(exception.where + "except: leaves nothing out, no cell has these values");
     if (suite.cells.empty()) throw InputError("suite: nothing is left of it by its exceptions");
     for (const PlannedComparison& comparison : suite.comparisons) (void)matchCells(suite, comparison);
+    for (const PlannedFit& fit : suite.fits) (void)cellsByLoad(suite, fit);
     return suite;
 }
 

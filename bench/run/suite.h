@@ -35,6 +35,7 @@ struct Suite {
     double timeoutSeconds = 600;  ///< of one run
     double cooldownSeconds = 0;   ///< of rest between two runs
     std::vector<PlannedComparison> comparisons;
+    std::vector<PlannedFit> fits;
 };
 
 /// `id` of a suite in the data folder, or a path. `quick` takes the file's `[quick]` values. Throws InputError with

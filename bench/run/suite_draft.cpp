@@ -220,6 +220,7 @@ void SuiteDraft::read(files::TomlReader& table) {
     }
     if (table.has("metric_reference")) readFinerSettings(table, *this);
     if (table.has("except")) readExceptions(table, *this);
+    if (table.has("fit")) suite.fits = readFits(table);
     if (table.has("compare")) suite.comparisons = readComparisons(table, methods);
 }
 

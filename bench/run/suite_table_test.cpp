@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "bench/judge/judgement.h"
+#include "bench/run/suite_fit.h"
 #include "bench/run/summary.h"
+#include "methods/shared/errors.h"
 
 namespace dustbench::bench {
 namespace {
@@ -103,6 +105,40 @@ TEST(SuiteTable, NumbersKeepFourDigits) {
 TEST(Summary, HasAColumnForEveryMetric) {
     for (const MetricInfo& metric : metricInfos())
         EXPECT_THAT(columnsAfterParameters(), testing::Contains(std::string(metric.column)));
+}
+
+TEST(SuiteFit, MakesOneCurveOfAllRunsThatAreEqualButForTheLoad) {
+    Suite suite;
+    suite.repetitions = 2;
+    suite.fits = {{{"frame_ms_median", "fps_avg"}, "particles", ""}};
+    StoredRuns runs;
+    for (const char* method : {"haze", "mist"})
+        for (const int particles : {100, 200, 400, 800})
+            for (const int repetition : {1, 2}) {
+                PlannedRun cell = cellOf(method, std::to_string(particles), {});
+                cell.spec.repetition = repetition;
+                const double ms = method == std::string("haze") ? 5 + 0.01 * particles : 3;
+                StoredRun& run = runs[runId(cell.spec)];
+                run.cells = {{"frame_ms_median", std::to_string(ms)}, {"fps_avg", std::to_string(1000 / ms)}};
+                if (repetition == 1) suite.cells.push_back(cell);
+            }
+    const auto results = fitSuite(suite, runs);
+    ASSERT_EQ(results.size(), 1u);
+    ASSERT_EQ(results[0].curves.size(), 4u);
+    const TextRows table = tabulate(results[0]);
+    for (const std::size_t row : {0u, 2u}) {
+        EXPECT_EQ(cellAt(table, row, "method"), "haze");
+        EXPECT_EQ(cellAt(table, row, "loads"), "4");
+        EXPECT_EQ(cellAt(table, row, "runs"), "8");
+        EXPECT_EQ(cellAt(table, row, "note"), "");
+        const CostFit& fit = results[0].curves[row].fit;
+        EXPECT_NEAR(fit.fixedMs.value, 5, 1e-3);
+        EXPECT_NEAR(fit.exponent.value, 1, 1e-4);
+    }
+    EXPECT_EQ(cellAt(table, 1, "method"), "mist");
+    EXPECT_NE(cellAt(table, 1, "note"), "");
+    suite.fits[0].against = "sort";
+    EXPECT_THROW((void)cellsByLoad(suite, suite.fits[0]), InputError);
 }
 
 }  // namespace
