@@ -1,6 +1,7 @@
 #include "bench/measure/cost_fit.h"
 
 #include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <set>
@@ -62,6 +63,25 @@ double bestExponent(std::span<const CostPoint> points) {
     return (low + high) / 2;
 }
 
+/// Σ residual² of the best constant.
+double squaresOfConstant(std::span<const CostPoint> points) {
+    double s0 = 0, sy = 0, squares = 0;
+    for (const auto& [load, ms] : points) {
+        s0 += 1 / (ms * ms);
+        sy += 1 / ms;
+    }
+    for (const auto& [load, ms] : points) squares += (1 - sy / s0 / ms) * (1 - sy / s0 / ms);
+    return squares;
+}
+
+/// Whether two more parameters explain more than scatter would, by the F test at 5 %.
+bool growthIsResolved(double constant, double curve, double freedom) {
+    constexpr double roundOff = 1e-20;
+    if (freedom < 1 || constant < roundOff * freedom) return false;
+    const double quantile = boost::math::quantile(boost::math::fisher_f(2, freedom), intervalConfidence);
+    return constant - curve > 2 * quantile * curve / freedom;
+}
+
 }  // namespace
 
 CostFit fitCost(std::span<const CostPoint> points) {
@@ -80,6 +100,12 @@ CostFit fitCost(std::span<const CostPoint> points) {
     const double k = bestExponent(points);
     const Line line = fitLine(points, k);
     const double margin = 1e-3;
+    const bool withFixed = line.a > 0;
+    const auto freedom = static_cast<double>(points.size()) - (withFixed ? 3 : 2);
+    if (!growthIsResolved(squaresOfConstant(points), line.squares, freedom)) {
+        fit.reason = "no growth with the load stands out from the scatter";
+        return fit;
+    }
     if (!(line.b > 0) || k < leastExponent + margin || k > greatestExponent - margin) {
         fit.reason = "the cost does not grow with the load as a power of it";
         return fit;
@@ -88,7 +114,6 @@ CostFit fitCost(std::span<const CostPoint> points) {
     fit.factor.value = line.b;
     fit.exponent.value = k;
 
-    const bool withFixed = line.a > 0;
     glm::dmat3 normal(0);  // JᵀJ in the order a, b, k
     for (const auto& [load, ms] : points) {
         const double x = std::pow(load, k);
@@ -96,8 +121,6 @@ CostFit fitCost(std::span<const CostPoint> points) {
         normal += glm::outerProduct(gradient, gradient);
     }
     if (!withFixed) normal[0][0] = 1;
-    const auto freedom = static_cast<double>(points.size()) - (withFixed ? 3 : 2);
-    if (freedom < 1) return fit;
     fit.relativeError = std::sqrt(line.squares / freedom);
 
     // Scaled to a diagonal of ones before it is inverted: the three differ by orders of magnitude.

@@ -74,6 +74,13 @@ TEST(CostFit, DoesNotDependOnTheUnitOfTheLoad) {
     EXPECT_NEAR(thousands.fixedMs.value, fit.fixedMs.value, 1e-5);
 }
 
+TEST(CostFit, ScatterAloneIsNoGrowth) {
+    int grown = 0;
+    for (std::uint32_t experiment = 0; experiment < 300; ++experiment)
+        grown += fitCost(runs(12, 0, 1, 0.03, experiment)).reason.empty() ? 1 : 0;
+    EXPECT_LE(grown, 30);  // the exponent is free, so a few more than 5 %
+}
+
 TEST(CostFit, SaysWhyThereIsNone) {
     EXPECT_NE(fitCost({}).reason, "");
     EXPECT_EQ(fitCost(std::vector<CostPoint>{{1, 1}, {2, 2}, {3, 3}, {3, 3.1}}).reason, "fewer than 4 different loads");
