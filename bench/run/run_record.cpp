@@ -209,6 +209,13 @@ StoredRun readRunFile(const std::filesystem::path& file) {
         for (const auto& [name, value] : json.at("parameters").items()) run.parameters[name] = cellText(value);
         for (const auto& [name, value] : json.at("summary").items()) run.cells[name] = cellText(value);
         for (const Json& warning : json.at("warnings")) run.warnings.push_back(warning.get<std::string>());
+        run.stateHash = cellText(json.at("state_hash"));
+        run.methodHash = cellText(json.at("method_hash"));
+        const Json& provenance = json.at("provenance");
+        for (const auto& [name, value] : provenance.items())
+            if (value.is_primitive()) run.provenance[name] = cellText(value);
+        for (const Json& input : provenance.at("inputs"))
+            run.inputs.push_back({input.at("file").get<std::string>(), input.at("sha256").get<std::string>()});
         return run;
     } catch (const std::exception& error) {
         throw InputError(file.string() + ": is no run.json of dustbench: " + error.what());

@@ -67,6 +67,10 @@ struct StoredRun {
     ParameterTexts parameters;
     std::map<std::string, std::string, std::less<>> cells;  ///< by column of summary.csv
     std::vector<std::string> warnings{};
+    std::string stateHash{}, methodHash{};  ///< empty where the run did not get there, or has none
+    /// By field: `cpu`, `build_type`, `key` …, but for the inputs.
+    std::map<std::string, std::string, std::less<>> provenance{};
+    std::vector<InputHash> inputs{};
 };
 /// Throws InputError with the file where it is no such thing.
 [[nodiscard]] StoredRun readRunFile(const std::filesystem::path& file);
