@@ -73,6 +73,11 @@ fs::path ResultsFolder::beginRun(const std::string& runId) {
 }
 
 void ResultsFolder::publish(const std::string& runId) {
+    place(runId);
+    writeSummary();
+}
+
+void ResultsFolder::place(const std::string& runId) {
     StoredRun run = readRunFile(hidden(runId) / "run.json");
     const fs::path old = folder_ / "runs" / fmt::format("{}{}", oldStart, runId);
     std::error_code error;
@@ -85,7 +90,6 @@ void ResultsFolder::publish(const std::string& runId) {
     if (error) throw cannotWrite(runFolder(runId), error.message());
     fs::remove_all(old, error);
     runs_[runId] = std::move(run);
-    writeSummary();
 }
 
 void ResultsFolder::discard(const std::string& runId) {
