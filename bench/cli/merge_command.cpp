@@ -36,8 +36,8 @@ void sayWhereMachinesDiffer(const bench::StoredRuns& runs) {
 }
 
 int mergeFolders(const MergeOptions& options) {
-    const std::vector<fs::path> sources(options.sources.begin(), options.sources.end());
-    for (const fs::path& source : sources) (void)bench::readStoredRuns(source);  // before the output is made
+    std::vector<bench::MergeSource> sources;
+    for (const std::string& folder : options.sources) sources.emplace_back(folder, bench::readStoredRuns(folder));
     bench::ResultsFolder results(options.out);
     const bench::MergePlan plan = bench::planMerge(sources, results);
     bench::requireSpace(plan, results.path(), fs::space(results.path()).available);

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <map>
 
-#include "bench/run/stored_folder.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::bench {
@@ -34,12 +33,12 @@ void requireEqual(const std::string& runId, const fs::path& first, const fs::pat
 
 }  // namespace
 
-MergePlan planMerge(const std::vector<fs::path>& sources, const ResultsFolder& results) {
+MergePlan planMerge(const std::vector<MergeSource>& sources, const ResultsFolder& results) {
     MergePlan plan;
     std::map<std::string, fs::path> places;
     for (const auto& [id, run] : results.runs()) places[id] = results.runFolder(id);
-    for (const fs::path& source : sources)
-        for (const auto& [id, run] : readStoredRuns(source)) {
+    for (const auto& [source, runs] : sources)
+        for (const auto& [id, run] : runs) {
             const fs::path from = source / "runs" / id;
             try {
                 const auto [known, isNew] = places.emplace(id, from);

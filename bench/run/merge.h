@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "bench/run/cell_results.h"
 #include "bench/run/results_folder.h"
 
 namespace dustbench::bench {
@@ -21,10 +23,13 @@ struct MergePlan {
     std::uintmax_t bytes = 0;
 };
 
+/// A results folder and what readStoredRuns found in it.
+using MergeSource = std::pair<std::filesystem::path, StoredRuns>;
+
 /// Looks at everything before anything is written. One result of a run is enough where all are equal (the same run.json
 /// byte by byte, the same files by name and size). Throws InputError with the folder where one is missing or a run in
 /// it cannot be read, and with both places where there are two results of one run.
-[[nodiscard]] MergePlan planMerge(const std::vector<std::filesystem::path>& sources, const ResultsFolder& results);
+[[nodiscard]] MergePlan planMerge(const std::vector<MergeSource>& sources, const ResultsFolder& results);
 
 /// Throws InputError with both numbers where the copies do not fit.
 void requireSpace(const MergePlan& plan, const std::filesystem::path& folder, std::uintmax_t availableBytes);

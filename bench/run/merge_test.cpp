@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "bench/run/stored_folder.h"
 #include "bench/run/summary.h"
 #include "methods/shared/errors.h"
 
@@ -38,7 +39,12 @@ class Merge : public testing::Test {
         fs::create_directories(file.parent_path());
         std::ofstream(file, std::ios::binary) << text;
     }
-    static std::string read(const fs::path& file) {
+    static std::vector<MergeSource> read(const std::vector<fs::path>& folders) {
+        std::vector<MergeSource> sources;
+        for (const fs::path& folder : folders) sources.emplace_back(folder, readStoredRuns(folder));
+        return sources;
+    }
+    static std::string content(const fs::path& file) {
         std::ifstream stream(file, std::ios::binary);
         return {std::istreambuf_iterator<char>(stream), {}};
     }
@@ -58,14 +64,14 @@ class Merge : public testing::Test {
     }
     [[nodiscard]] MergePlan mergeInto(const fs::path& out, const std::vector<fs::path>& sources) const {
         ResultsFolder folder(out);
-        MergePlan plan = planMerge(sources, folder);
+        MergePlan plan = planMerge(read(sources), folder);
         EXPECT_TRUE(merge(plan, folder, [] { return false; }));
         return plan;
     }
     [[nodiscard]] std::string refusal(const std::vector<fs::path>& sources) const {
         try {
             ResultsFolder folder(folder_ / "out");
-            (void)planMerge(sources, folder);
+            (void)planMerge(read(sources), folder);
         } catch (const InputError& error) {
             return error.what();
         }
@@ -82,10 +88,10 @@ TEST_F(Merge, GivesTheRowsOfOneMachine) {
     write(shards[0] / "runs" / ".unfinished-x" / "run.json", "{");
     const MergePlan plan = mergeInto(folder_ / "out", shards);
     EXPECT_EQ(plan.copies.size(), 5u);
-    EXPECT_EQ(read(folder_ / "out" / "summary.csv"), read(whole / "summary.csv"));
+    EXPECT_EQ(content(folder_ / "out" / "summary.csv"), content(whole / "summary.csv"));
     for (int seed = 1; seed <= 5; ++seed)
         for (const char* file : {"run.json", "frames.csv", "images/f000000.png"})
-            EXPECT_EQ(read(runFolder(folder_ / "out", seed) / file), read(runFolder(whole, seed) / file));
+            EXPECT_EQ(content(runFolder(folder_ / "out", seed) / file), content(runFolder(whole, seed) / file));
     EXPECT_TRUE(fs::exists(shards[0] / "runs" / ".unfinished-x"));
     EXPECT_FALSE(fs::exists(folder_ / "out" / "runs" / ".unfinished-x"));
 }
@@ -98,12 +104,12 @@ TEST_F(Merge, TakesEqualResultsOnceAndGoesOnWhereItWas) {
     // As a kill leaves it: one run not yet there, one half copied, no summary.
     fs::remove_all(runFolder(folder_ / "out", 3));
     write(folder_ / "out" / "runs" / (".unfinished-" + runId(spec(3))) / "run.json", "{");
-    const std::string summary = read(folder_ / "out" / "summary.csv");
+    const std::string summary = content(folder_ / "out" / "summary.csv");
     fs::remove(folder_ / "out" / "summary.csv");
     plan = mergeInto(folder_ / "out", {a, b});
     EXPECT_EQ(plan.copies.size(), 1u);
     EXPECT_EQ(plan.there, 3u);
-    EXPECT_EQ(read(folder_ / "out" / "summary.csv"), summary);
+    EXPECT_EQ(content(folder_ / "out" / "summary.csv"), summary);
     EXPECT_TRUE(mergeInto(folder_ / "out", {folder_ / "out"}).copies.empty());
 }
 
@@ -112,7 +118,7 @@ TEST_F(Merge, AnInterruptionLosesNothing) {
     {
         ResultsFolder out(folder_ / "out");
         int asked = 0;
-        EXPECT_FALSE(merge(planMerge({a}, out), out, [&asked] { return ++asked > 2; }));
+        EXPECT_FALSE(merge(planMerge(read({a}), out), out, [&asked] { return ++asked > 2; }));
         EXPECT_EQ(out.runs().size(), 2u);
     }
     EXPECT_EQ(mergeInto(folder_ / "out", {a}).copies.size(), 1u);
@@ -146,7 +152,7 @@ TEST_F(Merge, NamesWhatIsMissingOrBroken) {
 TEST_F(Merge, SaysWhereItDoesNotFit) {
     const fs::path a = results("a", {1, 2});
     ResultsFolder out(folder_ / "out");
-    const MergePlan plan = planMerge({a}, out);
+    const MergePlan plan = planMerge(read({a}), out);
     std::uintmax_t bytes = 0;
     for (const auto& entry : fs::recursive_directory_iterator(a))
         if (entry.is_regular_file()) bytes += entry.file_size();
