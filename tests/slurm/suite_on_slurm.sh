@@ -35,11 +35,15 @@ finish() {
             [[ ! -s $log ]] || { echo "== $log"; tail -n 40 "$log"; }
         done
     fi
-    if ((${#daemons[@]} > 0)); then
-        # slurmd first: it ends what still runs of its jobs.
-        for ((i = ${#daemons[@]} - 1; i >= 0; --i)); do
-            kill "${daemons[i]}" 2> /dev/null || true
+    # Jobs outlive slurmd, so they go first.
+    if [[ -n ${array:-} ]] && scancel "$array" "$merging" 2> /dev/null; then
+        for ((i = 0; i < 100; ++i)); do
+            [[ -n $(squeue --noheader 2> /dev/null) ]] || break
+            sleep 0.1
         done
+    fi
+    if ((${#daemons[@]} > 0)); then
+        kill "${daemons[@]}" 2> /dev/null || true
         for ((i = 0; i < 50; ++i)); do
             kill -0 "${daemons[@]}" 2> /dev/null || break
             sleep 0.1
