@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "bench/run/folder_remarks.h"
 #include "bench/run/planned_comparison.h"
