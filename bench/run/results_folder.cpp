@@ -81,7 +81,9 @@ void ResultsFolder::readRuns() {
     for (const fs::path& folder : folders) {
         const std::string name = folder.filename();
         try {
-            runs_[name] = readRunFile(folder / "run.json");
+            StoredRun run = readRunFile(folder / "run.json");
+            if (run.runId != name) throw InputError(fmt::format("{}: holds the run '{}'", folder.string(), run.runId));
+            runs_[name] = std::move(run);
         } catch (const InputError& damage) {
             fs::path aside = folder.parent_path() / fmt::format("{}{}", asideStart, name);
             for (int i = 2; fs::exists(aside); ++i)
@@ -109,6 +111,11 @@ fs::path ResultsFolder::beginRun(const std::string& runId) {
 }
 
 void ResultsFolder::publish(const std::string& runId) {
+    place(runId);
+    writeSummary();
+}
+
+void ResultsFolder::place(const std::string& runId) {
     StoredRun run = readRunFile(hidden(runId) / "run.json");
     const fs::path old = folder_ / "runs" / fmt::format("{}{}", oldStart, runId);
     std::error_code error;
@@ -121,7 +128,6 @@ void ResultsFolder::publish(const std::string& runId) {
     if (error) throw cannotWrite(runFolder(runId), error.message());
     fs::remove_all(old, error);
     runs_[runId] = std::move(run);
-    writeSummary();
 }
 
 void ResultsFolder::discard(const std::string& runId) {

@@ -34,6 +34,8 @@ class ResultsFolder {
     /// Makes the hidden folder, with its run.json, the run's; an older result under the same id goes. Then rewrites
     /// summary.csv.
     void publish(const std::string& runId);
+    /// The same without summary.csv, for whoever has many of them.
+    void place(const std::string& runId);
     void discard(const std::string& runId);
 
     /// All runs that are there, one row each, in the order of their ids; p.… columns are the union of all parameters.

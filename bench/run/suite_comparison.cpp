@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "bench/run/measured_on.h"
 #include "bench/run/suite_axes.h"
 #include "methods/shared/errors.h"
 
@@ -42,7 +43,19 @@ std::optional<double> logRatio(const CellPair& pair, int repetition, const std::
     return isRate(column) ? -difference : difference;
 }
 
-CellVerdict judged(std::vector<std::string> at, const std::vector<double>& logRatios, Order order) {
+/// Where both runs are done on different machines: in what they differ. Else empty.
+std::string otherMachine(const CellPair& pair, int repetition, const StoredRuns& runs) {
+    const StoredRun* of = doneRun(*pair.of, repetition, runs);
+    const StoredRun* with = doneRun(*pair.with, repetition, runs);
+    if (!of || !with) return {};
+    const auto found = differences(*of, *with, machineFields());
+    if (found.empty()) return {};
+    return fmt::format("pairs of different machines were left out ({}: '{}' and '{}')", found.front().field,
+                       found.front().first, found.front().second);
+}
+
+CellVerdict judged(std::vector<std::string> at, const std::vector<double>& logRatios, Order order,
+                   const std::string& leftOut) {
     CellVerdict verdict{std::move(at), judgeLogRatios(logRatios), ""};
     if (logRatios.empty())
         verdict.reason = "no paired runs with a time above 0";
@@ -53,6 +66,7 @@ CellVerdict judged(std::vector<std::string> at, const std::vector<double>& logRa
         verdict.result.verdict = Verdict::unresolved;
         verdict.reason = "the runs were not interleaved";
     }
+    if (!leftOut.empty()) verdict.reason += (verdict.reason.empty() ? "" : "; ") + leftOut;
     return verdict;
 }
 
@@ -63,21 +77,27 @@ ColumnVerdict judgeColumn(const Suite& suite, const MatchedCells& matched, const
     std::vector<double> sums(rounds, 0);
     std::vector<std::size_t> counts(rounds, 0);
     std::size_t measured = 0;
+    std::string leftOutOfAny;
     for (const CellPair& pair : matched.pairs) {
         std::vector<double> logRatios;
-        for (std::size_t round = 0; round < rounds; ++round)
-            if (const auto x = logRatio(pair, static_cast<int>(round) + 1, column, runs)) {
+        std::string leftOut;
+        for (std::size_t round = 0; round < rounds; ++round) {
+            const int repetition = static_cast<int>(round) + 1;
+            if (std::string why = otherMachine(pair, repetition, runs); !why.empty()) {
+                leftOut = leftOutOfAny = std::move(why);
+            } else if (const auto x = logRatio(pair, repetition, column, runs)) {
                 logRatios.push_back(*x);
                 sums[round] += *x;
                 ++counts[round];
             }
+        }
         if (!logRatios.empty()) ++measured;
-        verdict.cells.push_back(judged(pair.at, logRatios, suite.order));
+        verdict.cells.push_back(judged(pair.at, logRatios, suite.order, leftOut));
     }
     std::vector<double> means;
     for (std::size_t round = 0; round < rounds; ++round)
         if (measured > 0 && counts[round] == measured) means.push_back(sums[round] / static_cast<double>(measured));
-    verdict.overall = judged(std::vector<std::string>(matched.axes.size()), means, suite.order);
+    verdict.overall = judged(std::vector<std::string>(matched.axes.size()), means, suite.order, leftOutOfAny);
     return verdict;
 }
 

@@ -3,7 +3,8 @@
 // Cells are paired that show their methods the same world: scene, drive, size and the world's parameters are equal, and
 // so are the methods' own parameters where the suite varies them on both sides. Parameters that a side names
 // (`octree_search layout=morton`) are left out of this. Repetition k of the one is paired with repetition k of the
-// other; both ran in the same round, which is why a suite in batches resolves nothing.
+// other; both ran in the same round, which is why a suite in batches resolves nothing. Two runs of different machines
+// (merged folders can have such) are no pair.
 #pragma once
 
 #include <string>
@@ -33,7 +34,7 @@ struct MatchedCells {
 struct CellVerdict {
     std::vector<std::string> at;  ///< a value for each axis; all empty for all cells together
     PairedComparison result;
-    std::string reason;  ///< why too little is there for a verdict; empty where it is not so
+    std::string reason;  ///< why too little is there for a verdict, or what was left out; else empty
 };
 
 /// One column of summary.csv. All together: each round gives one ratio, the geometric mean over the pairs of cells, and

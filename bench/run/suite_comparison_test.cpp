@@ -82,6 +82,27 @@ TEST(SuiteComparison, PairsTheCellsThatShowTheSameWorldInTheSameSetting) {
     EXPECT_EQ(at.size(), 4u);
 }
 
+TEST(SuiteComparison, RunsOfDifferentMachinesAreNoPair) {
+    const Suite suite = parseSuite(twoSorts, "s", false);
+    StoredRuns runs = runsOf(suite, ratioIs(0.5));
+    const PlannedRun* moved = nullptr;
+    for (const PlannedRun& cell : suite.cells)
+        if (!moved && cell.spec.parameters.at("sort") == "radix") moved = &cell;
+    runs.at(runId(inRepetition(moved->spec, 2))).provenance["cpu"] = "another";
+    const ColumnVerdict column = compareSuite(suite, runs).at(0).columns.at(0);
+    int touched = 0;
+    for (const CellVerdict& cell : column.cells) {
+        if (cell.result.pairs == 6) continue;
+        ++touched;
+        EXPECT_EQ(cell.result.pairs, 5u);
+        EXPECT_EQ(cell.result.verdict, Verdict::unresolved);
+        EXPECT_THAT(cell.reason, HasSubstr("5 paired runs, 6 are needed; pairs of different machines were left out"));
+    }
+    EXPECT_EQ(touched, 1);
+    EXPECT_EQ(column.overall.result.pairs, 5u);
+    EXPECT_THAT(column.overall.reason, HasSubstr("'another'"));
+}
+
 TEST(SuiteComparison, ASettingThatOneSideAloneVariesIsComparedForEachOfItsValues) {
     // As methods do that lack each other's parameters: the one is at `texture` all the time.
     Suite suite = parseSuite(twoSorts, "s", false);
