@@ -78,7 +78,7 @@ int printPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, const
             ++toDo;
             bytes += bench::mostBytesOf(run.spec);
         }
-        std::cout << fmt::format("{:<8}  {}  {} {} {}{}rep {}/{}\n", state, id, run.spec.method, run.spec.scene,
+        std::cout << fmt::format("{}  {:<8}  {} {} {}{}rep {}/{}\n", id, state, run.spec.method, run.spec.scene,
                                  run.label, run.label.empty() ? "" : " ", run.spec.repetition, repetitions);
     }
     std::cerr << fmt::format("{} runs, {} to do, which take {} at most\n", plan.size(), toDo, bench::bytesText(bytes));

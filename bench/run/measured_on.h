@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/run/run_record.h"
+#include "bench/run/stored_run.h"
 
 namespace dustbench::bench {
 
