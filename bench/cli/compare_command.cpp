@@ -15,7 +15,7 @@
 #include "bench/cli/suite_report.h"
 #include "bench/cli/world_options.h"
 #include "bench/run/comparison_sheet.h"
-#include "bench/run/method_comparison.h"
+#include "bench/suite/method_comparison.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::cli {

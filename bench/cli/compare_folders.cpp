@@ -9,9 +9,9 @@
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/text_table.h"
 #include "bench/export/whole_file.h"
-#include "bench/run/folder_comparison_table.h"
-#include "bench/run/planned_comparison.h"
-#include "bench/run/stored_folder.h"
+#include "bench/regression/folder_comparison_table.h"
+#include "bench/results/stored_folder.h"
+#include "bench/suite/planned_comparison.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::cli {

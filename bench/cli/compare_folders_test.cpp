@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "bench/cli/called_program.h"
-#include "bench/run/run_record.h"
+#include "bench/results/run_record.h"
 #include "methods/shared/files/csv.h"
 
 namespace dustbench::cli {

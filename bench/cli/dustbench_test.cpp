@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "bench/cli/called_program.h"
-#include "bench/run/stored_run.h"
+#include "bench/results/stored_run.h"
 #include "methods/shared/files/csv.h"
 #include "methods/shared/registry.h"
 #include "methods/shared/stage_clock.h"

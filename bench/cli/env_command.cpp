@@ -9,8 +9,8 @@
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/measure/energy_counter.h"
+#include "bench/results/run_record.h"
 #include "bench/run/harness_cost.h"
-#include "bench/run/run_record.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/gpu/timer_query.h"
 

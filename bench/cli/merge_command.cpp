@@ -8,9 +8,9 @@
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/interruption.h"
-#include "bench/run/measured_on.h"
-#include "bench/run/merge.h"
-#include "bench/run/stored_folder.h"
+#include "bench/results/measured_on.h"
+#include "bench/results/merge.h"
+#include "bench/results/stored_folder.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::cli {

@@ -11,8 +11,8 @@
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/suite_report.h"
-#include "bench/run/paper.h"
-#include "bench/run/suite.h"
+#include "bench/suite/paper.h"
+#include "bench/suite/suite.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::cli {

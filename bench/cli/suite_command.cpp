@@ -14,11 +14,11 @@
 #include "bench/cli/suite_report.h"
 #include "bench/cli/volume_options.h"
 #include "bench/measure/provenance.h"
-#include "bench/run/disk_need.h"
-#include "bench/run/freshness.h"
-#include "bench/run/shard.h"
-#include "bench/run/stored_folder.h"
-#include "bench/run/suite.h"
+#include "bench/results/disk_need.h"
+#include "bench/results/freshness.h"
+#include "bench/results/stored_folder.h"
+#include "bench/suite/shard.h"
+#include "bench/suite/suite.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::cli {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "bench/cli/text_table.h"
-#include "bench/run/suite_comparison.h"
-#include "bench/run/suite_fit.h"
-#include "bench/run/suite_table.h"
+#include "bench/suite/suite_comparison.h"
+#include "bench/suite/suite_fit.h"
+#include "bench/suite/suite_table.h"
 
 namespace dustbench::cli {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "bench/run/cell_results.h"
-#include "bench/run/suite.h"
+#include "bench/suite/cell_results.h"
+#include "bench/suite/suite.h"
 
 namespace dustbench::cli {
 

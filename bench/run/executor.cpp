@@ -5,11 +5,11 @@
 #include <chrono>
 #include <thread>
 
+#include "bench/results/disk_need.h"
+#include "bench/results/freshness.h"
+#include "bench/results/summary.h"
 #include "bench/run/child_process.h"
-#include "bench/run/disk_need.h"
-#include "bench/run/freshness.h"
 #include "bench/run/remaining_time.h"
-#include "bench/run/summary.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::bench {

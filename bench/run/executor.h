@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/run/results_folder.h"
-#include "bench/run/run_record.h"
-#include "bench/run/suite.h"
+#include "bench/results/results_folder.h"
+#include "bench/results/run_record.h"
+#include "bench/suite/suite.h"
 
 namespace dustbench::bench {
 

@@ -13,10 +13,10 @@
 #include <string>
 #include <thread>
 
+#include "bench/results/freshness.h"
+#include "bench/results/summary.h"
 #include "bench/run/executor.h"
-#include "bench/run/freshness.h"
 #include "bench/run/remaining_time.h"
-#include "bench/run/summary.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/files/csv.h"
 #include "methods/shared/maths/philox.h"

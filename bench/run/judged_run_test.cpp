@@ -5,8 +5,8 @@
 
 #include <map>
 
-#include "bench/run/suite.h"
 #include "bench/scene/test_folder.h"
+#include "bench/suite/suite.h"
 #include "methods/shared/files/csv.h"
 #include "methods/shared/registry.h"
 

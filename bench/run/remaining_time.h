@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/suite.h"
+#include "bench/suite/suite.h"
 
 namespace dustbench::bench {
 
