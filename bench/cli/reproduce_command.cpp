@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 
+#include "bench/claims/claim_ledger.h"
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
@@ -14,6 +15,7 @@
 #include "bench/suite/paper.h"
 #include "bench/suite/suite.h"
 #include "methods/shared/errors.h"
+#include "methods/shared/files/csv.h"
 
 namespace dustbench::cli {
 namespace {
@@ -49,7 +51,10 @@ int reproduce(const ReproduceOptions& options) {
             code = std::max(code, suiteCode);
             std::cout << "\n" << suiteReport(suite, results.runs()) << std::flush;
         }
-        std::cout << "\n" << (results.path() / "summary.csv").string() << "\n";
+        const auto claims = bench::judgeClaims(paper.id, files::CsvTable::parseFile(results.path() / "summary.csv"));
+        bench::writeWhole(results.path() / "claims.csv", bench::claimsCsv(claims));
+        std::cout << "\n" << claimsReport(claims);
+        for (const char* file : {"summary.csv", "claims.csv"}) std::cout << (results.path() / file).string() << "\n";
     }
     return code;
 }

@@ -53,4 +53,9 @@ std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs
     return text;
 }
 
+std::string claimsReport(const std::vector<bench::JudgedClaim>& claims) {
+    if (claims.empty()) return "";
+    return "claims\n" + textOf(bench::tabulate(claims));
+}
+
 }  // namespace dustbench::cli
