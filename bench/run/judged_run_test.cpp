@@ -6,7 +6,7 @@
 #include <map>
 
 #include "bench/run/suite.h"
-#include "bench/scene/test_folder.h"
+#include "methods/shared/test_folder.h"
 #include "methods/shared/files/csv.h"
 #include "methods/shared/registry.h"
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "bench/scene/test_folder.h"
+#include "methods/shared/test_folder.h"
 #include "methods/shared/registry.h"
 
 namespace dustbench::bench {
