@@ -6,9 +6,9 @@
 
 #include "bench/scene/car_model.h"
 #include "bench/scene/height_image.h"
-#include "methods/shared/scene/mesh_file.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/files/toml_reader.h"
+#include "methods/shared/scene/mesh_file.h"
 
 namespace dustbench::bench {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "methods/shared/test_folder.h"
 #include "methods/shared/files/data_folder.h"
+#include "methods/shared/test_folder.h"
 
 namespace dustbench::bench {
 namespace {
