@@ -1,6 +1,7 @@
 #include "methods/voxel_shape/voxels/slice_pass.h"
 
 #include <memory>
+#include <type_traits>
 
 #include "methods/shared/draw/solid_mesh.h"
 #include "methods/shared/gpu/framebuffer.h"
@@ -51,6 +52,27 @@ MarkedVoxels slicePass(gpu::Device& device, const scene::Mesh& mesh, const Latti
                 result.marked[first + i] = 1;
                 result.colours[first + i] = {colours[4 * i], colours[4 * i + 1], colours[4 * i + 2]};
             }
+    }
+    return result;
+}
+
+MarkedVoxels slicesAlongAllAxes(gpu::Device& device, const scene::Mesh& mesh, const Lattice& lattice) {
+    MarkedVoxels result(lattice);
+    for (int turns = 0; turns < 3; ++turns) {
+        // (x, y, z) → (y, z, x), `turns` times: the axis looked along is another each time.
+        const auto turned = [turns](const auto& v) {
+            return std::decay_t<decltype(v)>(v[turns % 3], v[(turns + 1) % 3], v[(turns + 2) % 3]);
+        };
+        scene::Mesh turnedMesh = mesh;
+        for (glm::vec3& position : turnedMesh.positions) position = turned(position);
+        const MarkedVoxels found =
+            slicePass(device, turnedMesh, {turned(lattice.counts), turned(lattice.origin), lattice.edgeMetres});
+        for (std::uint32_t i = 0; i < lattice.size(); ++i) {
+            const std::uint32_t there = found.lattice.index(turned(lattice.cell(i)));
+            if (!found.marked[there] || result.marked[i]) continue;
+            result.marked[i] = 1;
+            result.colours[i] = found.colours[there];
+        }
     }
     return result;
 }

@@ -11,8 +11,12 @@
 
 namespace dustbench::voxel_shape {
 
-/// What the buffers are cleared to before each layer; the result does not depend on it.
+/// Along z, as in the paper. `background`: what the buffers are cleared to before each layer; the result does not
+/// depend on it.
 [[nodiscard]] MarkedVoxels slicePass(gpu::Device& device, const scene::Mesh& mesh, const Lattice& lattice,
                                      const glm::vec3& background = glm::vec3(0));
+
+/// Departs from the paper: along x, y and z, so that no face is missed for being seen edge-on alone.
+[[nodiscard]] MarkedVoxels slicesAlongAllAxes(gpu::Device& device, const scene::Mesh& mesh, const Lattice& lattice);
 
 }  // namespace dustbench::voxel_shape
