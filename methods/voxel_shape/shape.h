@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "methods/voxel_shape/collision/shape_collision.h"
 #include "methods/voxel_shape/particles/motion.h"
 #include "methods/voxel_shape/voxels/voxel_change.h"
 
@@ -71,6 +72,8 @@ struct Shape {
     VoxelChange voxels;  ///< of all, whole but for the colour
     std::vector<VoxelEdit> edits;
     Motion motion;
+    bool collides = true;  ///< with the scene's solids
+    Impact impact;
     float windFactor = 1;  ///< share of the scene's wind
     Look look;
     Track track;

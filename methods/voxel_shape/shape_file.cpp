@@ -150,6 +150,15 @@ void readMotion(TomlReader& file, Shape& shape) {
     table.finish();
 }
 
+void readCollision(TomlReader& file, Shape& shape) {
+    if (!file.has("collision")) return;
+    TomlReader table = file.table("collision");
+    shape.collides = table.boolean("with_solids", shape.collides);
+    shape.impact.restitution = number(table, "restitution", 0, 1, shape.impact.restitution);
+    shape.impact.friction = number(table, "friction", 0, 1, shape.impact.friction);
+    table.finish();
+}
+
 void readLook(TomlReader& file, Shape& shape) {
     if (!file.has("look")) return;
     TomlReader table = file.table("look");
@@ -222,6 +231,7 @@ Shape readShape(const std::filesystem::path& path) {
     if (!shape.voxels.fadingSizeVoxels) shape.voxels.fadingSizeVoxels = shape.voxels.sizeVoxels;
     for (TomlReader& table : file.tables("edit")) shape.edits.push_back(readEdit(table));
     readMotion(file, shape);
+    readCollision(file, shape);
     readLook(file, shape);
     readTrack(file, shape);
     file.finish();

@@ -48,6 +48,12 @@ VoxelShape::VoxelShape(const Shape& shape, std::uint64_t seed)
 
 void VoxelShape::prepare(const scene::Scene& scene, gpu::Device& device) {
     system_.emplace(buildShape(ledger_, shape_, scene, device, seed_));
+    if (shape_.collides && !scene.solids.empty()) {
+        double scale = 0;
+        for (const TrackKey& key : shape_.track.keys) scale = std::max(scale, key.scale);
+        const float voxel = system_->grid().lattice().edgeMetres * static_cast<float>(scale);
+        collision_.emplace(scene, voxel, shape_.impact);
+    }
     shape_.motion.wind = shape_.windFactor * scene.wind;
     picture_.emplace(device, shape_.look);
 }
@@ -56,7 +62,7 @@ void VoxelShape::update(const Frame& frame) {
     {
         const auto timing = frame.clock.measure(Stage::simulate);
         const Pose pose = track_.advance(frame.state, frame.stepSeconds);
-        system_->step(pose, shape_.motion, static_cast<float>(frame.stepSeconds));
+        simulate(frame, pose);
     }
     const particles::ParticleStore& store = system_->particles().store;
     std::span<const std::uint32_t> order;
@@ -66,6 +72,24 @@ void VoxelShape::update(const Frame& frame) {
     }
     const auto timing = frame.clock.measure(Stage::upload);
     picture_->upload(system_->particles(), order);
+}
+
+void VoxelShape::simulate(const Frame& frame, const Pose& pose) {
+    const auto seconds = static_cast<float>(frame.stepSeconds);
+    if (collision_) {
+        const auto timing = frame.clock.measureDetail("switch voxels");
+        collision_->switchVoxels(system_->grid(), pose);
+    }
+    {
+        const auto timing = frame.clock.measureDetail("move");
+        system_->live(KernelStep(system_->grid(), pose, shape_.motion, seconds));
+    }
+    if (collision_) {
+        const auto timing = frame.clock.measureDetail("collide");
+        collision_->stopParticles(system_->particles(), seconds);
+    }
+    const auto timing = frame.clock.measureDetail("replace");
+    system_->replace(pose, shape_.motion, seconds);
 }
 
 void VoxelShape::draw(const Frame& frame, gpu::Layer& layer) {
@@ -79,6 +103,8 @@ void VoxelShape::volume(const Frame&, VolumeVisitor& visitor) const {
 MemoryReport VoxelShape::memory() const {
     MemoryReport report;
     for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
+    if (collision_)
+        for (const MemoryUse& use : collision_->memory()) report.push_back(use);
     if (picture_) report.push_back({"picture", 0, picture_->gpuBytes()});
     return report;
 }

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "methods/shared/method.h"
+#include "methods/voxel_shape/collision/shape_collision.h"
 #include "methods/voxel_shape/draw_order.h"
 #include "methods/voxel_shape/particles/shape_system.h"
 #include "methods/voxel_shape/shape_picture.h"
@@ -32,12 +33,15 @@ class VoxelShape final : public Method {
     [[nodiscard]] const ShapeSystem& system() const { return *system_; }
 
  private:
+    void simulate(const Frame& frame, const Pose& pose);
+
     Shape shape_;
     std::uint64_t seed_;
     MemoryLedger ledger_;
     ShapeTrack track_;
     DrawOrder order_;
     std::optional<ShapeSystem> system_;
+    std::optional<ShapeCollision> collision_;
     std::optional<ShapePicture> picture_;
 };
 

@@ -45,6 +45,10 @@ void ShapeSystem::bury(std::span<const std::uint32_t> holes) {
 
 void ShapeSystem::step(const Pose& pose, const Motion& motion, float stepSeconds) {
     live(KernelStep(grid_, pose, motion, stepSeconds));
+    replace(pose, motion, stepSeconds);
+}
+
+void ShapeSystem::replace(const Pose& pose, const Motion& motion, float stepSeconds) {
     bury(deaths_.collect());
     emission_.emit(particles_, grid_, pose, motion, stepSeconds);
 }

@@ -15,10 +15,12 @@ class ShapeSystem {
  public:
     ShapeSystem(MemoryLedger& ledger, const MarkedVoxels& marked, const Voxel& pattern, std::uint64_t seed);
 
-    /// One step: `live`, then who has faded is buried, then births.
+    /// One step: `live`, then `replace`. Between the two, particles may be moved out of solids.
     void step(const Pose& pose, const Motion& motion, float stepSeconds);
     /// Every particle looks up its voxel, moves, and changes its looks; who has faded is noted.
     void live(const KernelStep& step);
+    /// Buries whom `live` has noted, and gives birth.
+    void replace(const Pose& pose, const Motion& motion, float stepSeconds);
 
     [[nodiscard]] const ShapeParticles& particles() const { return particles_; }
     [[nodiscard]] ShapeParticles& particles() { return particles_; }
