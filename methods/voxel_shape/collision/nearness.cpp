@@ -15,7 +15,7 @@ MarkedVoxels solidOf(const scene::Mesh& mesh, float cellMetres) {
     const Lattice one = latticeAround(mesh, 1);  // its edge is the longest side
     const int cells = std::clamp(static_cast<int>(std::ceil(one.edgeMetres / cellMetres)), 1, mostCells);
     MarkedVoxels solid = surfaceVoxels(mesh, latticeAround(mesh, cells));
-    if (openEdges(mesh) == 0) fillSolid(solid, mesh);
+    (void)fillInside(solid);  // what encloses nothing has its surface alone
     return solid;
 }
 

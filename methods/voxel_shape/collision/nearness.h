@@ -16,7 +16,8 @@ namespace dustbench::voxel_shape {
 class Nearness {
  public:
     /// Cells of `cellMetres`, coarser where more than 128 would lie along the mesh's longest side. Beyond half a cell's
-    /// diagonal, which is added, `reachMetres` is what callers want. An open mesh has its surface alone.
+    /// diagonal, which is added, `reachMetres` is what callers want. A mesh that
+    /// encloses nothing has its surface alone.
     Nearness(const scene::Mesh& mesh, float cellMetres, float reachMetres);
 
     [[nodiscard]] const Lattice& lattice() const { return lattice_; }

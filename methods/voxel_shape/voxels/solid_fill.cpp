@@ -81,7 +81,7 @@ std::size_t openEdges(const scene::Mesh& mesh) {
     return open;
 }
 
-void fillSolid(MarkedVoxels& surface, const scene::Mesh& mesh) {
+bool fillInside(MarkedVoxels& surface) {
     const std::vector<std::uint8_t> outside = reachedFromOutside(surface);
     std::vector<std::uint32_t> front;
     bool any = false;
@@ -91,19 +91,22 @@ void fillSolid(MarkedVoxels& surface, const scene::Mesh& mesh) {
         else
             any = any || !outside[i];
     }
-    if (!any) {
-        if (const std::size_t open = openEdges(mesh); open > 0)
-            throw InputError("solid voxels: the mesh is open (" + std::to_string(open) +
-                             " edges of one triangle alone) and encloses nothing at this resolution; allowed: a closed "
-                             "mesh, holes narrower than a voxel, or fill = \"surface\"");
-        return;
-    }
+    if (!any) return false;
     spread(surface.lattice, std::move(front), [&](std::uint32_t cell, std::uint32_t from) {
         if (surface.marked[cell] || outside[cell]) return false;
         surface.marked[cell] = 1;
         surface.colours[cell] = surface.colours[from];
         return true;
     });
+    return true;
+}
+
+void fillSolid(MarkedVoxels& surface, const scene::Mesh& mesh) {
+    if (fillInside(surface)) return;
+    if (const std::size_t open = openEdges(mesh); open > 0)
+        throw InputError("solid voxels: the mesh is open (" + std::to_string(open) +
+                         " edges of one triangle alone) and encloses nothing at this resolution; allowed: a closed "
+                         "mesh, holes narrower than a voxel, or fill = \"surface\"");
 }
 
 }  // namespace dustbench::voxel_shape

@@ -14,9 +14,11 @@ namespace dustbench::voxel_shape {
 /// Edges that belong to an odd number of triangles, corners at the same place taken for one: 0 for a closed surface.
 [[nodiscard]] std::size_t openEdges(const scene::Mesh& mesh);
 
-/// Marks the inside of `surface` (of this mesh, every touched voxel marked); inner voxels take the colour of the
-/// surface voxel from which the fewest steps lead to them. Throws InputError where the mesh is open and encloses
-/// nothing.
+/// Marks what `surface` (every touched voxel marked) encloses; false where that is nothing. Inner voxels take the
+/// colour of the surface voxel from which the fewest steps lead to them.
+bool fillInside(MarkedVoxels& surface);
+
+/// The same for the surface of this mesh. Throws InputError where the mesh is open and encloses nothing.
 void fillSolid(MarkedVoxels& surface, const scene::Mesh& mesh);
 
 }  // namespace dustbench::voxel_shape
