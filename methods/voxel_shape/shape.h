@@ -14,7 +14,7 @@
 
 namespace dustbench::voxel_shape {
 
-enum class Source { vehicle, mesh, grid };
+enum class Source { vehicle, mesh, grid, voxels };
 enum class Voxeliser {
     conservative,  ///< all that the surface touches
     slices,        ///< the paper's, along z
@@ -58,11 +58,12 @@ struct Track {
 struct Shape {
     std::string name;  ///< of the file, for messages
     Source source = Source::vehicle;
-    std::filesystem::path mesh;
-    glm::vec3 meshColour{0.5f};   ///< where the mesh has none
-    float lightFromAbove = 0;     ///< by how much the underside of a mesh is darker than its top, 0..1
-    glm::vec3 turn{0};            ///< of the mesh, radians about x, then z, then y
-    float longestSideMetres = 0;  ///< 0: as it is
+    std::filesystem::path mesh;         ///< or the file of voxels
+    std::filesystem::path savedVoxels;  ///< where the voxels are written once they are made; empty: nowhere
+    glm::vec3 meshColour{0.5f};         ///< where the mesh has none
+    float lightFromAbove = 0;           ///< by how much the underside of a mesh is darker than its top, 0..1
+    glm::vec3 turn{0};                  ///< of the mesh, radians about x, then z, then y
+    float longestSideMetres = 0;        ///< 0: as it is
     glm::ivec3 gridCells{1};
     float gridEdgeMetres = 1;  ///< of a voxel
     int resolution = 50;

@@ -9,6 +9,7 @@
 #include "methods/voxel_shape/voxels/slice_pass.h"
 #include "methods/voxel_shape/voxels/solid_fill.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
+#include "methods/voxel_shape/voxels/voxel_file.h"
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -71,6 +72,20 @@ MarkedVoxels voxelise(const Shape& shape, const scene::Scene& scene, gpu::Device
     return marked;
 }
 
+/// What all voxels say, then which of them there are, then their share of the particles.
+void setVoxels(VoxelGrid& grid, const Shape& shape) {
+    for (const std::uint32_t i : grid.active()) {
+        Voxel& voxel = grid.voxels()[i];
+        voxel.fadingColour = voxel.colour;  // unless the file says otherwise
+        shape.voxels.applyTo(voxel, grid.lattice().edgeMetres);
+    }
+    for (const VoxelEdit& edit : shape.edits)
+        if (edit.change.active) edit.applyTo(grid);
+    grid.shareOut(shape.particles);
+    for (const std::uint32_t i : grid.active())
+        if (shape.voxels.maximumDensity) grid.voxels()[i].maximumDensity = *shape.voxels.maximumDensity;
+}
+
 }  // namespace
 
 scene::Mesh meshOf(const Shape& shape, const scene::Scene& scene) {
@@ -92,20 +107,16 @@ ShapeSystem buildShape(MemoryLedger& ledger, const Shape& shape, const scene::Sc
                        std::uint64_t seed) {
     if (shape.track.followsVehicle && !scene.vehicle)
         throw InputError("shape '" + shape.name + "': follows the vehicle, and scene '" + scene.id + "' has none");
-    ShapeSystem system(ledger, voxelise(shape, scene, device), Voxel(), seed);
+    ShapeSystem system = shape.source == Source::voxels
+                             ? ShapeSystem(ledger, readVoxels(ledger, shape.mesh), seed)
+                             : ShapeSystem(ledger, voxelise(shape, scene, device), Voxel(), seed);
     VoxelGrid& grid = system.grid();
-    const float edge = grid.lattice().edgeMetres;
-    for (const std::uint32_t i : grid.active()) {
-        Voxel& voxel = grid.voxels()[i];
-        voxel.fadingColour = voxel.colour;  // unless the file says otherwise
-        shape.voxels.applyTo(voxel, edge);
-    }
-    // First which voxels there are, then their share of the particles, then the rest: an edit may set a density too.
+    if (shape.source != Source::voxels) setVoxels(grid, shape);
     for (const VoxelEdit& edit : shape.edits)
-        if (edit.change.active) edit.applyTo(grid);
-    grid.shareOut(shape.particles);
-    for (const VoxelEdit& edit : shape.edits)
-        if (!edit.change.active || *edit.change.active) edit.applyTo(grid);
+        if (shape.source == Source::voxels || edit.change.active.value_or(true)) edit.applyTo(grid);
+    if (grid.active().empty())
+        throw InputError("shape '" + shape.name + "': got no active voxel, expected at least one to hold particles");
+    if (!shape.savedVoxels.empty()) writeVoxels(grid, shape.savedVoxels);
     return system;
 }
 

@@ -105,8 +105,14 @@ VoxelEdit readEdit(TomlReader& table) {
 }
 
 void readSource(TomlReader& file, const std::filesystem::path& folder, Shape& shape) {
-    if (file.has("grid") == file.has("mesh"))
-        throw InputError(file.where("mesh") + "expected either a mesh or a [grid]");
+    if (int{file.has("grid")} + int{file.has("mesh")} + int{file.has("voxels_from")} != 1)
+        throw InputError(file.where("mesh") + "expected either a mesh, a [grid], or voxels_from a file");
+    if (const std::string saved = file.text("save_voxels_as", ""); !saved.empty()) shape.savedVoxels = folder / saved;
+    if (file.has("voxels_from")) {
+        shape.source = Source::voxels;
+        shape.mesh = folder / file.text("voxels_from");
+        return;
+    }
     if (file.has("grid")) {
         TomlReader grid = file.table("grid");
         shape.source = Source::grid;
@@ -212,6 +218,10 @@ Shape readShape(const std::filesystem::path& path) {
     readSource(file, path.parent_path(), shape);
     shape.meshColour = colour(file, "colour", shape.meshColour);
     shape.particles = static_cast<std::uint32_t>(file.integer("particles", 1, 10'000'000, shape.particles));
+    if (shape.source == Source::voxels && (file.has("voxels") || file.has("particles")))
+        throw InputError(file.where("voxels_from") +
+                         "the file's voxels say all of themselves: no [voxels] and no "
+                         "particles go with it, only edits");
 
     if (file.has("voxels")) {
         TomlReader table = file.table("voxels");

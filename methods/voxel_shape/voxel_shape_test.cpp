@@ -213,7 +213,9 @@ TEST(ShapeFile, SaysInOneLineWhatIsWrong) {
     };
     folder.write("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const std::string grid = "[grid]\ncells = [2, 1, 1]\nedge_metres = 1\n";
-    expect("", "expected either a mesh or a [grid]");
+    expect("", "expected either a mesh, a [grid], or voxels_from");
+    expect("voxels_from = \"no.vti\"\n", "no.vti: the voxels cannot be read");
+    expect("voxels_from = \"no.vti\"\nparticles = 3\n", "no particles go with it");
     expect("mesh = \"vehicle\"\nresolution = 300\n", "resolution");
     expect("mesh = \"vehicle\"\nresolutoin = 30\n", "resolutoin");
     expect("mesh = \"none.ply\"\n", "none.ply");
@@ -251,6 +253,32 @@ TEST(ShapeFile, EditsSetWhatTheySay) {
     EXPECT_EQ(system.grid().at({3, 0, 0}).sizeMetres, 3);
     EXPECT_EQ(system.grid().at({3, 0, 0}).forceKind(), Force::spiral);
     EXPECT_FLOAT_EQ(system.grid().at({3, 0, 0}).force.z, 4);
+}
+
+TEST(ShapeFile, TakesUpVoxelsThatWereSaved) {
+    const TestFolder folder;
+    Moment moment;
+    const std::string text =
+        "description = \"\"\n[grid]\ncells = [4, 2, 1]\nedge_metres = 1\n[voxels]\nsize_voxels = 0.3\n";
+    const auto build = [&](const std::string& name, const std::string& content) {
+        MemoryLedger ledger;
+        const auto file = folder.write(name, content);
+        const ShapeSystem system = buildShape(ledger, readShape(file), moment.scene, Moment::device(), 1);
+        return std::vector<Voxel>(system.grid().voxels().begin(), system.grid().voxels().end());
+    };
+    const auto saved = build("first.toml", "save_voxels_as = \"voxels.vti\"\n" + text);
+    const auto again = build("second.toml", "description = \"\"\nvoxels_from = \"voxels.vti\"\n");
+    ASSERT_EQ(again.size(), saved.size());
+    for (std::size_t i = 0; i < saved.size(); ++i) {
+        EXPECT_EQ(again[i].sizeMetres, saved[i].sizeMetres);
+        EXPECT_EQ(again[i].maximumDensity, saved[i].maximumDensity);
+    }
+    EXPECT_EQ(build("third.toml",
+                    "description = \"\"\nvoxels_from = \"voxels.vti\"\n"
+                    "[[edit]]\nleast = [-2, 0, -1]\nmost = [-1, 1, 1]\nopacity = 0.1\n")[0]
+                      .colour.blueOpacity >>
+                  16,
+              6554u);
 }
 
 }  // namespace

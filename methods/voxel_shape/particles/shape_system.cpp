@@ -1,6 +1,7 @@
 #include "methods/voxel_shape/particles/shape_system.h"
 
 #include <array>
+#include <utility>
 
 #include "methods/shared/maths/hash.h"
 #include "methods/shared/parallel/for_each_block.h"
@@ -15,6 +16,9 @@ constexpr std::size_t fewChunks = 4;  // below, a second thread does not pay
 
 ShapeSystem::ShapeSystem(MemoryLedger& ledger, const MarkedVoxels& marked, const Voxel& pattern, std::uint64_t seed)
     : grid_(ledger, marked, pattern), particles_(ledger), deaths_(ledger), emission_(ledger, seed) {}
+
+ShapeSystem::ShapeSystem(MemoryLedger& ledger, VoxelGrid grid, std::uint64_t seed)
+    : grid_(std::move(grid)), particles_(ledger), deaths_(ledger), emission_(ledger, seed) {}
 
 void ShapeSystem::live(const KernelStep& step) {
     deaths_.prepare(particles_.size());

@@ -15,6 +15,8 @@ class ShapeSystem {
  public:
     ShapeSystem(MemoryLedger& ledger, const MarkedVoxels& marked, const Voxel& pattern, std::uint64_t seed);
 
+    ShapeSystem(MemoryLedger& ledger, VoxelGrid grid, std::uint64_t seed);
+
     /// One step: `live`, then `replace`. Between the two, particles may be moved out of solids.
     void step(const Pose& pose, const Motion& motion, float stepSeconds);
     /// Every particle looks up its voxel, moves, and changes its looks; who has faded is noted.
