@@ -11,18 +11,18 @@ namespace {
 
 constexpr int mostCells = 128;
 
-MarkedVoxels solidOf(const scene::Mesh& mesh, float cellMetres) {
+MarkedVoxels surfaceOf(const scene::Mesh& mesh, float cellMetres) {
     const Lattice one = latticeAround(mesh, 1);  // its edge is the longest side
     const int cells = std::clamp(static_cast<int>(std::ceil(one.edgeMetres / cellMetres)), 1, mostCells);
-    MarkedVoxels solid = surfaceVoxels(mesh, latticeAround(mesh, cells));
-    (void)fillInside(solid);  // what encloses nothing has its surface alone
-    return solid;
+    return surfaceVoxels(mesh, latticeAround(mesh, cells));
 }
 
 }  // namespace
 
 Nearness::Nearness(const scene::Mesh& mesh, float cellMetres, float reachMetres) {
-    const MarkedVoxels solid = solidOf(mesh, cellMetres);
+    const MarkedVoxels surface = surfaceOf(mesh, cellMetres);
+    MarkedVoxels solid = surface;
+    (void)fillInside(solid);  // what encloses nothing has its surface alone
     const float edge = solid.lattice.edgeMetres;
     const float reach = reachMetres / edge + std::sqrt(3.0f) / 2;  // in cells, from middle to middle
     const int rim = static_cast<int>(std::ceil(reach));
@@ -36,6 +36,8 @@ Nearness::Nearness(const scene::Mesh& mesh, float cellMetres, float reachMetres)
     for (std::uint32_t i = 0; i < solid.marked.size(); ++i) {
         if (!solid.marked[i]) continue;
         const glm::ivec3 cell = solid.lattice.cell(i) + rim;
+        near_[lattice_.index(cell)] = 1;
+        if (!surface.marked[i]) continue;
         for (const glm::ivec3& step : ball) near_[lattice_.index(cell + step)] = 1;
     }
 }

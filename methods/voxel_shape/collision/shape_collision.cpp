@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <map>
+#include <optional>
 #include <utility>
 
 #include "methods/shared/parallel/for_each_block.h"
 #include "methods/shared/particles/chunk.h"
+#include "methods/voxel_shape/collision/mesh_parts.h"
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -22,41 +23,48 @@ void forEachCorner(const glm::vec3& least, const glm::vec3& most, const Visit& v
 
 }  // namespace
 
+ShapeCollision::Place ShapeCollision::placeOf(Nearness nearness, const glm::mat4& toWorld) {
+    const Lattice& lattice = nearness.lattice();
+    const glm::mat4 toSolid = glm::inverse(toWorld);
+    Box box{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
+    forEachCorner(lattice.origin, lattice.mostCorner(), [&](const glm::vec3& corner) {
+        const glm::vec3 world(toWorld * glm::vec4(corner, 1));
+        box.least = glm::min(box.least, world);
+        box.most = glm::max(box.most, world);
+    });
+    const glm::mat3 toCells = glm::mat3(toSolid) / lattice.edgeMetres;
+    const glm::vec3 offset = (glm::vec3(toSolid[3]) - lattice.origin) / lattice.edgeMetres;
+    return {std::move(nearness), toCells, offset, box};
+}
+
 ShapeCollision::ShapeCollision(const scene::Scene& scene, float voxelMetres, const Impact& impact)
     : impact_(impact), reachMetres_(voxelMetres * std::sqrt(3.0f) / 2) {
-    std::map<std::pair<const scene::Mesh*, float>, std::shared_ptr<const Nearness>> known;
+    std::vector<std::pair<scene::Mesh, glm::mat4>> parts;
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-        const scene::Mesh& mesh = *scene.solids[i].mesh;
-        const glm::mat4& toWorld = scene.solidPoses[i].toWorld;
-        tree_.add(mesh, toWorld);
-        const float scale = glm::length(glm::vec3(toWorld[0]));
-        auto& nearness = known[{&mesh, scale}];
-        if (!nearness) nearness = std::make_shared<const Nearness>(mesh, voxelMetres / 2 / scale, reachMetres_ / scale);
-        SolidPlace place{nearness, {}, {}, {glm::vec3(INFINITY), glm::vec3(-INFINITY)}};
-        const Lattice& lattice = nearness->lattice();
-        const glm::mat4 toSolid = glm::inverse(toWorld);
-        place.toCells = glm::mat3(toSolid) / lattice.edgeMetres;
-        place.offset = (glm::vec3(toSolid[3]) - lattice.origin) / lattice.edgeMetres;
-        forEachCorner(lattice.origin, lattice.mostCorner(), [&](const glm::vec3& corner) {
-            const glm::vec3 world(toWorld * glm::vec4(corner, 1));
-            place.box.least = glm::min(place.box.least, world);
-            place.box.most = glm::max(place.box.most, world);
-        });
-        solids_.push_back(place);
+        tree_.add(*scene.solids[i].mesh, scene.solidPoses[i].toWorld);
+        for (scene::Mesh& part : partsOf(*scene.solids[i].mesh))
+            parts.emplace_back(std::move(part), scene.solidPoses[i].toWorld);
     }
+    std::vector<std::optional<Place>> places(parts.size());
+    parallel::forEachBlock(parts.size(), 1, [&](std::size_t i, std::size_t) {
+        const auto& [mesh, toWorld] = parts[i];
+        const float scale = glm::length(glm::vec3(toWorld[0]));
+        places[i] = placeOf(Nearness(mesh, voxelMetres / 2 / scale, reachMetres_ / scale), toWorld);
+    });
+    for (std::optional<Place>& place : places) places_.push_back(std::move(*place));
     tree_.build();
 }
 
-std::vector<std::uint32_t> ShapeCollision::solidsMeeting(const Box& box) const {
+std::vector<std::uint32_t> ShapeCollision::placesMeeting(const Box& box) const {
     std::vector<std::uint32_t> list;
-    for (std::uint32_t i = 0; i < solids_.size(); ++i)
-        if (solids_[i].box.meets(box)) list.push_back(i);
+    for (std::uint32_t i = 0; i < places_.size(); ++i)
+        if (places_[i].box.meets(box)) list.push_back(i);
     return list;
 }
 
-bool ShapeCollision::nearAny(const std::vector<std::uint32_t>& solids, const glm::vec3& point) const {
-    return std::any_of(solids.begin(), solids.end(), [&](std::uint32_t i) {
-        return solids_[i].nearness->at(solids_[i].toCells * point + solids_[i].offset);
+bool ShapeCollision::nearAny(const std::vector<std::uint32_t>& places, const glm::vec3& point) const {
+    return std::any_of(places.begin(), places.end(), [&](std::uint32_t i) {
+        return places_[i].nearness.at(places_[i].toCells * point + places_[i].offset);
     });
 }
 
@@ -68,7 +76,7 @@ void ShapeCollision::switchVoxels(VoxelGrid& grid, const Pose& pose) {
         box.least = glm::min(box.least, world);
         box.most = glm::max(box.most, world);
     });
-    const std::vector<std::uint32_t> close = solidsMeeting(box);
+    const std::vector<std::uint32_t> close = placesMeeting(box);
     if (close.empty() && off_ == 0) return;
     std::atomic<std::size_t> off{0};
     const std::span<const std::uint32_t> active = grid.active();
@@ -87,7 +95,7 @@ void ShapeCollision::switchVoxels(VoxelGrid& grid, const Pose& pose) {
 }
 
 std::size_t ShapeCollision::stopParticles(ShapeParticles& particles, float stepSeconds) const {
-    if (solids_.empty()) return 0;
+    if (places_.empty()) return 0;
     particles::ParticleStore& s = particles.store;
     std::atomic<std::size_t> hits{0};
     parallel::forEachBlock(s.size(), particles::chunkSize, [&](std::size_t first, std::size_t count) {
@@ -98,7 +106,7 @@ std::size_t ShapeCollision::stopParticles(ShapeParticles& particles, float stepS
             box.least = glm::min(box.least, glm::min(now, before));
             box.most = glm::max(box.most, glm::max(now, before));
         }
-        const std::vector<std::uint32_t> close = solidsMeeting(box);
+        const std::vector<std::uint32_t> close = placesMeeting(box);
         if (close.empty()) return;
         std::size_t found = 0;
         for (std::size_t i = first; i < first + count; ++i) {
@@ -128,13 +136,8 @@ std::size_t ShapeCollision::stopParticles(ShapeParticles& particles, float stepS
 }
 
 MemoryReport ShapeCollision::memory() const {
-    std::size_t cells = solids_.capacity() * sizeof(SolidPlace);
-    std::vector<const Nearness*> counted;
-    for (const SolidPlace& solid : solids_) {
-        if (std::find(counted.begin(), counted.end(), solid.nearness.get()) != counted.end()) continue;
-        counted.push_back(solid.nearness.get());
-        cells += solid.nearness->bytes();
-    }
+    std::size_t cells = places_.capacity() * sizeof(Place);
+    for (const Place& place : places_) cells += place.nearness.bytes();
     return {{"solids: triangles", tree_.bytes(), 0}, {"solids: cells", cells, 0}};
 }
 

@@ -9,7 +9,6 @@
 // Source: JuckelBeckhaus2007, 5.2. Departs: the paper gives no response.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "methods/shared/memory_ledger.h"
@@ -48,19 +47,21 @@ class ShapeCollision {
             return glm::all(glm::lessThanEqual(least, other.most)) && glm::all(glm::lessThanEqual(other.least, most));
         }
     };
-    struct SolidPlace {
-        std::shared_ptr<const Nearness> nearness;
+    /// Of one part of the scene's solids.
+    struct Place {
+        Nearness nearness;
         glm::mat3 toCells;  ///< world → cells: toCells·p + offset
         glm::vec3 offset;
-        Box box;  ///< of the grid, in the world
+        Box box;  ///< of the cells, in the world
     };
-    [[nodiscard]] bool nearAny(const std::vector<std::uint32_t>& solids, const glm::vec3& point) const;
-    [[nodiscard]] std::vector<std::uint32_t> solidsMeeting(const Box& box) const;
+    [[nodiscard]] static Place placeOf(Nearness nearness, const glm::mat4& toWorld);
+    [[nodiscard]] bool nearAny(const std::vector<std::uint32_t>& places, const glm::vec3& point) const;
+    [[nodiscard]] std::vector<std::uint32_t> placesMeeting(const Box& box) const;
 
     Impact impact_;
     float reachMetres_;
     TriangleTree tree_;
-    std::vector<SolidPlace> solids_;
+    std::vector<Place> places_;
     std::size_t off_ = 0;
 };
 

@@ -6,7 +6,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
+#include "methods/voxel_shape/collision/mesh_parts.h"
 #include "methods/voxel_shape/particles/shape_system.h"
+#include "methods/voxel_shape/voxels/solid_fill.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"
 
@@ -66,6 +68,45 @@ TEST(TriangleTree, FindsTheFirstTriangleOfASegmentAsAPlainLoopDoes) {
     }
     EXPECT_GT(met, 80);
     EXPECT_GT(tree.bytes(), tree.triangles() * 36);
+}
+
+TEST(MeshParts, AreWhatHangsTogetherOrOverlaps) {
+    scene::Mesh mesh;
+    const auto add = [&](const glm::vec3& at, const glm::vec3& half) {
+        const scene::Mesh box = boxMesh(half);
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const glm::vec3& position : box.positions) mesh.positions.push_back(at + position);
+        for (const std::uint32_t index : box.indices) mesh.indices.push_back(first + index);
+    };
+    add({0, 0, 0}, {1, 1, 1});
+    add({10, 0, 0}, {1, 1, 1});
+    add({0.5f, 1.5f, 0}, {0.2f, 1, 0.2f});  // overlaps the first
+    add({10, 0, 5}, {1, 1, 1});
+    const std::vector<scene::Mesh> parts = partsOf(mesh);
+    ASSERT_EQ(parts.size(), 3u);
+    EXPECT_EQ(parts[0].indices.size(), 72u);
+    EXPECT_EQ(parts[1].indices.size(), 36u);
+    EXPECT_EQ(openEdges(parts[2]), 0u);
+}
+
+TEST(ShapeCollision, LeavesVoxelsOnBetweenTheCopiesOfASolid) {
+    const scene::Mesh ball = sphereMesh(1, 16);
+    const Lattice lattice = latticeAround(ball, 24);
+    MemoryLedger ledger;
+    ShapeSystem system(ledger, surfaceVoxels(ball, lattice), Voxel(), 1);
+    scene::Mesh copies = sphereMesh(1, 12);
+    copies.normals.assign(copies.positions.size(), glm::vec3(0, 1, 0));
+    const scene::Mesh one = copies;
+    for (int k = 1; k < 20; ++k)
+        copies.append(one, glm::translate(glm::mat4(1), {50.0f * static_cast<float>(k), 0, 0}));
+    ShapeCollision collision(sceneWith(copies, glm::mat4(1)), lattice.edgeMetres, {});
+    Pose pose;
+    pose.position = {102.5f, 0, 0};
+    collision.switchVoxels(system.grid(), pose);
+    EXPECT_EQ(collision.switchedOff(), 0u);
+    pose.position = {101, 0, 0};
+    collision.switchVoxels(system.grid(), pose);
+    EXPECT_GT(collision.switchedOff(), 100u);
 }
 
 TEST(ShapeCollision, SwitchesOffEveryVoxelThatTouchesASolidAndOnAgainAfterwards) {
