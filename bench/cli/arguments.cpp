@@ -97,6 +97,13 @@ void Arguments::number(const std::string& name, const std::string& help, double&
     declareNumber(app_, name, help, value, minimum, maximum);
 }
 
+void Arguments::givenOptions(std::vector<std::string>& names) {
+    app_.parse_complete_callback([&app = app_, &names] {
+        for (const CLI::Option* option : app.get_options())
+            if (option->count() > 0 && !option->get_positional()) names.push_back(option->get_name());
+    });
+}
+
 int dispatch(const std::vector<Command>& commands, std::string_view version, const std::vector<std::string>& argv) {
     CLI::App app("Real-time volumetric effects behind one vehicle, compared and measured.", "dustbench");
     app.require_subcommand(1);

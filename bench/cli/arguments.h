@@ -34,6 +34,8 @@ class Arguments {
     void integer(const std::string& name, const std::string& help, std::int64_t& value, std::int64_t minimum,
                  std::int64_t maximum = std::numeric_limits<std::int64_t>::max());
     void number(const std::string& name, const std::string& help, double& value, double minimum, double maximum);
+    /// When parsed: the names of the options that were given.
+    void givenOptions(std::vector<std::string>& names);
 
  private:
     CLI::App& app_;

@@ -13,6 +13,7 @@ namespace dustbench::cli {
 [[nodiscard]] Command runCommand();
 [[nodiscard]] Command exportCommand();
 [[nodiscard]] Command suiteCommand();
+[[nodiscard]] Command mergeCommand();
 [[nodiscard]] Command reproduceCommand();
 [[nodiscard]] Command diffCommand();
 [[nodiscard]] Command compareCommand();

@@ -1,18 +1,21 @@
-// `dustbench compare`: methods side by side in one world, in numbers and on a contact sheet.
+// `dustbench compare`: methods side by side in one world, in numbers and on a contact sheet; or two results folders.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iostream>
 #include <memory>
+#include <set>
 
 #include "bench/cli/commands.h"
+#include "bench/cli/compare_folders.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/suite_report.h"
 #include "bench/cli/world_options.h"
 #include "bench/run/comparison_sheet.h"
-#include "bench/run/method_comparison.h"
+#include "bench/suite/method_comparison.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::cli {
@@ -22,8 +25,23 @@ struct CompareOptions {
     std::vector<std::string> methods;
     WorldOptions world;
     std::int64_t frames = bench::RunSpec().frames, repetitions = 6;
-    std::string moments, out = "out/compare";
+    std::string moments, out;
+    std::string columns;
+    std::string failPercent;
+    bool acrossMachines = false;
+    std::vector<std::string> given;  ///< names of options
 };
+
+/// Throws where an option was given that only the other kind of comparison knows.
+void refuseOthers(const CompareOptions& options, bool folders) {
+    static const std::set<std::string> both{"--out"},
+        ofFolders{"--columns", "--fail-on-regression", "--across-machines"};
+    for (const std::string& name : options.given)
+        if (!both.contains(name) && ofFolders.contains(name) != folders)
+            throw InputError(fmt::format("{}: got it for {}, allowed: for {}", name,
+                                         folders ? "result folders" : "methods",
+                                         folders ? "methods" : "two result folders (written with a '/')"));
+}
 
 bench::ParameterTexts singleValues(const std::vector<std::string>& texts) {
     bench::ParameterTexts values;
@@ -50,10 +68,36 @@ void writeSheet(const bench::Suite& suite, const bench::ResultsFolder& results) 
     std::cout << file.string() << "\n";
 }
 
+bool isFolder(const std::string& text) {
+    return text.find('/') != std::string::npos;
+}
+
+double parsePercent(const std::string& text) {
+    double percent = 0;
+    const char* const end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(text.data(), end, percent);
+    if (error != std::errc() || at != end || !(percent >= 0 && percent <= 1e6))
+        throw InputError(fmt::format("--fail-on-regression: got '{}', allowed: per cent, 0..1000000", text));
+    return percent;
+}
+
+int compareFolderArguments(const CompareOptions& options) {
+    for (const std::string& each : options.methods)
+        if (!isFolder(each))
+            throw InputError(fmt::format(
+                "compare: got '{}' beside a result folder, allowed: methods, or two folders (./{})", each, each));
+    if (options.methods.size() != 2)
+        throw InputError(fmt::format("compare: got {} result folders, allowed: 2", options.methods.size()));
+    refuseOthers(options, true);
+    FolderCompareOptions folders{options.methods[0],    options.methods[1], options.columns, options.out, {},
+                                 options.acrossMachines};
+    if (!options.failPercent.empty()) folders.failPercent = parsePercent(options.failPercent);
+    return compareResultFolders(folders);
+}
+
 int compare(const CompareOptions& options) {
-    for (const std::string& method : options.methods)
-        if (method.find('/') != std::string::npos)
-            throw InputError(fmt::format("compare: got '{}', expected methods", method));
+    if (std::ranges::any_of(options.methods, isFolder)) return compareFolderArguments(options);
+    refuseOthers(options, false);
     bench::RunSpec base = options.world.toWorldSpec();
     base.frames = options.frames;
     base.judging.emplace();
@@ -64,7 +108,7 @@ int compare(const CompareOptions& options) {
         fmt::format(": {}{}, {} frames", base.scene, base.drive.empty() ? "" : ", " + base.drive, base.frames);
     const auto plan = bench::planRuns(suite);
     checkWorlds(plan);
-    bench::ResultsFolder results(options.out);
+    bench::ResultsFolder results(options.out.empty() ? "out/compare" : options.out);
     PlanOptions planOptions;
     planOptions.timeoutSeconds = suite.timeoutSeconds;
     const int code = runPlan(plan, suite.repetitions, results, planOptions);
@@ -78,11 +122,15 @@ int compare(const CompareOptions& options) {
 
 Command compareCommand() {
     auto options = std::make_shared<CompareOptions>();
-    return {"compare", "Put methods side by side: frame times with intervals, metrics, and a contact sheet",
-            "A method may come with parameters of its own: billboard:soft=true,sort=none\n"
-            "Runs whose results are there already are left alone. reports/METRICS.md defines the metrics.",
+    return {"compare", "Put methods, or two folders of results, side by side: times with intervals",
+            "Methods: frame times, metrics, and a contact sheet. A method may come with parameters of its own:\n"
+            "billboard:soft=true,sort=none. Runs whose results are there already are left alone.\n"
+            "reports/METRICS.md defines the metrics.\n"
+            "Two folders (written with a '/'): every run that is in both, times of the second over those of the\n"
+            "first. Exit code 5: a regression; 6: not comparable.",
             [options](Arguments& arguments) {
-                arguments.requiredTexts("methods", "METHOD", "two or more of `dustbench list methods`",
+                arguments.requiredTexts("methods", "METHOD|DIR",
+                                        "two or more of `dustbench list methods`; or two folders of results",
                                         options->methods);
                 options->world.declareWorld(arguments);
                 arguments.integer("--frames", "frames to record", options->frames, 1, 10'000'000);
@@ -91,7 +139,19 @@ Command compareCommand() {
                                options->moments);
                 arguments.integer("--repetitions", "of every run, each a fresh process; below 6 no verdict is given",
                                   options->repetitions, 1, 1000);
-                arguments.text("--out", "DIR", "folder for the results; made where it is missing", options->out);
+                arguments.text("--out", "DIR",
+                               "folder for the results, out/compare unless given; of folders: for comparison.csv",
+                               options->out);
+                arguments.text("--fail-on-regression", "PERCENT",
+                               "of folders: exit code 5 where the second is slower by more than this, or fails where "
+                               "the first does not",
+                               options->failPercent);
+                arguments.text("--columns", "NAME,NAME…",
+                               "of folders: times or rates of summary.csv; frame_ms_median unless given",
+                               options->columns);
+                arguments.flag("--across-machines", "of folders: compare runs of different machines or builds",
+                               options->acrossMachines);
+                arguments.givenOptions(options->given);
             },
             [options] { return compare(*options); }};
 }

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "bench/cli/called_program.h"
-#include "bench/run/run_record.h"
+#include "bench/results/stored_run.h"
 #include "methods/shared/files/csv.h"
 #include "methods/shared/registry.h"
 #include "methods/shared/stage_clock.h"
@@ -121,6 +121,34 @@ TEST_F(Dustbench, StagesOfEveryFrameAddUpToItsTime) {
                                                           "f000016.png", "f000016.exr"));
         EXPECT_EQ(files::CsvTable::parseFile(fs::path(folder) / "summary.csv").rows(), 1u);
     }
+}
+
+TEST_F(Dustbench, RepetitionsDifferInWhatIsMeasuredAndInNothingElse) {
+    std::ofstream(folder_ / "twice.toml") << "methods = [\"" << methods().front().id
+                                          << "\"]\nsizes = [\"96x72\"]\nframes = 5\nwarmup = 1\nrepetitions = 2\n"
+                                             "[parameters]\nparticles = 200\npreroll = 0.2\n";
+    const Called called = call(fmt::format("suite {}/twice.toml --out {}", folder_.string(), out()));
+    ASSERT_EQ(called.code, 0) << called.err;
+    const auto folders = runs(out());
+    ASSERT_EQ(folders.size(), 2u);
+    const bench::StoredRun a = bench::readRunFile(folders[0] / "run.json");
+    const bench::StoredRun b = bench::readRunFile(folders[1] / "run.json");
+    const auto differing = [](const auto& first, const auto& second) {
+        std::vector<std::string> names;
+        EXPECT_EQ(first.size(), second.size());
+        for (const auto& [name, value] : first)
+            if (second.at(name) != value) names.push_back(name);
+        return names;
+    };
+    for (const std::string& name : differing(a.provenance, b.provenance))
+        EXPECT_THAT(name, testing::AnyOf("started_utc", "load_average", "stolen_share", "clock_reading_ns",
+                                         "clock_stage_ns", "key"));
+    for (const std::string& name : differing(a.cells, b.cells))
+        EXPECT_THAT(name, testing::AnyOf("run_id", "repetition", "start_s", "rss_peak_bytes", HasSubstr("_ms_"),
+                                         HasSubstr("fps_"), HasSubstr("_us_"), HasSubstr("energy")));
+    EXPECT_EQ(a.parameters, b.parameters);
+    EXPECT_EQ(a.stateHash, b.stateHash);
+    EXPECT_EQ(a.provenance.at("key").size(), b.provenance.at("key").size());
 }
 
 TEST_F(Dustbench, StateHashDependsOnTheSeedAndOnNothingElseOfARun) {

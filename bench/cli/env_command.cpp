@@ -3,10 +3,14 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
-#include "bench/run/run_record.h"
+#include "bench/cli/plan_runner.h"
+#include "bench/measure/energy_counter.h"
+#include "bench/results/run_record.h"
+#include "bench/run/harness_cost.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/gpu/timer_query.h"
 
@@ -29,7 +33,44 @@ void lookAtGpu(bench::Provenance& provenance) {
     }
 }
 
-void print(const bench::Provenance& provenance) {
+struct Found {
+    bench::Provenance provenance;
+    std::optional<bench::HarnessCost> harness;
+    bool cpuEnergy = false, gpuEnergy = false;
+};
+
+Found look() {
+    Found found;
+    found.provenance = bench::startProvenance(bench::commandLine());
+    lookAtGpu(found.provenance);
+    try {
+        found.harness = bench::measureHarness(childExecution());
+    } catch (const InputError& error) {
+        found.provenance.warnings.push_back(std::string("missing: the harness's own cost: ") + error.what());
+    }
+    found.cpuEnergy = bench::packageEnergy() != nullptr;
+    found.gpuEnergy = bench::gpuEnergy(found.provenance.device.renderer) != nullptr;
+    return found;
+}
+
+/// What of the energy columns will be filled in.
+std::string energyText(const Found& found) {
+    if (found.cpuEnergy) return found.gpuEnergy ? "CPU packages and GPU" : "CPU packages";
+    return found.gpuEnergy ? "GPU" : "not told by this machine: the energy columns stay empty";
+}
+
+std::string json(const Found& found) {
+    bench::Columns cells{{"energy", energyText(found)}};
+    if (found.harness) {
+        cells.emplace_back("harness_us", found.harness->harnessUs);
+        cells.emplace_back("harness_frame_ms", found.harness->frameMs);
+        cells.emplace_back("start_s", found.harness->startSeconds);
+    }
+    return bench::provenanceToJson(found.provenance, cells);
+}
+
+void print(const Found& found) {
+    const bench::Provenance& provenance = found.provenance;
     const auto line = [](const char* name, const std::string& value) {
         std::cout << fmt::format("{:<10} {}\n", name, value.empty() ? "unknown" : value);
     };
@@ -38,13 +79,19 @@ void print(const bench::Provenance& provenance) {
     line("cpu", fmt::format("{}, {} cores", machine.cpu.empty() ? "unknown" : machine.cpu, machine.cores));
     line("governor", machine.governor);
     line("memory", fmt::format("{:.1f} GiB", static_cast<double>(machine.ramBytes) / (1 << 30)));
-    line("kernel", machine.kernel);
+    line("kernel", machine.kernel + (machine.virtualMachine ? ", in a virtual machine" : ""));
     line("load", fmt::format("{:.2f}", machine.loadAverage));
     line("renderer", provenance.device.renderer);
     line("opengl", provenance.device.version.empty()
                        ? "none"
                        : fmt::format("{} ({}, EGL {})", provenance.device.version, provenance.device.vendor,
                                      provenance.device.platform));
+    line("energy", energyText(found));
+    line("clock",
+         fmt::format("{:.0f} ns a reading, {:.0f} ns a stage", provenance.clock.readingNs, provenance.clock.stageNs));
+    if (found.harness)
+        line("harness", fmt::format("{:.1f} µs of a frame; null method {:.1f} ms a frame, {:.2f} s to the first one",
+                                    found.harness->harnessUs, found.harness->frameMs, found.harness->startSeconds));
     line("program", fmt::format("dustbench {}{}{}", build.version, build.gitCommit.empty() ? "" : " " + build.gitCommit,
                                 build.gitDirty ? " with uncommitted changes" : ""));
     line("build", fmt::format("{} {} {}", build.buildType, build.compiler, build.flags));
@@ -54,16 +101,15 @@ void print(const bench::Provenance& provenance) {
 }  // namespace
 
 Command envCommand() {
-    auto json = std::make_shared<bool>(false);
+    auto asJson = std::make_shared<bool>(false);
     return {"env", "What this machine is, what will disturb a measurement, what is missing", "",
-            [json](Arguments& arguments) { arguments.flag("--json", "one object", *json); },
-            [json] {
-                bench::Provenance provenance = bench::startProvenance(bench::commandLine());
-                lookAtGpu(provenance);
-                if (*json)
-                    std::cout << bench::provenanceToJson(provenance);
+            [asJson](Arguments& arguments) { arguments.flag("--json", "one object", *asJson); },
+            [asJson] {
+                const Found found = look();
+                if (*asJson)
+                    std::cout << json(found);
                 else
-                    print(provenance);
+                    print(found);
                 return static_cast<int>(exitOk);
             }};
 }

@@ -9,6 +9,8 @@ enum ExitCode {
     exitAborted = 2,
     exitBadInput = 3,
     exitInternal = 4,
+    exitRegression = 5,
+    exitNotComparable = 6,
 };
 
 }  // namespace dustbench::cli

@@ -17,7 +17,7 @@
 #include <thread>
 
 #include "bench/cli/called_program.h"
-#include "bench/run/run_record.h"
+#include "bench/results/run_record.h"
 #include "methods/shared/files/csv.h"
 #include "methods/shared/maths/transmittance.h"
 

@@ -7,7 +7,7 @@
 
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
-#include "bench/run/catalogue.h"
+#include "bench/suite/catalogue.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::cli {

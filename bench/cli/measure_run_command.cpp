@@ -7,8 +7,8 @@
 
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
+#include "bench/results/results_folder.h"
 #include "bench/run/measured_run.h"
-#include "bench/run/results_folder.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::cli {

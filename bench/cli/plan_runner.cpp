@@ -11,23 +11,32 @@
 #include "methods/shared/gpu/device.h"
 
 namespace dustbench::cli {
+
+bench::ExecutionOptions childExecution() {
+    listenForInterruption();
+    bench::ExecutionOptions execution;
+    execution.argv = bench::commandLine();
+    execution.interrupted = [] { return interrupted(); };
+    execution.command = [argv = execution.argv](const std::filesystem::path& spec,
+                                                const std::filesystem::path& folder) {
+        std::vector<std::string> command{"/proc/self/exe", childCommandName, spec.string(), folder.string(), "--"};
+        command.insert(command.end(), argv.begin(), argv.end());
+        return command;
+    };
+    return execution;
+}
+
 int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,
             const PlanOptions& options) {
     { const gpu::Device mustExist; }
-    listenForInterruption();
-
-    bench::ExecutionOptions execution;
+    bench::ExecutionOptions execution = childExecution();
     execution.force = options.force;
     execution.retryFailed = options.retryFailed;
+    execution.redoOutdated = options.redoOutdated;
     execution.timeoutSeconds = options.timeoutSeconds;
+    execution.cooldownSeconds = options.cooldownSeconds;
     execution.badInputEnds = options.badInputEnds;
-    execution.argv = bench::commandLine();
-    execution.interrupted = [] { return interrupted(); };
-    execution.command = [&execution](const std::filesystem::path& spec, const std::filesystem::path& folder) {
-        std::vector<std::string> command{"/proc/self/exe", childCommandName, spec.string(), folder.string(), "--"};
-        command.insert(command.end(), execution.argv.begin(), execution.argv.end());
-        return command;
-    };
+    for (const std::string& sentence : results.setAside()) std::cerr << "warning: " << sentence << std::endl;
     ProgressPrinter printer;
     const bench::ExecutionResult result = bench::execute(plan, repetitions, results, execution, printer);
     if (result.aborted) {
@@ -37,6 +46,9 @@ int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::
     if (plan.size() > 1)
         std::cerr << result.done << " done, " << result.skipped << " skipped, " << result.failed << " failed, "
                   << result.kept << " were there" << std::endl;
+    if (result.outdated > 0)
+        std::cerr << "outdated: " << result.outdated << " of those that were there; --redo-outdated does them again ("
+                  << result.whyOutdated << ")" << std::endl;
     return result.failed > 0 ? exitRunFailed : exitOk;
 }
 

@@ -12,9 +12,14 @@ namespace dustbench::cli {
 struct PlanOptions {
     bool force = false;
     bool retryFailed = false;
+    bool redoOutdated = false;
     double timeoutSeconds = 0;
+    double cooldownSeconds = 0;
     bool badInputEnds = false;
 };
+
+/// How this program runs one process a run, for provenance with the user's command; Ctrl-C ends it.
+[[nodiscard]] bench::ExecutionOptions childExecution();
 
 /// Executes and gives the exit code. Where there is something to run, it makes sure first that OpenGL is there.
 /// Throws InputError.

@@ -6,14 +6,16 @@
 #include <iostream>
 #include <memory>
 
+#include "bench/claims/claim_ledger.h"
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/suite_report.h"
-#include "bench/run/paper.h"
-#include "bench/run/suite.h"
+#include "bench/suite/paper.h"
+#include "bench/suite/suite.h"
 #include "methods/shared/errors.h"
+#include "methods/shared/files/csv.h"
 
 namespace dustbench::cli {
 namespace {
@@ -43,12 +45,16 @@ int reproduce(const ReproduceOptions& options) {
             checkWorlds(plan);
             PlanOptions planOptions;
             planOptions.timeoutSeconds = suite.timeoutSeconds;
+            planOptions.cooldownSeconds = suite.cooldownSeconds;
             const int suiteCode = runPlan(plan, suite.repetitions, results, planOptions);
             if (suiteCode == exitAborted) return suiteCode;
             code = std::max(code, suiteCode);
             std::cout << "\n" << suiteReport(suite, results.runs()) << std::flush;
         }
-        std::cout << "\n" << (results.path() / "summary.csv").string() << "\n";
+        const auto claims = bench::judgeClaims(paper.id, files::CsvTable::parseFile(results.path() / "summary.csv"));
+        bench::writeWhole(results.path() / "claims.csv", bench::claimsCsv(claims));
+        std::cout << "\n" << claimsReport(claims);
+        for (const char* file : {"summary.csv", "claims.csv"}) std::cout << (results.path() / file).string() << "\n";
     }
     return code;
 }

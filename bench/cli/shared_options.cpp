@@ -4,8 +4,8 @@
 #include <set>
 #include <tuple>
 
-#include "bench/run/value_list.h"
 #include "bench/scene/world.h"
+#include "bench/suite/value_list.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/registry.h"
 

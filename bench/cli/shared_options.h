@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/run/run_spec.h"
-#include "bench/run/suite.h"
+#include "bench/results/run_spec.h"
+#include "bench/suite/suite.h"
 
 namespace dustbench::cli {
 

@@ -1,4 +1,8 @@
 // `dustbench suite`: works through a suite, or goes on with it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -6,20 +10,80 @@
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
+#include "bench/cli/slurm_script.h"
 #include "bench/cli/suite_report.h"
 #include "bench/cli/volume_options.h"
-#include "bench/run/suite.h"
+#include "bench/measure/provenance.h"
+#include "bench/results/disk_need.h"
+#include "bench/results/freshness.h"
+#include "bench/results/stored_folder.h"
+#include "bench/suite/shard.h"
+#include "bench/suite/suite.h"
+#include "methods/shared/errors.h"
 
 namespace dustbench::cli {
 namespace {
 
 struct SuiteOptions {
-    std::string suite, out, order;
-    bool quick = false, force = false, retryFailed = false, dryRun = false;
-    std::int64_t repetitions = 0;
+    std::string suite, out, order, shard;
+    bool quick = false, force = false, retryFailed = false, redoOutdated = false, dryRun = false;
+    std::int64_t repetitions = 0, slurmShards = 0;
     double timeoutSeconds = 0;
+    double cooldownSeconds = -1;
     VolumeOptions volumes{"--volumes"};
 };
+
+/// Prints the script by which Slurm works through the suite; nothing is run or written.
+int printSlurmScript(const SuiteOptions& options, const bench::Suite& suite, double timeoutSeconds,
+                     double cooldownSeconds) {
+    if (!options.shard.empty() || options.dryRun)
+        throw InputError(
+            fmt::format("--slurm: got it with {}, allowed: one of them", options.dryRun ? "--dry-run" : "--shard"));
+    SlurmJob job;
+    job.name = suite.id;
+    job.program = std::filesystem::read_symlink("/proc/self/exe");
+    job.folder = std::filesystem::current_path();
+    job.out = std::filesystem::absolute(options.out).lexically_normal();
+    std::vector<std::string> words = bench::commandLine();
+    words.erase(words.begin());
+    job.arguments = withoutOptions(words, {"--out", "--slurm"});
+    job.shards = static_cast<int>(options.slurmShards);
+    job.timeoutSeconds = timeoutSeconds;
+    job.cooldownSeconds = cooldownSeconds;
+    std::vector<std::size_t> cells(options.slurmShards + 1, 0);
+    for (const int shard : bench::shardOfCells(suite, job.shards)) ++cells[static_cast<std::size_t>(shard)];
+    const auto repetitions = static_cast<std::size_t>(suite.repetitions);
+    job.runs = suite.cells.size() * repetitions;
+    job.mostRunsOfShard = *std::ranges::max_element(cells) * repetitions;
+    if (const auto empty = std::count(cells.begin() + 1, cells.end(), 0U); empty > 0)
+        std::cerr << fmt::format("note: {} of {} shards have no runs: runs of one world stay together\n", empty,
+                                 job.shards);
+    std::cout << slurmScript(job);
+    return exitOk;
+}
+
+/// What would be run, what is there already, and how much room it may take; nothing is run or written.
+int printPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, const std::string& out) {
+    bench::StoredRuns stored;
+    if (std::filesystem::exists(std::filesystem::path(out) / "runs")) stored = bench::readStoredRuns(out);
+    bench::Freshness freshness;
+    std::size_t toDo = 0;
+    std::uint64_t bytes = 0;
+    for (const bench::PlannedRun& run : plan) {
+        const std::string id = bench::runId(run.spec);
+        std::string_view state = "to do";
+        if (const auto found = stored.find(id); found != stored.end()) {
+            state = freshness.whyOutdated(found->second).empty() ? bench::statusName(found->second.status) : "outdated";
+        } else {
+            ++toDo;
+            bytes += bench::mostBytesOf(run.spec);
+        }
+        std::cout << fmt::format("{}  {:<8}  {} {} {}{}rep {}/{}\n", id, state, run.spec.method, run.spec.scene,
+                                 run.label, run.label.empty() ? "" : " ", run.spec.repetition, repetitions);
+    }
+    std::cerr << fmt::format("{} runs, {} to do, which take {} at most\n", plan.size(), toDo, bench::bytesText(bytes));
+    return exitOk;
+}
 
 int runSuite(const SuiteOptions& options) {
     bench::Suite suite = bench::loadSuite(options.suite, options.quick);
@@ -29,22 +93,30 @@ int runSuite(const SuiteOptions& options) {
         cell.spec.volumes = options.volumes.over(cell.spec.volumes);
         bench::requireFramesWithinRun(cell.spec);
     }
-    const auto plan = bench::planRuns(suite);
-    if (options.dryRun) {
-        for (const bench::PlannedRun& run : plan)
-            std::cout << bench::runId(run.spec) << "  " << run.spec.method << " " << run.spec.scene << " " << run.label
-                      << (run.label.empty() ? "" : " ") << "rep " << run.spec.repetition << "/" << suite.repetitions
-                      << "\n";
-        return exitOk;
+    const double timeoutSeconds = options.timeoutSeconds > 0 ? options.timeoutSeconds : suite.timeoutSeconds;
+    const double cooldownSeconds = options.cooldownSeconds >= 0 ? options.cooldownSeconds : suite.cooldownSeconds;
+    if (options.slurmShards > 0) {
+        checkWorlds(suite.cells);
+        return printSlurmScript(options, suite, timeoutSeconds, cooldownSeconds);
     }
+    const bench::Shard shard = options.shard.empty() ? bench::Shard() : bench::parseShard(options.shard);
+    const auto plan = bench::planRuns(suite, shard);
+    if (shard.count > 1) suite = bench::partOf(suite, shard);
+    if (plan.empty() && shard.count > 1)
+        std::cerr << fmt::format("shard {} of {} has no runs: runs of one world stay together\n", options.shard,
+                                 suite.id);
+    if (options.dryRun) return printPlan(plan, suite.repetitions, options.out);
     checkWorlds(plan);
     bench::ResultsFolder results(options.out);
     PlanOptions planOptions;
     planOptions.force = options.force;
     planOptions.retryFailed = options.retryFailed;
-    planOptions.timeoutSeconds = options.timeoutSeconds > 0 ? options.timeoutSeconds : suite.timeoutSeconds;
-    const int code = runPlan(plan, suite.repetitions, results, planOptions);
-    if (code != exitAborted) std::cout << suiteReport(suite, results.runs()) << "\n";
+    planOptions.redoOutdated = options.redoOutdated;
+    planOptions.timeoutSeconds = timeoutSeconds;
+    planOptions.cooldownSeconds = cooldownSeconds;
+    if (plan.empty()) results.writeSummary();
+    const int code = plan.empty() ? exitOk : runPlan(plan, suite.repetitions, results, planOptions);
+    if (code != exitAborted && !plan.empty()) std::cout << suiteReport(suite, results.runs()) << "\n";
     std::cout << (results.path() / "summary.csv").string() << "\n";
     return code;
 }
@@ -54,7 +126,7 @@ int runSuite(const SuiteOptions& options) {
 Command suiteCommand() {
     auto options = std::make_shared<SuiteOptions>();
     return {"suite", "Work through a list of runs, or go on where it was stopped",
-            "Runs whose results are there already are left alone.",
+            "Runs whose results are there already are left alone; those that are outdated are named.",
             [options](Arguments& arguments) {
                 arguments.required("suite", "", "one of `dustbench list suites`, or a .toml file", options->suite);
                 arguments.required("--out", "DIR", "folder for the results; made where it is missing", options->out);
@@ -63,14 +135,24 @@ Command suiteCommand() {
                                   options->repetitions, 0, 1000);
                 arguments.flag("--force", "do again what is there", options->force);
                 arguments.flag("--retry-failed", "do again what failed or ran out of time", options->retryFailed);
+                arguments.flag("--redo-outdated",
+                               "do again what another build measured, or whose input files have changed since",
+                               options->redoOutdated);
                 arguments.text("--order", "interleaved|batch",
                                "repetitions as shuffled rounds over all runs, or all of a run together; as the suite "
                                "says unless given",
                                options->order);
                 arguments.number("--timeout", "seconds that one run may take; 0: as the suite says",
                                  options->timeoutSeconds, 0, 1e6);
+                arguments.number("--cooldown", "seconds of rest between two runs; below 0: as the suite says",
+                                 options->cooldownSeconds, -1, 3600);
                 options->volumes.declareOptional(arguments);
-                arguments.flag("--dry-run", "only print the list of runs", options->dryRun);
+                arguments.flag("--dry-run", "only print the list of runs, and what is there of them", options->dryRun);
+                arguments.text("--shard", "I/N",
+                               "the I-th of N parts alone, from 1; `dustbench merge` puts their folders together",
+                               options->shard);
+                arguments.integer("--slurm", "print a script for Slurm that works through N shards and merges them",
+                                  options->slurmShards, 0, bench::mostShards);
             },
             [options] { return runSuite(*options); }};
 }

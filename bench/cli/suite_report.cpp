@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include "bench/cli/text_table.h"
-#include "bench/run/suite_comparison.h"
-#include "bench/run/suite_table.h"
+#include "bench/suite/suite_comparison.h"
+#include "bench/suite/suite_fit.h"
+#include "bench/suite/suite_table.h"
 
 namespace dustbench::cli {
 namespace {
@@ -39,6 +40,10 @@ std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs
     if (bench::TextRows metrics = bench::tabulateMetrics(suite, runs); !metrics.rows.empty())
         text += "\nmetrics, means over the judged moments (reports/METRICS.md)\n" +
                 textOf(metrics.rows.size() <= mostColumns ? transposed(metrics) : std::move(metrics));
+    for (const bench::FitResult& fit : bench::fitSuite(suite, runs)) {
+        text += fmt::format("\ngrowth with N = {}: a + b·N^k, 95 % intervals\n", fit.against);
+        text += textOf(bench::tabulate(fit));
+    }
     for (const bench::ComparisonResult& comparison : bench::compareSuite(suite, runs)) {
         text += fmt::format("\n{} against {}: ratio of their times, 95 % interval over paired runs\n", comparison.of,
                             comparison.with);
@@ -46,6 +51,11 @@ std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs
         for (const std::string& sentence : bench::conclusions(comparison)) text += sentence + "\n";
     }
     return text;
+}
+
+std::string claimsReport(const std::vector<bench::JudgedClaim>& claims) {
+    if (claims.empty()) return "";
+    return "claims\n" + textOf(bench::tabulate(claims));
 }
 
 }  // namespace dustbench::cli

@@ -1,13 +1,18 @@
-// What `suite` and `reproduce` print of a suite: the table of FPS and stages, and the verdicts that it asks for.
+// What `suite` and `reproduce` print: of a suite the table of FPS and stages and the verdicts that it asks for, of a
+// paper the verdicts on its claims.
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "bench/run/cell_results.h"
-#include "bench/run/suite.h"
+#include "bench/claims/claim_ledger.h"
+#include "bench/suite/cell_results.h"
+#include "bench/suite/suite.h"
 
 namespace dustbench::cli {
 
 [[nodiscard]] std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs);
+
+[[nodiscard]] std::string claimsReport(const std::vector<bench::JudgedClaim>& claims);
 
 }  // namespace dustbench::cli

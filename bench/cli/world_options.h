@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/cli/arguments.h"
-#include "bench/run/run_spec.h"
+#include "bench/results/run_spec.h"
 
 namespace dustbench::cli {
 

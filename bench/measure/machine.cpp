@@ -8,6 +8,8 @@
 #include <fstream>
 #include <thread>
 
+#include "methods/shared/available_memory.h"
+
 namespace dustbench::bench {
 namespace {
 
@@ -28,12 +30,35 @@ std::string cpuModel() {
     return {};
 }
 
-std::int64_t ramBytes() {
-    std::ifstream file("/proc/meminfo");
+bool hasHypervisor() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with("flags")) return (line + " ").find(" hypervisor ") != std::string::npos;
+    return false;
+}
+
+/// The eighth number of the first line: time in which the machine could have run and its host did not let it.
+double stolenShareSinceBoot() {
+    std::ifstream file("/proc/stat");
     std::string name;
-    std::int64_t kibibytes = 0;
-    file >> name >> kibibytes;
-    return name == "MemTotal:" ? kibibytes * 1024 : 0;
+    file >> name;
+    double sum = 0, stolen = 0, ticks = 0;
+    for (int field = 1; field <= 8 && file >> ticks; ++field) {
+        sum += ticks;
+        stolen = field == 8 ? ticks : 0;
+    }
+    return sum > 0 ? stolen / sum : 0;
+}
+
+/// As a container sees it, by either version of control groups.
+double quotaCores() {
+    std::string quota;
+    double allowed = 0, period = 0;
+    if (std::ifstream file("/sys/fs/cgroup/cpu.max"); file >> quota >> period && quota != "max")
+        allowed = std::strtod(quota.c_str(), nullptr);
+    else if (std::ifstream older("/sys/fs/cgroup/cpu/cpu.cfs_quota_us"); older >> allowed)
+        std::ifstream("/sys/fs/cgroup/cpu/cpu.cfs_period_us") >> period;
+    return allowed > 0 && period > 0 ? allowed / period : 0;
 }
 
 int usableCores() {
@@ -49,21 +74,44 @@ Machine readMachine() {
     machine.cpu = cpuModel();
     machine.governor = firstLine("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
     machine.cores = usableCores();
-    machine.ramBytes = ramBytes();
+    machine.ramBytes = bytesInKernelFile("/proc/meminfo", "MemTotal:").value_or(0);
     utsname names{};
     if (uname(&names) == 0) machine.kernel = std::string(names.sysname) + " " + names.release + " " + names.machine;
     double load = 0;
     if (getloadavg(&load, 1) == 1) machine.loadAverage = load;
+    machine.virtualMachine = hasHypervisor();
+    machine.stolenShare = stolenShareSinceBoot();
+    machine.quotaCores = quotaCores();
+    std::ifstream("/sys/devices/system/cpu/cpu0/thermal_throttle/core_throttle_count") >> machine.throttled;
     return machine;
 }
 
 std::vector<std::string> disturbances(const Machine& machine) {
     std::vector<std::string> list;
+    const auto add = [&list](std::string sentence) { list.push_back(std::move(sentence)); };
     if (!machine.governor.empty() && machine.governor != "performance")
-        list.push_back(fmt::format("the CPU's frequency governor is '{}', not 'performance'", machine.governor));
+        add(
+            fmt::format("the CPU's frequency governor is '{}', not 'performance' (as root: cpupower frequency-set -g "
+                        "performance)",
+                        machine.governor));
     if (machine.loadAverage > 0.25 * machine.cores)
-        list.push_back(
-            fmt::format("the machine is busy: load average {:.2f} on {} cores", machine.loadAverage, machine.cores));
+        add(fmt::format("the machine is busy: load average {:.2f} on {} cores (end other programs and wait a minute)",
+                        machine.loadAverage, machine.cores));
+    if (machine.quotaCores > 0 && machine.quotaCores < machine.cores)
+        add(
+            fmt::format("the container may use the time of {:.2f} cores and sees {} (give it whole ones: --cpuset-cpus "
+                        "instead of --cpus)",
+                        machine.quotaCores, machine.cores));
+    if (machine.stolenShare > 0.005)
+        add(
+            fmt::format("the host of this virtual machine took {:.1f} % of its CPU time since boot (use a machine that "
+                        "is not shared, and more repetitions)",
+                        100 * machine.stolenShare));
+    if (machine.throttled > 0)
+        add(
+            fmt::format("the CPU was slowed down for its heat {} times since boot (better cooling, or cooldown_s in "
+                        "the suite)",
+                        machine.throttled));
     return list;
 }
 

@@ -15,11 +15,15 @@ struct Machine {
     std::int64_t ramBytes = 0;
     std::string kernel;
     double loadAverage = 0;  ///< over the last minute: runnable threads
+    bool virtualMachine = false;
+    double stolenShare = 0;      ///< of the CPU time since boot: a virtual machine's host gave it to others
+    double quotaCores = 0;       ///< CPU time that a container may use, in cores; 0: no limit
+    std::int64_t throttled = 0;  ///< how often the first core was slowed down for its heat since boot
 };
 
 [[nodiscard]] Machine readMachine();
 
-/// One sentence each: what makes times measured here and now less trustworthy.
+/// One sentence each: what makes times measured here and now less trustworthy, and in brackets what helps.
 [[nodiscard]] std::vector<std::string> disturbances(const Machine& machine);
 
 }  // namespace dustbench::bench

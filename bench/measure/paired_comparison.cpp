@@ -15,17 +15,17 @@ namespace {
 
 constexpr std::array<std::string_view, 4> verdictNames{"FASTER", "SLOWER", "SAME", "UNRESOLVED"};
 
-Verdict judge(double lowLog, double highLog) {
-    const double margin = std::log1p(sameMargin);
-    if (highLog < -margin) return Verdict::faster;
-    if (lowLog > margin) return Verdict::slower;
-    return lowLog >= -margin && highLog <= margin ? Verdict::same : Verdict::unresolved;
-}
-
 }  // namespace
 
 std::string_view verdictName(Verdict verdict) {
     return verdictNames[static_cast<std::size_t>(verdict)];
+}
+
+Verdict judgeInterval(double lowLog, double highLog) {
+    const double margin = std::log1p(sameMargin);
+    if (highLog < -margin) return Verdict::faster;
+    if (lowLog > margin) return Verdict::slower;
+    return lowLog >= -margin && highLog <= margin ? Verdict::same : Verdict::unresolved;
 }
 
 double studentQuantile(double p, double degreesOfFreedom) {
@@ -47,7 +47,7 @@ PairedComparison judgeLogRatios(std::span<const double> logRatios) {
     const double half = studentQuantile((1 + intervalConfidence) / 2, n - 1) * standardError;
     result.low = std::exp(mean - half);
     result.high = std::exp(mean + half);
-    if (result.pairs >= fewestPairs) result.verdict = judge(mean - half, mean + half);
+    if (result.pairs >= fewestPairs) result.verdict = judgeInterval(mean - half, mean + half);
     return result;
 }
 

@@ -47,6 +47,9 @@ struct PairedComparison {
 /// The same from the pairs' ln(of / with).
 [[nodiscard]] PairedComparison judgeLogRatios(std::span<const double> logRatios);
 
+/// From the logarithms of an interval's ends and the margin, as above; how many times stand behind it is not asked.
+[[nodiscard]] Verdict judgeInterval(double lowLog, double highLog);
+
 /// The p-quantile (0 < p < 1) of Student's t distribution.
 [[nodiscard]] double studentQuantile(double p, double degreesOfFreedom);
 

@@ -1,8 +1,10 @@
 #include "bench/measure/provenance.h"
 
 #include <fmt/chrono.h>
+#include <link.h>
 
 #include <chrono>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -13,8 +15,41 @@
 
 namespace dustbench::bench {
 
+namespace {
+
+/// The note NT_GNU_BUILD_ID that the linker left in the program.
+std::string ownBuildId() {
+    std::string id;
+    const auto lookAt = [](dl_phdr_info* object, std::size_t, void* result) {
+        for (int i = 0; i < object->dlpi_phnum; ++i) {
+            const ElfW(Phdr)& segment = object->dlpi_phdr[i];
+            if (segment.p_type != PT_NOTE) continue;
+            const auto* at = reinterpret_cast<const char*>(object->dlpi_addr + segment.p_vaddr);
+            const char* const end = at + segment.p_memsz;
+            while (at + sizeof(ElfW(Nhdr)) <= end) {
+                ElfW(Nhdr) note;
+                std::memcpy(&note, at, sizeof note);
+                const char* const name = at + sizeof note;
+                const auto padded = [&](std::size_t size) { return (size + 3) / 4 * 4; };
+                const char* const content = name + padded(note.n_namesz);
+                if (note.n_type == NT_GNU_BUILD_ID &&
+                    std::string_view(name, note.n_namesz) == std::string_view("GNU", 4))
+                    for (std::size_t byte = 0; byte < note.n_descsz; ++byte)
+                        *static_cast<std::string*>(result) +=
+                            fmt::format("{:02x}", static_cast<unsigned char>(content[byte]));
+                at = content + padded(note.n_descsz);
+            }
+        }
+        return 1;  // the first object is the program itself
+    };
+    dl_iterate_phdr(lookAt, &id);
+    return id;
+}
+
+}  // namespace
+
 BuildFacts buildFacts() {
-    return {built::version, built::commit, built::dirty, built::compiler, built::flags, built::buildType};
+    return {built::version, built::commit, built::dirty, built::compiler, built::flags, built::buildType, ownBuildId()};
 }
 
 Provenance startProvenance(std::vector<std::string> argv) {
@@ -22,6 +57,7 @@ Provenance startProvenance(std::vector<std::string> argv) {
     provenance.argv = std::move(argv);
     provenance.build = buildFacts();
     provenance.machine = readMachine();
+    provenance.clock = measureClockCost();
     provenance.startedUtc = fmt::format(
         "{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
     provenance.warnings = disturbances(provenance.machine);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/measure/clock.h"
 #include "bench/measure/machine.h"
 #include "methods/shared/gpu/device.h"
 
@@ -19,6 +20,7 @@ struct BuildFacts {
     std::string compiler;
     std::string flags;
     std::string buildType;
+    std::string buildId;  ///< of the program file, hexadecimal: another build, another id; empty: the linker gave none
 };
 [[nodiscard]] BuildFacts buildFacts();
 
@@ -33,6 +35,7 @@ struct Provenance {
     Machine machine;
     gpu::DeviceInfo device;  ///< empty texts where no device was made
     bool gpuTimersTrusted = false;
+    ClockCost clock;
     std::vector<InputHash> inputs;
     std::string startedUtc;  ///< ISO 8601, to the second
     std::vector<std::string> warnings;

@@ -20,9 +20,10 @@ TEST(Provenance, SaysHowAndWhenAndWhere) {
     EXPECT_GE(provenance.machine.cores, 1);
     EXPECT_GT(provenance.machine.ramBytes, 1 << 20);
     EXPECT_FALSE(provenance.machine.kernel.empty());
+    EXPECT_TRUE(std::regex_match(provenance.build.buildId, std::regex("([0-9a-f]{8,})?")));
 }
 
-TEST(Provenance, WarnsOfABusyMachineAndASlowGovernor) {
+TEST(Provenance, WarnsOfAllThatDisturbs) {
     Machine machine;
     machine.cores = 4;
     EXPECT_THAT(disturbances(machine), testing::IsEmpty());
@@ -32,6 +33,14 @@ TEST(Provenance, WarnsOfABusyMachineAndASlowGovernor) {
     machine.loadAverage = 3;
     EXPECT_THAT(disturbances(machine),
                 testing::ElementsAre(testing::HasSubstr("powersave"), testing::HasSubstr("3.00 on 4 cores")));
+    machine = Machine();
+    machine.cores = 4;
+    machine.quotaCores = 1.5;
+    machine.stolenShare = 0.02;
+    machine.throttled = 7;
+    EXPECT_THAT(disturbances(machine),
+                testing::ElementsAre(testing::HasSubstr("1.50 cores and sees 4"), testing::HasSubstr("2.0 %"),
+                                     testing::HasSubstr("7 times")));
 }
 
 TEST(Provenance, NamesInputsByTheirContent) {

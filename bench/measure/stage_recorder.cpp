@@ -1,15 +1,9 @@
 #include "bench/measure/stage_recorder.h"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
 namespace dustbench::bench {
-
-std::int64_t steadyNow() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 void StageRecorder::clear() {
     stageNs_.fill(0);

@@ -9,12 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/measure/clock.h"
 #include "methods/shared/stage_clock.h"
 
 namespace dustbench::bench {
-
-/// Nanoseconds of std::chrono::steady_clock.
-[[nodiscard]] std::int64_t steadyNow();
 
 class StageRecorder : public StageListener {
  public:

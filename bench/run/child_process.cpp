@@ -12,8 +12,10 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
+#include <utility>
+
+#include "bench/run/bounded_log.h"
 
 namespace dustbench::bench {
 namespace {
@@ -41,16 +43,8 @@ class Descriptor {
     int value_;
 };
 
-std::string lastLine(const std::filesystem::path& log) {
-    std::ifstream file(log);
-    std::string last;
-    for (std::string line; std::getline(file, line);)
-        if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
-    return last.substr(0, 500);
-}
-
 /// After fork: only what is safe between fork and exec.
-[[noreturn]] void becomeCommand(char* const* argv, int output, int log, pid_t parent) {
+[[noreturn]] void becomeCommand(char* const* argv, int output, int errors, pid_t parent) {
     setpgid(0, 0);  // Ctrl-C reaches the parent alone, which then decides
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(127);
@@ -58,25 +52,61 @@ std::string lastLine(const std::filesystem::path& log) {
     signal(SIGTERM, SIG_DFL);
     signal(SIGPIPE, SIG_DFL);
     dup2(output, STDOUT_FILENO);
-    dup2(log, STDERR_FILENO);
+    dup2(errors, STDERR_FILENO);
     execv(argv[0], argv);
     const char* const message = std::strerror(errno);
     [[maybe_unused]] const auto written = write(STDERR_FILENO, message, std::strlen(message));
     _exit(127);
 }
 
-/// Hands on whole lines of what the pipe holds; false at its end.
-bool readLines(int pipe, std::string& pending, const std::function<void(std::string_view)>& onLine) {
-    std::array<char, 4096> buffer;
-    const ssize_t got = read(pipe, buffer.data(), buffer.size());
-    if (got < 0 && errno == EINTR) return true;
-    if (got <= 0) return false;
-    pending.append(buffer.data(), static_cast<std::size_t>(got));
-    std::size_t start = 0;
-    for (std::size_t end; (end = pending.find('\n', start)) != std::string::npos; start = end + 1)
-        if (onLine) onLine(std::string_view(pending).substr(start, end - start));
-    pending.erase(0, start);
-    return true;
+/// The reading end of a child's stream, and what is done with what comes out of it.
+class Stream {
+ public:
+    Stream(int readingEnd, std::function<void(std::string_view)> take)
+        : descriptor_(readingEnd), take_(std::move(take)) {}
+
+    [[nodiscard]] pollfd watched() const { return {open_ ? descriptor_.get() : -1, POLLIN, 0}; }
+    /// Once something is there, or its end.
+    void read() {
+        std::array<char, 65536> buffer;
+        const ssize_t got = ::read(descriptor_.get(), buffer.data(), buffer.size());
+        if (got > 0) take_(std::string_view(buffer.data(), static_cast<std::size_t>(got)));
+        if (got == 0 || (got < 0 && errno != EINTR)) open_ = false;
+    }
+    void readWhatIsThere() {
+        for (pollfd now = watched(); open_ && poll(&now, 1, 0) > 0;) read();
+    }
+
+ private:
+    Descriptor descriptor_;
+    std::function<void(std::string_view)> take_;
+    bool open_ = true;
+};
+
+/// Makes whole lines of what comes in pieces. A line without an end is dropped once it is too long to be one.
+class LineSplitter {
+ public:
+    explicit LineSplitter(std::function<void(std::string_view)> onLine) : onLine_(std::move(onLine)) {}
+
+    void take(std::string_view piece) {
+        pending_ += piece;
+        std::size_t start = 0;
+        for (std::size_t end; (end = pending_.find('\n', start)) != std::string::npos; start = end + 1)
+            if (onLine_) onLine_(std::string_view(pending_).substr(start, end - start));
+        pending_.erase(0, start);
+        if (pending_.size() > 65536) pending_.clear();
+    }
+
+ private:
+    std::function<void(std::string_view)> onLine_;
+    std::string pending_;
+};
+
+/// Both ends of a new pipe.
+std::pair<int, int> newPipe() {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw systemError("pipe");
+    return {ends[0], ends[1]};
 }
 
 }  // namespace
@@ -103,34 +133,37 @@ ChildOutcome runChild(const ChildCommand& command) {
     for (const std::string& word : command.argv) argv.push_back(const_cast<char*>(word.c_str()));
     argv.push_back(nullptr);
 
-    const Descriptor log(open(command.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
-    if (log.get() < 0) throw systemError(command.log.string());
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw systemError("pipe");
-    const Descriptor output(ends[0]);
-    Descriptor input(ends[1]);
+    BoundedLog log(command.log);
+    LineSplitter lines(command.onLine);
+    const auto [outputEnd, outputStart] = newPipe();
+    Stream output(outputEnd, [&](std::string_view piece) { lines.take(piece); });
+    Descriptor outputOfChild(outputStart);
+    const auto [errorsEnd, errorsStart] = newPipe();
+    Stream errors(errorsEnd, [&](std::string_view piece) { log.write(piece); });
+    Descriptor errorsOfChild(errorsStart);
 
     const pid_t parent = getpid();
     const pid_t child = fork();
     if (child < 0) throw systemError("fork");
-    if (child == 0) becomeCommand(argv.data(), input.get(), log.get(), parent);
+    if (child == 0) becomeCommand(argv.data(), outputStart, errorsStart, parent);
     setpgid(child, child);  // here as well: whichever of the two comes first
-    input.reset();
+    outputOfChild.reset();
+    errorsOfChild.reset();
 
     ChildOutcome outcome;
     outcome.timeoutSeconds = command.timeoutSeconds;
     const auto start = Clock::now();
-    std::string pending;
     auto lastSign = start;
-    bool open = true, killed = false;
+    bool killed = false;
     int status = 0;
-    // Its stdout may stay open in a process it left behind, or close early: its own end is what counts.
+    // Its streams may stay open in a process it left behind, or close early: its own end is what counts.
     for (;;) {
-        pollfd watched{output.get(), POLLIN, 0};
-        const int ready = poll(&watched, open ? 1 : 0, 100);
+        std::array<pollfd, 2> watched{output.watched(), errors.watched()};
+        poll(watched.data(), watched.size(), 100);
         const auto now = Clock::now();
-        if (open && ready > 0) {
-            open = readLines(output.get(), pending, command.onLine);
+        if (watched[1].revents != 0) errors.read();
+        if (watched[0].revents != 0) {
+            output.read();
             lastSign = now;
         } else if (now - lastSign > std::chrono::seconds(1)) {
             if (command.onLine) command.onLine({});
@@ -148,10 +181,11 @@ ChildOutcome runChild(const ChildCommand& command) {
         if (killed) kill(-child, SIGKILL);
     }
     kill(-child, SIGKILL);  // what it may have started itself
-    while (open && poll(std::array<pollfd, 1>{{{output.get(), POLLIN, 0}}}.data(), 1, 0) > 0)
-        open = readLines(output.get(), pending, command.onLine);
+    output.readWhatIsThere();
+    errors.readWhatIsThere();
+    log.finish();
 
-    outcome.lastWords = lastLine(command.log);
+    outcome.lastWords = log.lastLine();
     if (killed) return outcome;
     if (WIFSIGNALED(status)) {
         outcome.end = ChildOutcome::End::killedBySignal;

@@ -24,7 +24,7 @@ struct ChildOutcome {
 
 struct ChildCommand {
     std::vector<std::string> argv;  ///< argv[0] is the program's path
-    std::filesystem::path log;      ///< takes its stderr
+    std::filesystem::path log;      ///< takes its stderr, of very much its beginning and its end
     double timeoutSeconds = 0;      ///< 0: no limit
     /// Gets every line of its stdout, and an empty line about once a second where it says nothing.
     std::function<void(std::string_view)> onLine;

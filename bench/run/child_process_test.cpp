@@ -6,9 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <iterator>
 #include <thread>
+
+#include "bench/run/bounded_log.h"
 
 namespace dustbench::bench {
 namespace {
@@ -37,6 +41,26 @@ TEST(ChildProcess, NamesTheSignalThatKilledIt) {
     const ChildOutcome outcome = runChild(shell("echo last words >&2; kill -SEGV $$"));
     EXPECT_EQ(outcome.end, End::killedBySignal);
     EXPECT_EQ(outcome.reason(), "killed by SIGSEGV: last words");
+}
+
+TEST(ChildProcess, KeepsTheBeginningAndTheEndOfMegabytes) {
+    ChildCommand command = shell(
+        "echo first >&2; head -c 20000000 /dev/zero | tr '\\0' x >&2; head -c 20000000 /dev/zero; echo; echo fifth; "
+        "echo >&2; echo last words >&2; exit 1");
+    std::string lastLine;
+    std::size_t longest = 0;
+    command.onLine = [&](std::string_view line) {
+        longest = std::max(longest, line.size());
+        if (!line.empty()) lastLine = line;
+    };
+    EXPECT_EQ(runChild(command).reason(), "exit code 1: last words");
+    EXPECT_EQ(lastLine, "fifth");
+    EXPECT_LE(longest, 200'000u);
+    std::ifstream file(command.log, std::ios::binary);
+    const std::string log(std::istreambuf_iterator<char>(file), {});
+    EXPECT_LE(log.size(), BoundedLog::headBytes + BoundedLog::tailBytes + 100);
+    EXPECT_THAT(log, testing::AllOf(testing::StartsWith("first\nxxx"), testing::EndsWith("x\nlast words\n"),
+                                    testing::HasSubstr(" bytes left out]")));
 }
 
 TEST(ChildProcess, EndsAHangWithEverythingItStarted) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/results_folder.h"
+#include "bench/results/results_folder.h"
 #include "bench/sheet/contact_sheet.h"
 
 namespace dustbench::bench {

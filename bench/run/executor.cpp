@@ -1,9 +1,15 @@
 #include "bench/run/executor.h"
 
-#include <chrono>
+#include <fmt/format.h>
 
+#include <chrono>
+#include <thread>
+
+#include "bench/results/disk_need.h"
+#include "bench/results/freshness.h"
+#include "bench/results/summary.h"
 #include "bench/run/child_process.h"
-#include "bench/run/summary.h"
+#include "bench/run/remaining_time.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::bench {
@@ -14,10 +20,51 @@ bool isFailure(RunStatus status) {
     return status == RunStatus::failed || status == RunStatus::timeout;
 }
 
-bool isThere(const ResultsFolder& results, const std::string& id, const ExecutionOptions& options) {
-    const auto found = results.runs().find(id);
-    if (found == results.runs().end() || options.force) return false;
-    return !(options.retryFailed && isFailure(found->second.status));
+/// Room that must be left for tables and logs to end in order.
+constexpr std::uint64_t reserveBytes = 16 << 20;
+
+void requireRoom(const ResultsFolder& results, std::uint64_t bytes) {
+    const std::uint64_t free = freeBytes(results.path());
+    if (free < bytes)
+        throw cannotWrite(results.path(), fmt::format("the disk has {} left and the next run may need {}; the same "
+                                                      "command goes on once there is room",
+                                                      bytesText(free), bytesText(bytes)));
+}
+
+/// The parts of the plan that are to be done, and a count of those that are not.
+std::vector<const PlannedRun*> chooseRuns(const std::vector<PlannedRun>& plan, const ResultsFolder& results,
+                                          const ExecutionOptions& options, ExecutionResult& result) {
+    Freshness freshness;
+    std::vector<const PlannedRun*> toDo;
+    for (const PlannedRun& run : plan) {
+        const auto found = results.runs().find(runId(run.spec));
+        if (found == results.runs().end() || options.force ||
+            (options.retryFailed && isFailure(found->second.status))) {
+            toDo.push_back(&run);
+            continue;
+        }
+        const std::string why = freshness.whyOutdated(found->second);
+        if (!why.empty() && options.redoOutdated) {
+            toDo.push_back(&run);
+            continue;
+        }
+        ++result.kept;
+        if (isFailure(found->second.status)) ++result.failed;
+        if (why.empty()) continue;
+        if (result.outdated++ == 0) result.whyOutdated = found->first + ": " + why;
+    }
+    return toDo;
+}
+
+/// False where it was interrupted.
+bool coolDown(const ExecutionOptions& options, ExecutionListener& listener) {
+    const auto total = static_cast<std::int64_t>(options.cooldownSeconds * 10);
+    for (std::int64_t done = 0; done < total; ++done) {
+        if (options.interrupted && options.interrupted()) return false;
+        listener.heard(fmt::format("cooldown {} {}", done, total));
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    return true;
 }
 
 /// What is left of a run that did not end well: its reason and its log.
@@ -44,6 +91,7 @@ struct Outcome {
 Outcome runOne(const PlannedRun& run, ResultsFolder& results, const ExecutionOptions& options,
                ExecutionListener& listener) {
     const std::string id = runId(run.spec);
+    requireRoom(results, mostBytesOf(run.spec) + reserveBytes);
     const fs::path folder = results.beginRun(id);
     const fs::path specFile = folder / "spec.json";
     writeWhole(specFile, specToJson(run.spec));
@@ -71,7 +119,10 @@ Outcome runOne(const PlannedRun& run, ResultsFolder& results, const ExecutionOpt
                                                                : outcome.lastWords);
     }
 
+    if (!fs::exists(specFile)) throw cannotWrite(folder, "it was removed while a run was being written there");
     fs::remove(specFile);
+    // What the disk did is no result of the run.
+    if (!outcome.succeeded()) requireRoom(results, reserveBytes);
     if (!outcome.succeeded() || !fs::exists(folder / "run.json")) {
         const RunStatus status = outcome.end == End::timedOut ? RunStatus::timeout : RunStatus::failed;
         std::string reason = outcome.succeeded() ? "ended without a result" : outcome.reason();
@@ -91,32 +142,25 @@ ExecutionResult execute(const std::vector<PlannedRun>& plan, int repetitions, Re
                         const ExecutionOptions& options, ExecutionListener& listener) {
     using Clock = std::chrono::steady_clock;
     ExecutionResult result;
-    std::size_t toDo = 0;
-    std::vector<bool> there;
-    for (const PlannedRun& run : plan) {
-        there.push_back(isThere(results, runId(run.spec), options));
-        if (!there.back()) ++toDo;
-    }
-
-    const auto start = Clock::now();
-    std::size_t finished = 0;
-    for (std::size_t i = 0; i < plan.size() && !result.aborted; ++i) {
-        if (there[i]) {
-            ++result.kept;
-            if (isFailure(results.runs().at(runId(plan[i].spec)).status)) ++result.failed;
-            continue;
-        }
-        const std::chrono::duration<double> elapsed = Clock::now() - start;
-        const double eta =
-            finished == 0 ? -1 : elapsed.count() / static_cast<double>(finished) * static_cast<double>(toDo - finished);
-        listener.started(i + 1, plan.size(), plan[i], repetitions, eta);
-        const Outcome outcome = runOne(plan[i], results, options, listener);
-        if (outcome.aborted) {
-            result.aborted = true;
-            continue;
-        }
-        listener.ended(plan[i], outcome.status, outcome.reason);
-        ++finished;
+    const std::vector<const PlannedRun*> toDo = chooseRuns(plan, results, options, result);
+    RemainingTime remaining(toDo);
+    for (const PlannedRun* run : toDo) {
+        listener.started(static_cast<std::size_t>(run - plan.data()) + 1, plan.size(), *run, repetitions,
+                         remaining.seconds());
+        const auto start = Clock::now();
+        result.aborted = run != toDo.front() && !coolDown(options, listener);
+        if (result.aborted) break;
+        const Outcome outcome = [&] {
+            try {
+                return runOne(*run, results, options, listener);
+            } catch (const fs::filesystem_error& failure) {
+                throw cannotWrite(results.path(), failure.code().message());
+            }
+        }();
+        result.aborted = outcome.aborted;
+        if (result.aborted) break;
+        listener.ended(*run, outcome.status, outcome.reason);
+        remaining.ended(std::chrono::duration<double>(Clock::now() - start).count());
         if (isFailure(outcome.status))
             ++result.failed;
         else

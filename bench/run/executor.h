@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/run/results_folder.h"
-#include "bench/run/run_record.h"
-#include "bench/run/suite.h"
+#include "bench/results/results_folder.h"
+#include "bench/results/run_record.h"
+#include "bench/suite/suite.h"
 
 namespace dustbench::bench {
 
@@ -29,9 +29,11 @@ class ExecutionListener {
 };
 
 struct ExecutionOptions {
-    bool force = false;        ///< do again what is there
-    bool retryFailed = false;  ///< do again what failed or ran out of time
+    bool force = false;         ///< do again what is there
+    bool retryFailed = false;   ///< do again what failed or ran out of time
+    bool redoOutdated = false;  ///< do again what another build measured, or whose input files have changed
     double timeoutSeconds = 0;
+    double cooldownSeconds = 0;     ///< of rest before each run but the first
     std::vector<std::string> argv;  ///< the user's command, for provenance
     /// The command that measures one run: it reads the specification and leaves a run's files in the folder.
     std::function<std::vector<std::string>(const std::filesystem::path& spec, const std::filesystem::path& folder)>
@@ -44,11 +46,15 @@ struct ExecutionOptions {
 struct ExecutionResult {
     std::size_t done = 0;
     std::size_t skipped = 0;
-    std::size_t failed = 0;  ///< and timeouts; those of an earlier time count as well where they were left alone
-    std::size_t kept = 0;    ///< were there before
+    std::size_t failed = 0;     ///< and timeouts; those of an earlier time count as well where they were left alone
+    std::size_t kept = 0;       ///< were there before
+    std::size_t outdated = 0;   ///< of those: what another build measured, or whose input files have changed
+    std::string whyOutdated{};  ///< the first of them
     bool aborted = false;
 };
 
+/// Throws InputError where the disk is full or the folder cannot be written any more: nothing finished is lost, and the
+/// same call goes on once that is mended.
 [[nodiscard]] ExecutionResult execute(const std::vector<PlannedRun>& plan, int repetitions, ResultsFolder& results,
                                       const ExecutionOptions& options, ExecutionListener& listener);
 

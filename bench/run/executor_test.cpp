@@ -11,7 +11,7 @@
 #include <iterator>
 #include <thread>
 
-#include "bench/run/summary.h"
+#include "bench/results/summary.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/files/csv.h"
 

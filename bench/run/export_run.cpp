@@ -6,9 +6,9 @@
 
 #include "bench/export/volume_exporter.h"
 #include "bench/export/whole_file.h"
+#include "bench/results/run_record.h"
 #include "bench/run/frame_runner.h"
 #include "bench/run/replay.h"
-#include "bench/run/run_record.h"
 #include "bench/run/thread_limit.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/registry.h"

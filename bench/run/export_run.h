@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/results/run_spec.h"
 #include "bench/run/measured_run.h"
-#include "bench/run/run_spec.h"
 #include "bench/scene/world.h"
 
 namespace dustbench::bench {

@@ -14,7 +14,7 @@
 #include "bench/judge/moment_pictures.h"
 #include "bench/measure/frame_record.h"
 #include "bench/measure/stage_recorder.h"
-#include "bench/run/run_spec.h"
+#include "bench/results/run_spec.h"
 #include "bench/scene/world.h"
 #include "methods/shared/draw/composite.h"
 #include "methods/shared/draw/image.h"

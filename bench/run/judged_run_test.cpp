@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "bench/run/suite.h"
+#include "bench/suite/suite.h"
 #include "methods/shared/files/csv.h"
 #include "methods/shared/registry.h"
 #include "methods/shared/test_folder.h"

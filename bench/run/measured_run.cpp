@@ -4,13 +4,15 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "bench/export/volume_exporter.h"
+#include "bench/measure/clock.h"
+#include "bench/measure/energy_meter.h"
 #include "bench/measure/memory_probe.h"
 #include "bench/measure/steadiness.h"
-#include "bench/run/frame_files.h"
+#include "bench/results/frame_files.h"
+#include "bench/results/results_folder.h"
+#include "bench/results/summary.h"
 #include "bench/run/frame_runner.h"
 #include "bench/run/judged_run.h"
-#include "bench/run/results_folder.h"
-#include "bench/run/summary.h"
 #include "bench/run/thread_limit.h"
 #include "methods/shared/registry.h"
 
@@ -41,9 +43,11 @@ class RunVolumes {
         if (spec.volumes) exporter_.emplace(*spec.volumes, folder / "volumes");
     }
 
-    /// After frame `index`, if its volume was asked for.
+    [[nodiscard]] bool wants(std::int64_t index) const {
+        return exporter_ && exporter_->settings().frames.contains(index);
+    }
+    /// After frame `index`.
     void write(FrameRunner& runner, std::int64_t index) {
-        if (!exporter_ || !exporter_->settings().frames.contains(index)) return;
         runner.drain();
         CollectedVolume volume;
         runner.volume(volume);
@@ -77,26 +81,39 @@ class RunVolumes {
     std::optional<VolumeExporter> exporter_;
 };
 
-/// The untimed steps, of which the last is verified, then warm-up and recorded frames.
+/// The untimed steps, of which the last is verified, then warm-up and recorded frames. Fills in what is measured of the
+/// run as a whole.
 void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, const fs::path& folder,
-               RunVolumes& volumes, const RunProgress& progress) {
+               RunVolumes& volumes, EnergyMeter& energy, const RunProgress& progress, WholeRun& run) {
     const std::int64_t preroll = stepsBeforeWarmup(world);
     for (std::int64_t step = 0; step < preroll; ++step) {
         progress("preroll", step, preroll);
         const std::int64_t index = step - preroll - spec.warmup;
         step + 1 < preroll ? runner.stepWithoutPicture(index) : runner.verifiedStep(index);
     }
+    run.startSeconds = secondsSinceProcessStart();
     for (std::int64_t index = -spec.warmup; index < spec.frames; ++index) {
-        if (index == 0) runner.drain();
+        if (index == 0) {
+            runner.drain();
+            energy.resume();
+        }
         if (index < 0)
             progress("warmup", index + spec.warmup, spec.warmup);
         else
             progress("frames", index, spec.frames);
         runner.frame(index);
-        if (spec.imagesEvery > 0 && index >= 0 && index % spec.imagesEvery == 0) savePicture(runner, folder, index);
-        volumes.write(runner, index);
+        const bool savesPicture = spec.imagesEvery > 0 && index >= 0 && index % spec.imagesEvery == 0;
+        if (!savesPicture && !volumes.wants(index)) continue;
+        runner.drain();
+        energy.pause();
+        if (savesPicture) savePicture(runner, folder, index);
+        if (volumes.wants(index)) volumes.write(runner, index);
+        energy.resume();
     }
     runner.drain();
+    energy.pause();
+    run.cpuJoules = energy.cpuJoules();
+    run.gpuJoules = energy.gpuJoules();
     progress("frames", spec.frames, spec.frames);
 }
 
@@ -116,13 +133,20 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     }
 
     gpu::Device device;
+    const auto freeAtStart = device.driverFreeBytes();
     record.provenance.device = device.info();
     record.provenance.gpuTimersTrusted = gpu::timerQueriesAreTrue(device);
     std::optional<FrameRunner> timed;
     FrameRunner& runner =
         timed.emplace(spec, world, device, info.create(parameters.method), record.provenance.gpuTimersTrusted);
     RunVolumes volumes(spec, folder, world, record.provenance.warnings);
-    runFrames(spec, world, runner, folder, volumes, progress);
+    EnergyMeter energy(packageEnergy(), gpuEnergy(device.info().renderer));
+    WholeRun whole;
+    whole.softwareRenderer = isSoftwareRenderer(device.info());
+    runFrames(spec, world, runner, folder, volumes, energy, progress, whole);
+    whole.peakResidentBytes = peakResidentBytes();
+    if (const auto freeAtEnd = device.driverFreeBytes(); freeAtStart && freeAtEnd)
+        whole.driverBytes = *freeAtStart - *freeAtEnd;
 
     if (world.state().timeSeconds > world.driveSeconds() + 0.5 * stepSeconds)
         record.provenance.warnings.push_back(
@@ -141,8 +165,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
         record.memory.emplace_back("device", MemoryUse{structure, 0, bytes});
 
     record.summary = identityColumns(record, threads);
-    for (auto& column : measuredColumns(runner.records(), peakResidentBytes()))
-        record.summary.push_back(std::move(column));
+    for (auto& column : measuredColumns(runner.records(), whole)) record.summary.push_back(std::move(column));
     if (const auto kept = runner.massKept()) record.summary.emplace_back("mass_kept", *kept);
     if (spec.imagesEvery > 0 || spec.judging)
         record.summary.emplace_back("FILE_image", "runs/" + runId(spec) + "/images/f000000.png");

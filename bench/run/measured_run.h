@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/run/run_record.h"
+#include "bench/results/run_record.h"
 
 namespace dustbench::bench {
 

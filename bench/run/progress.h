@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "bench/run/suite.h"
+#include "bench/suite/suite.h"
 
 namespace dustbench::bench {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
 #include <regex>
 #include <sstream>
 
@@ -31,6 +32,20 @@ std::string territoryOf(const std::string& path) {
     const std::string top = path.substr(0, first);
     if (top != "methods" || first == std::string::npos) return top;
     return path.substr(0, path.find('/', first + 1));
+}
+
+/// The rooms of bench/: each may use those before it.
+constexpr std::array<std::string_view, 12> benchRooms{"scene",     "measure",    "sheet",   "export",
+                                                      "reference", "judge",      "results", "suite",
+                                                      "claims",    "regression", "run",     "cli"};
+
+/// Where a room of bench/ stands in that order; nothing for all other files.
+std::optional<std::size_t> roomOf(const std::string& path) {
+    if (!path.starts_with("bench/")) return std::nullopt;
+    const std::string rest = path.substr(6);
+    const auto room = std::ranges::find(benchRooms, std::string_view(rest).substr(0, rest.find('/')));
+    if (room == benchRooms.end()) return std::nullopt;
+    return static_cast<std::size_t>(room - benchRooms.begin());
 }
 
 bool mayInclude(const std::string& from, const std::string& to) {
@@ -62,6 +77,8 @@ Faults includeFaults(const SourceFile& file) {
             faults.push_back(fault(file, i, "includes '" + target + "': name it from the root of the tree"));
         } else if (!mayInclude(territoryOf(file.path), territoryOf(target))) {
             faults.push_back(fault(file, i, "must not include '" + target + "'"));
+        } else if (roomOf(target) > roomOf(file.path) && roomOf(file.path)) {
+            faults.push_back(fault(file, i, "must not include '" + target + "', which is built on it"));
         }
     }
     return faults;

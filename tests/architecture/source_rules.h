@@ -16,7 +16,8 @@ struct SourceFile {
 /// What breaks a rule, one `path:line: what is wrong` each.
 using Faults = std::vector<std::string>;
 
-/// Includes point one way: methods/<id> → methods/shared ← bench; nothing is included by a path that climbs.
+/// Includes point one way: methods/<id> → methods/shared ← bench, and within bench/ from later rooms to earlier ones;
+/// nothing is included by a path that climbs.
 [[nodiscard]] Faults includeFaults(const SourceFile& file);
 
 /// OpenGL is called, and its types and headers are seen, in methods/shared/gpu alone.

@@ -48,6 +48,8 @@ TEST(SourceRules, LetTheHarnessKnowMethodsThroughTheRegistryAlone) {
     EXPECT_THAT(includesOf("bench/run/a.cpp", "methods/billboard/b.h"), SizeIs(1));
     EXPECT_THAT(includesOf("bench/run/a.cpp", "methods/shared/registry.h"), IsEmpty());
     EXPECT_THAT(includesOf("bench/run/a.cpp", "bench/scene/world.h"), IsEmpty());
+    EXPECT_THAT(includesOf("bench/scene/a.cpp", "bench/run/executor.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("bench/results/a.cpp", "bench/suite/suite.h"), SizeIs(1));
 }
 
 TEST(SourceRules, RefusePathsThatClimb) {

@@ -130,6 +130,17 @@ Device::Device() {
 
 Device::~Device() = default;
 
+std::optional<std::int64_t> Device::driverFreeBytes() const {
+    // The first of the numbers, in KiB, of either extension is what is free.
+    std::array<GLint, 4> kibibytes{};
+    if (epoxy_has_gl_extension("GL_NVX_gpu_memory_info"))
+        glGetIntegerv(GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX, kibibytes.data());
+    else if (epoxy_has_gl_extension("GL_ATI_meminfo"))
+        glGetIntegerv(GL_TEXTURE_FREE_MEMORY_ATI, kibibytes.data());
+    if (kibibytes[0] <= 0) return std::nullopt;
+    return std::int64_t{kibibytes[0]} * 1024;
+}
+
 void Device::finish() {
     glFinish();
     throwOnDebugOutput("finish");

@@ -4,7 +4,9 @@
 // that made the Device.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "methods/shared/memory_ledger.h"
@@ -30,6 +32,8 @@ class Device {
     [[nodiscard]] const DeviceInfo& info() const { return info_; }
     /// Bytes of every buffer and texture, by their labels.
     [[nodiscard]] MemoryLedger& ledger() { return ledger_; }
+    /// What the driver says is free on the GPU, for all of the machine's programs; empty where it does not tell.
+    [[nodiscard]] std::optional<std::int64_t> driverFreeBytes() const;
     /// Blocks until all queued work is done.
     void finish();
 

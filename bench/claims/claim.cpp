@@ -1,0 +1,119 @@
+#include "bench/claims/claim.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include "bench/results/summary.h"
+#include "bench/suite/suite.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/files/data_folder.h"
+#include "methods/shared/files/toml_reader.h"
+
+namespace dustbench::bench {
+namespace {
+
+const std::vector<std::string> quantityNames{"none", "ratio", "share", "growth", "exponent", "value"};
+
+/// A column of summary.csv, in which `p.` may be anything: which parameters there are depends on the methods.
+void requireColumn(const std::string& where, const std::string& name) {
+    std::vector<std::string> known = columnsBeforeParameters();
+    std::ranges::copy(columnsAfterParameters(), std::back_inserter(known));
+    if (!name.starts_with("p.") && std::ranges::find(known, name) == known.end())
+        throw InputError(where + unknownName("column of summary.csv", name, known).what());
+}
+
+/// `billboard soft=true`: a method, then cells of parameters; or cells alone.
+Selection readSelection(files::TomlReader& table, const std::string& key) {
+    Selection selection;
+    std::istringstream words(table.text(key));
+    for (std::string word; words >> word;) {
+        const std::size_t equals = word.find('=');
+        if (equals == std::string::npos && selection.empty())
+            selection.emplace_back("method", word);
+        else if (equals == std::string::npos || equals == 0)
+            throw InputError(table.where(key) + "key '" + key + "': got '" + word + "', expected name=value");
+        else
+            selection.emplace_back("p." + word.substr(0, equals), word.substr(equals + 1));
+    }
+    if (selection.empty()) throw InputError(table.where(key) + "key '" + key + "': got nothing, expected METHOD …");
+    return selection;
+}
+
+std::string readColumn(files::TomlReader& table, const std::string& key) {
+    const std::string name = table.text(key);
+    requireColumn(table.where(key), name);
+    return name;
+}
+
+void readRange(files::TomlReader& table, Claim& claim) {
+    constexpr double any = 1e300;
+    if (table.has("least")) claim.least = table.number("least", -any, any);
+    if (table.has("greatest")) claim.greatest = table.number("greatest", -any, any);
+    if (!claim.least && !claim.greatest)
+        throw InputError(claim.where + "claim " + claim.id + ": got neither 'least' nor 'greatest', expected one");
+    if (claim.least && claim.greatest && *claim.least > *claim.greatest)
+        throw InputError(claim.where + "claim " + claim.id + ": 'least' is above 'greatest'");
+}
+
+Claim readClaim(files::TomlReader& table) {
+    Claim claim;
+    claim.where = table.where();
+    claim.id = table.text("id");
+    claim.text = table.text("text");
+    const std::string quantity = table.choice("quantity", quantityNames);
+    claim.quantity = static_cast<Quantity>(std::ranges::find(quantityNames, quantity) - quantityNames.begin());
+    if (claim.quantity == Quantity::none) {
+        claim.missing = table.text("missing");
+        table.finish();
+        return claim;
+    }
+    claim.suite = table.text("suite");
+    claim.column = readColumn(table, "column");
+    claim.of = readSelection(table, "of");
+    claim.exact = table.boolean("exact", false);
+    if (claim.quantity == Quantity::ratio) claim.with = readSelection(table, "with");
+    if (claim.quantity == Quantity::share) {
+        claim.parts = table.texts("parts");
+        if (claim.parts.empty()) throw InputError(table.where("parts") + "key 'parts': got none, expected columns");
+        for (const std::string& part : claim.parts) requireColumn(table.where("parts"), part);
+    }
+    if (claim.quantity == Quantity::growth || claim.quantity == Quantity::exponent)
+        claim.against = readColumn(table, "against");
+    readRange(table, claim);
+    table.finish();
+    return claim;
+}
+
+std::vector<Claim> readClaims(files::TomlReader file) {
+    std::vector<Claim> claims;
+    for (files::TomlReader& table : file.tables("claim")) {
+        claims.push_back(readClaim(table));
+        if (std::ranges::count(claims, claims.back().id, &Claim::id) > 1)
+            throw InputError(claims.back().where + "claim " + claims.back().id + ": is there twice");
+    }
+    file.finish();
+    return claims;
+}
+
+}  // namespace
+
+std::string Claim::expected() const {
+    if (least && greatest) return fmt::format("{:g} to {:g}", *least, *greatest);
+    if (least) return fmt::format("{:g} or more", *least);
+    return greatest ? fmt::format("{:g} or less", *greatest) : "";
+}
+
+std::vector<Claim> loadClaims(const std::string& paper) {
+    const std::filesystem::path file = files::dataFolder() / "papers" / paper / "claims.toml";
+    if (!std::filesystem::exists(file)) return {};
+    return readClaims(files::TomlReader::parseFile(file));
+}
+
+std::vector<Claim> parseClaims(std::string_view text, const std::string& name) {
+    return readClaims(files::TomlReader::parseText(text, name));
+}
+
+}  // namespace dustbench::bench

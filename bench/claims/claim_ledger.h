@@ -1,0 +1,28 @@
+// The claims of a paper held against a results folder's summary.csv, as claims.csv and for people.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/claims/claim_verdict.h"
+#include "bench/suite/suite_table.h"
+
+namespace dustbench::bench {
+
+struct JudgedClaim {
+    std::string paper;
+    Claim claim;
+    ClaimResult result;
+};
+
+/// Of each claim the runs of its suite count, in its whole and its quick form. Throws InputError for a claims.toml or a
+/// suite that cannot be read.
+[[nodiscard]] std::vector<JudgedClaim> judgeClaims(const std::string& paper, const files::CsvTable& summary);
+
+/// `id,paper,claim,verdict,measured,expected,interval,runs`, as reports/SCHEMA.md defines them.
+[[nodiscard]] std::string claimsCsv(const std::vector<JudgedClaim>& claims);
+
+/// A row each: id, verdict, what was measured with its interval, what is expected, the claim and the note.
+[[nodiscard]] TextRows tabulate(const std::vector<JudgedClaim>& claims);
+
+}  // namespace dustbench::bench

@@ -1,0 +1,40 @@
+// A claim against results: the quantity that its rule names, with its interval, and what follows.
+//
+//     confirmed    the interval lies wholly within the values in which the claim is true
+//     refuted      wholly outside
+//     unresolved   neither, or fewer than 6 repetitions
+//     not-tested   a row that the rule needs is not there; the note says which
+//
+// Where the quantity depends on the machine, each repetition gives one value over all cells (the geometric mean of
+// ratios and growths, the mean of shares and values), and the interval is Student's over the repetitions, of logarithms
+// for ratios and growths. An exponent has the widest interval of its curves' fits. Where it does not (`exact`), the
+// interval is the range over the cells: confirmed is what holds in all of them, refuted what holds in none. Threads:
+// pure. Source: Student1908.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/claims/claim.h"
+#include "bench/claims/result_rows.h"
+
+namespace dustbench::bench {
+
+enum class ClaimVerdict { confirmed, refuted, unresolved, notTested };
+/// `confirmed` … `not-tested`
+[[nodiscard]] std::string_view verdictName(ClaimVerdict verdict);
+
+struct ClaimResult {
+    ClaimVerdict verdict = ClaimVerdict::notTested;
+    double measured = std::numeric_limits<double>::quiet_NaN();
+    double low = std::numeric_limits<double>::quiet_NaN();
+    double high = std::numeric_limits<double>::quiet_NaN();
+    std::string note{};               ///< why it is not tested or not resolved
+    std::vector<std::string> runs{};  ///< ids of all runs that took part
+};
+
+[[nodiscard]] ClaimResult judgeClaim(const Claim& claim, const ResultRows& rows);
+
+}  // namespace dustbench::bench

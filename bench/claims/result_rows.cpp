@@ -1,0 +1,75 @@
+#include "bench/claims/result_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace dustbench::bench {
+namespace {
+
+constexpr std::array<std::string_view, 9> identityColumns{"method", "scene", "drive",   "seed",  "width",
+                                                          "height", "sync",  "threads", "frames"};
+
+std::optional<double> numberOf(const std::string& text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+bool sameValue(const std::string& a, const std::string& b) {
+    if (a == b) return true;
+    const auto x = numberOf(a), y = numberOf(b);
+    return x && y && *x == *y;
+}
+
+}  // namespace
+
+ResultRows::ResultRows(const files::CsvTable& table, const std::set<std::string>* runIds) : table_(table) {
+    for (std::size_t row = 0; row < table.rows(); ++row)
+        if (table.cell(row, "status") == "done" && (!runIds || runIds->contains(table.cell(row, "run_id"))))
+            rows_.push_back(row);
+    for (const std::string& column : table.header())
+        if (column.starts_with("p.") || std::ranges::find(identityColumns, column) != identityColumns.end())
+            identity_.push_back(column);
+}
+
+std::vector<std::size_t> ResultRows::select(const Selection& selection) const {
+    std::vector<std::size_t> chosen;
+    for (const std::size_t row : rows_)
+        if (std::ranges::all_of(selection, [&](const auto& cell) {
+                return table_.hasColumn(cell.first) && sameValue(table_.cell(row, cell.first), cell.second);
+            }))
+            chosen.push_back(row);
+    return chosen;
+}
+
+std::optional<double> ResultRows::number(std::size_t row, std::string_view column) const {
+    return table_.hasColumn(column) ? numberOf(table_.cell(row, column)) : std::nullopt;
+}
+
+int ResultRows::repetition(std::size_t row) const {
+    return static_cast<int>(number(row, "repetition").value_or(1));
+}
+
+const std::string& ResultRows::runId(std::size_t row) const {
+    return table_.cell(row, "run_id");
+}
+
+bool ResultRows::correspond(std::size_t a, std::size_t b, const std::set<std::string>& named) const {
+    if (repetition(a) != repetition(b)) return false;
+    return std::ranges::all_of(identity_, [&](const std::string& column) {
+        if (named.contains(column)) return true;
+        const std::string &x = table_.cell(a, column), &y = table_.cell(b, column);
+        return x == y || x.empty() || y.empty();
+    });
+}
+
+std::string ResultRows::cellKey(std::size_t row, std::string_view except) const {
+    std::string key;
+    for (const std::string& column : identity_)
+        if (column != except) key.append(table_.cell(row, column)).append(1, '\n');
+    return key;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,68 @@
+// `dustbench merge`: the results of several machines in one folder.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+#include <set>
+
+#include "bench/cli/commands.h"
+#include "bench/cli/exit_codes.h"
+#include "bench/cli/interruption.h"
+#include "bench/results/measured_on.h"
+#include "bench/results/merge.h"
+#include "bench/results/stored_folder.h"
+#include "methods/shared/errors.h"
+
+namespace dustbench::cli {
+namespace {
+namespace fs = std::filesystem;
+
+struct MergeOptions {
+    std::string out;
+    std::vector<std::string> sources;
+};
+
+/// Each way once in which a run's machine is not that of the first one.
+void sayWhereMachinesDiffer(const bench::StoredRuns& runs) {
+    const bench::StoredRun* first = nullptr;
+    std::set<std::string> said;
+    for (const auto& [id, run] : runs) {
+        if (run.status != bench::RunStatus::done) continue;
+        if (!first) first = &run;
+        for (const auto& [field, mine, other] : bench::differences(*first, run, bench::machineFields()))
+            if (const std::string text = fmt::format("{}: '{}' and '{}'", field, mine, other); said.insert(text).second)
+                std::cerr << "note: the runs are of different machines, " << text << "\n";
+    }
+}
+
+int mergeFolders(const MergeOptions& options) {
+    std::vector<bench::MergeSource> sources;
+    for (const std::string& folder : options.sources) sources.emplace_back(folder, bench::readStoredRuns(folder));
+    bench::ResultsFolder results(options.out);
+    const bench::MergePlan plan = bench::planMerge(sources, results);
+    bench::requireSpace(plan, results.path(), fs::space(results.path()).available);
+    listenForInterruption();
+    if (!bench::merge(plan, results, interrupted)) {
+        std::cerr << "aborted; the same command goes on from here" << std::endl;
+        return exitAborted;
+    }
+    sayWhereMachinesDiffer(results.runs());
+    std::cerr << fmt::format("{} copied, {} were there\n", plan.copies.size(), plan.there);
+    std::cout << (results.path() / "summary.csv").string() << "\n";
+    return exitOk;
+}
+
+}  // namespace
+
+Command mergeCommand() {
+    auto options = std::make_shared<MergeOptions>();
+    return {"merge", "Put the results of several machines into one folder",
+            "Runs that are there already are left alone; two different results of one run are refused.",
+            [options](Arguments& arguments) {
+                arguments.required("--out", "DIR", "folder for all of them; made where it is missing", options->out);
+                arguments.requiredTexts("folders", "DIR", "of results: the shards of a suite", options->sources);
+            },
+            [options] { return mergeFolders(*options); }};
+}
+
+}  // namespace dustbench::cli

@@ -1,0 +1,30 @@
+// A suite as an array job of Slurm: a shard a task, then a job that merges.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace dustbench::cli {
+
+struct SlurmJob {
+    std::string name;                    ///< of the suite
+    std::string program, folder, out;    ///< absolute; `folder` is where the command was given
+    std::vector<std::string> arguments;  ///< of `dustbench`, without --out, --slurm and --shard
+    int shards = 1;
+    std::size_t runs = 0, mostRunsOfShard = 0;
+    double timeoutSeconds = 0;   ///< of one run
+    double cooldownSeconds = 0;  ///< between two runs
+};
+
+/// A bash script: `sbatch` takes it as an array job; run as it is, it submits itself and the job that merges.
+[[nodiscard]] std::string slurmScript(const SlurmJob& job);
+
+/// The words of a `dustbench` command but for some options and their values.
+[[nodiscard]] std::vector<std::string> withoutOptions(const std::vector<std::string>& words,
+                                                      const std::vector<std::string>& options);
+
+/// As one word of a POSIX shell.
+[[nodiscard]] std::string shellQuoted(const std::string& text);
+
+}  // namespace dustbench::cli

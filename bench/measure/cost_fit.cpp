@@ -1,0 +1,140 @@
+#include "bench/measure/cost_fit.h"
+
+#include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <set>
+
+#include "bench/measure/paired_comparison.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr std::size_t fewestLoads = 4;
+
+struct Line {
+    double a = 0, b = 0;
+    double squares = 0;  ///< Σ residual²
+};
+
+/// The best a ≥ 0 and b for a given exponent; x = N^k.
+Line fitLine(std::span<const CostPoint> points, double k) {
+    double s0 = 0, sx = 0, sxx = 0, sy = 0, sxy = 0;
+    for (const auto& [load, ms] : points) {
+        const double w = 1 / (ms * ms), x = std::pow(load, k);
+        s0 += w;
+        sx += w * x;
+        sxx += w * x * x;
+        sy += w * ms;
+        sxy += w * x * ms;
+    }
+    Line line;
+    const double determinant = s0 * sxx - sx * sx;
+    line.a = (sxx * sy - sx * sxy) / determinant;
+    line.b = (s0 * sxy - sx * sy) / determinant;
+    if (!(line.a > 0)) {
+        line.a = 0;
+        line.b = sxy / sxx;
+    }
+    for (const auto& [load, ms] : points) {
+        const double residual = (ms - line.a - line.b * std::pow(load, k)) / ms;
+        line.squares += residual * residual;
+    }
+    return line;
+}
+
+/// Where Σ residual² is least: a scan, then the golden section around its best place.
+double bestExponent(std::span<const CostPoint> points) {
+    const auto squares = [&](double k) { return fitLine(points, k).squares; };
+    constexpr double step = 0.05;
+    double best = leastExponent;
+    for (double k = leastExponent; k <= greatestExponent; k += step)
+        if (squares(k) < squares(best)) best = k;
+    double low = std::max(leastExponent, best - step), high = std::min(greatestExponent, best + step);
+    constexpr double golden = 0.6180339887498949;
+    while (high - low > 1e-9) {
+        const double left = high - golden * (high - low), right = low + golden * (high - low);
+        if (squares(left) < squares(right))
+            high = right;
+        else
+            low = left;
+    }
+    return (low + high) / 2;
+}
+
+/// Σ residual² of the best constant.
+double squaresOfConstant(std::span<const CostPoint> points) {
+    double s0 = 0, sy = 0, squares = 0;
+    for (const auto& [load, ms] : points) {
+        s0 += 1 / (ms * ms);
+        sy += 1 / ms;
+    }
+    for (const auto& [load, ms] : points) squares += (1 - sy / s0 / ms) * (1 - sy / s0 / ms);
+    return squares;
+}
+
+/// Whether two more parameters explain more than scatter would, by the F test at 5 %.
+bool growthIsResolved(double constant, double curve, double freedom) {
+    constexpr double roundOff = 1e-20;
+    if (freedom < 1 || constant < roundOff * freedom) return false;
+    const double quantile = boost::math::quantile(boost::math::fisher_f(2, freedom), intervalConfidence);
+    return constant - curve > 2 * quantile * curve / freedom;
+}
+
+}  // namespace
+
+CostFit fitCost(std::span<const CostPoint> points) {
+    CostFit fit;
+    fit.runs = points.size();
+    std::set<double> loads;
+    for (const auto& [load, ms] : points) {
+        loads.insert(load);
+        if (!(load > 0 && std::isfinite(load))) fit.reason = "a load is not a number above 0";
+        if (!(ms > 0 && std::isfinite(ms))) fit.reason = "a time is not a number above 0";
+    }
+    fit.loads = loads.size();
+    if (fit.reason.empty() && loads.size() < fewestLoads) fit.reason = "fewer than 4 different loads";
+    if (!fit.reason.empty()) return fit;
+
+    const double k = bestExponent(points);
+    const Line line = fitLine(points, k);
+    const double margin = 1e-3;
+    const bool withFixed = line.a > 0;
+    const auto freedom = static_cast<double>(points.size()) - (withFixed ? 3 : 2);
+    if (!growthIsResolved(squaresOfConstant(points), line.squares, freedom)) {
+        fit.reason = "no growth with the load stands out from the scatter";
+        return fit;
+    }
+    if (!(line.b > 0) || k < leastExponent + margin || k > greatestExponent - margin) {
+        fit.reason = "the cost does not grow with the load as a power of it";
+        return fit;
+    }
+    fit.fixedMs.value = line.a;
+    fit.factor.value = line.b;
+    fit.exponent.value = k;
+
+    glm::dmat3 normal(0);  // JᵀJ in the order a, b, k
+    for (const auto& [load, ms] : points) {
+        const double x = std::pow(load, k);
+        const glm::dvec3 gradient = glm::dvec3(withFixed ? 1 : 0, x, line.b * x * std::log(load)) / ms;
+        normal += glm::outerProduct(gradient, gradient);
+    }
+    if (!withFixed) normal[0][0] = 1;
+    fit.relativeError = std::sqrt(line.squares / freedom);
+
+    // Scaled to a diagonal of ones before it is inverted: the three differ by orders of magnitude.
+    glm::dvec3 scale;
+    for (int i = 0; i < 3; ++i) scale[i] = 1 / std::sqrt(normal[i][i]);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) normal[i][j] *= scale[i] * scale[j];
+    const glm::dmat3 inverse = glm::inverse(normal);
+    const double t = studentQuantile((1 + intervalConfidence) / 2, freedom);
+    const auto plusMinus = [&](int i) { return t * fit.relativeError * std::sqrt(inverse[i][i]) * scale[i]; };
+    if (withFixed) fit.fixedMs.plusMinus = plusMinus(0);
+    fit.factor.plusMinus = plusMinus(1);
+    fit.exponent.plusMinus = plusMinus(2);
+    return fit;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,23 @@
+/* Two GPUs that count energy, for the test of what reads them: each call adds 1500 mJ. */
+#include <string.h>
+
+static unsigned long long used[2] = {1000, 5000};
+
+int nvmlInit_v2(void) { return 0; }
+int nvmlShutdown(void) { return 0; }
+int nvmlDeviceGetCount_v2(unsigned int* count) {
+    *count = 2;
+    return 0;
+}
+int nvmlDeviceGetHandleByIndex_v2(unsigned int index, void** device) {
+    *device = &used[index];
+    return 0;
+}
+int nvmlDeviceGetName(void* device, char* name, unsigned int length) {
+    strncpy(name, device == &used[0] ? "Stand-in One" : "Stand-in Two", length);
+    return 0;
+}
+int nvmlDeviceGetTotalEnergyConsumption(void* device, unsigned long long* millijoules) {
+    *millijoules = *(unsigned long long*)device += 1500;
+    return 0;
+}

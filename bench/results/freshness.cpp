@@ -1,0 +1,36 @@
+#include "bench/results/freshness.h"
+
+#include <exception>
+
+#include "bench/measure/sha256.h"
+#include "methods/shared/files/data_folder.h"
+
+namespace dustbench::bench {
+
+const std::string& Freshness::hashOf(const std::string& input) {
+    const auto [entry, isNew] = hashes_.try_emplace(input);
+    if (isNew) try {
+            entry->second = sha256OfFile(files::dataFolder() / input);  // an absolute name stays as it is
+        } catch (const std::exception&) {
+            entry->second.clear();
+        }
+    return entry->second;
+}
+
+std::string Freshness::whyOutdated(const StoredRun& run) {
+    if (run.status != RunStatus::done && run.status != RunStatus::skipped) return {};
+    const auto build = run.provenance.find("build_id");
+    if (build == run.provenance.end() || build->second != buildId_) {
+        const auto commit = run.provenance.find("git_commit");
+        const bool known = commit != run.provenance.end() && !commit->second.empty();
+        return "measured by another build of dustbench" + (known ? ", commit " + commit->second.substr(0, 12) : "");
+    }
+    for (const InputHash& input : run.inputs) {
+        const std::string& now = hashOf(input.file);
+        if (now.empty()) return input.file + " cannot be read any more";
+        if (now != input.sha256) return input.file + " has changed since";
+    }
+    return {};
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,165 @@
+#include "bench/results/merge.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "bench/results/stored_folder.h"
+#include "bench/results/summary.h"
+#include "methods/shared/errors.h"
+
+namespace dustbench::bench {
+namespace {
+namespace fs = std::filesystem;
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class Merge : public testing::Test {
+ protected:
+    void SetUp() override {
+        folder_ = fs::path(testing::TempDir()) /
+                  (std::string("merge-") + testing::UnitTest::GetInstance()->current_test_info()->name() + "-" +
+                   std::to_string(getpid()));
+        fs::remove_all(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    static RunSpec spec(int seed) {
+        RunSpec spec;
+        spec.method = "haze";
+        spec.seed = static_cast<std::uint64_t>(seed);
+        return spec;
+    }
+    static fs::path runFolder(const fs::path& folder, int seed) { return folder / "runs" / runId(spec(seed)); }
+    static void write(const fs::path& file, const std::string& text) {
+        fs::create_directories(file.parent_path());
+        std::ofstream(file, std::ios::binary) << text;
+    }
+    static std::vector<MergeSource> read(const std::vector<fs::path>& folders) {
+        std::vector<MergeSource> sources;
+        for (const fs::path& folder : folders) sources.emplace_back(folder, readStoredRuns(folder));
+        return sources;
+    }
+    static std::string content(const fs::path& file) {
+        std::ifstream stream(file, std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+    /// A results folder with the runs of these seeds; `fps` tells measurements apart.
+    fs::path results(const std::string& name, const std::vector<int>& seeds, double fps = 30) const {
+        for (const int seed : seeds) {
+            RunRecord record;
+            record.spec = spec(seed);
+            record.summary = identityColumns(record, 2);
+            record.summary.emplace_back("fps_avg", fps);
+            write(runFolder(folder_ / name, seed) / "run.json", toJson(record));
+            write(runFolder(folder_ / name, seed) / "frames.csv", "frame\n0\n");
+            write(runFolder(folder_ / name, seed) / "images" / "f000000.png", "picture");
+        }
+        fs::create_directories(folder_ / name / "runs");
+        return folder_ / name;
+    }
+    [[nodiscard]] MergePlan mergeInto(const fs::path& out, const std::vector<fs::path>& sources) const {
+        ResultsFolder folder(out);
+        MergePlan plan = planMerge(read(sources), folder);
+        EXPECT_TRUE(merge(plan, folder, [] { return false; }));
+        return plan;
+    }
+    [[nodiscard]] std::string refusal(const std::vector<fs::path>& sources) const {
+        try {
+            ResultsFolder folder(folder_ / "out");
+            (void)planMerge(read(sources), folder);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "nothing thrown";
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(Merge, GivesTheRowsOfOneMachine) {
+    const fs::path whole = results("whole", {1, 2, 3, 4, 5});
+    ResultsFolder(whole).writeSummary();
+    const std::vector<fs::path> shards{results("s1", {2, 5}), results("s2", {}), results("s3", {1, 3, 4})};
+    write(shards[0] / "runs" / ".unfinished-x" / "run.json", "{");
+    const MergePlan plan = mergeInto(folder_ / "out", shards);
+    EXPECT_EQ(plan.copies.size(), 5u);
+    EXPECT_EQ(content(folder_ / "out" / "summary.csv"), content(whole / "summary.csv"));
+    for (int seed = 1; seed <= 5; ++seed)
+        for (const char* file : {"run.json", "frames.csv", "images/f000000.png"})
+            EXPECT_EQ(content(runFolder(folder_ / "out", seed) / file), content(runFolder(whole, seed) / file));
+    EXPECT_TRUE(fs::exists(shards[0] / "runs" / ".unfinished-x"));
+    EXPECT_FALSE(fs::exists(folder_ / "out" / "runs" / ".unfinished-x"));
+}
+
+TEST_F(Merge, TakesEqualResultsOnceAndGoesOnWhereItWas) {
+    const fs::path a = results("a", {1, 2}), b = results("b", {2, 3});
+    MergePlan plan = mergeInto(folder_ / "out", {a, b});
+    EXPECT_EQ(plan.copies.size(), 3u);
+    EXPECT_EQ(plan.there, 1u);
+    // As a kill leaves it: one run not yet there, one half copied, no summary.
+    fs::remove_all(runFolder(folder_ / "out", 3));
+    write(folder_ / "out" / "runs" / (".unfinished-" + runId(spec(3))) / "run.json", "{");
+    const std::string summary = content(folder_ / "out" / "summary.csv");
+    fs::remove(folder_ / "out" / "summary.csv");
+    plan = mergeInto(folder_ / "out", {a, b});
+    EXPECT_EQ(plan.copies.size(), 1u);
+    EXPECT_EQ(plan.there, 3u);
+    EXPECT_EQ(content(folder_ / "out" / "summary.csv"), summary);
+    EXPECT_TRUE(mergeInto(folder_ / "out", {folder_ / "out"}).copies.empty());
+}
+
+TEST_F(Merge, AnInterruptionLosesNothing) {
+    const fs::path a = results("a", {1, 2, 3});
+    {
+        ResultsFolder out(folder_ / "out");
+        int asked = 0;
+        EXPECT_FALSE(merge(planMerge(read({a}), out), out, [&asked] { return ++asked > 2; }));
+        EXPECT_EQ(out.runs().size(), 2u);
+    }
+    EXPECT_EQ(mergeInto(folder_ / "out", {a}).copies.size(), 1u);
+}
+
+TEST_F(Merge, RefusesTwoResultsOfOneRun) {
+    const fs::path a = results("a", {1}), b = results("b", {1}, 31);
+    EXPECT_THAT(refusal({a, b}), AllOf(HasSubstr(runId(spec(1))), HasSubstr("two different results"),
+                                       HasSubstr("a/runs"), HasSubstr("b/runs")));
+    (void)mergeInto(folder_ / "out", {a});
+    EXPECT_THAT(refusal({b}), HasSubstr("two different results"));
+    // Cut on its way here.
+    const fs::path c = results("c", {1});
+    write(runFolder(c, 1) / "frames.csv", "fra");
+    EXPECT_THAT(refusal({c}), HasSubstr("two different results"));
+}
+
+TEST_F(Merge, NamesWhatIsMissingOrBroken) {
+    const fs::path a = results("a", {1});
+    EXPECT_THAT(refusal({a, folder_ / "b"}), AllOf(HasSubstr("/b'"), HasSubstr("no folder of results")));
+    write(runFolder(a, 1) / "run.json", "{\"run_id\":");
+    EXPECT_THAT(refusal({a}), HasSubstr((runFolder(a, 1) / "run.json").string()));
+    const fs::path moved = results("moved", {1});
+    fs::rename(runFolder(moved, 1), moved / "runs" / "haze-mine");
+    EXPECT_THAT(refusal({moved}), AllOf(HasSubstr("haze-mine"), HasSubstr("named after")));
+    const fs::path empty = results("empty", {});
+    fs::create_directories(empty / "runs" / "haze-plain-r1-000000000000");
+    EXPECT_THAT(refusal({empty}), HasSubstr("haze-plain-r1-000000000000/run.json"));
+}
+
+TEST_F(Merge, SaysWhereItDoesNotFit) {
+    const fs::path a = results("a", {1, 2});
+    ResultsFolder out(folder_ / "out");
+    const MergePlan plan = planMerge(read({a}), out);
+    std::uintmax_t bytes = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(a))
+        if (entry.is_regular_file()) bytes += entry.file_size();
+    EXPECT_EQ(plan.bytes, bytes);
+    EXPECT_NO_THROW(requireSpace(plan, out.path(), bytes));
+    EXPECT_THROW(requireSpace(plan, out.path(), bytes - 1), InputError);
+}
+
+}  // namespace
+}  // namespace dustbench::bench

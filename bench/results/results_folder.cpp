@@ -1,0 +1,168 @@
+#include "bench/results/results_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <set>
+#include <thread>
+
+#include "bench/results/summary.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/files/csv.h"
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view hiddenStart = ".unfinished-";
+constexpr std::string_view oldStart = ".replaced-";
+constexpr std::string_view asideStart = ".damaged-";
+
+}  // namespace
+
+ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)) {
+    const fs::path runs = folder_ / "runs";
+    std::error_code error;
+    fs::create_directories(runs, error);
+    if (error) throw cannotWrite(folder_, error.message());
+    for (const fs::path& each : {folder_, runs})
+        if (access(each.c_str(), W_OK | X_OK) != 0) throw cannotWrite(each, std::strerror(errno));
+
+    lock_ = open(runs.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0) throw cannotWrite(runs, std::strerror(errno));
+    // What a program that was just killed had locked is free a moment later, when its child has gone as well.
+    for (int attempt = 0; attempt < 10 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++attempt)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+        const bool busy = errno == EWOULDBLOCK;
+        const std::string reason = busy ? "another dustbench is writing into it" : std::strerror(errno);
+        close(lock_);
+        throw cannotWrite(folder_, reason);
+    }
+
+    try {
+        cleanUp();
+        readRuns();
+    } catch (const fs::filesystem_error& failure) {
+        close(lock_);
+        throw cannotWrite(folder_, failure.code().message());
+    } catch (...) {
+        close(lock_);
+        throw;
+    }
+}
+
+void ResultsFolder::cleanUp() {
+    std::vector<fs::path> left;
+    for (const auto& entry : fs::directory_iterator(folder_ / "runs"))
+        if (const std::string name = entry.path().filename();
+            name.starts_with(hiddenStart) || name.starts_with(oldStart))
+            left.push_back(entry.path());
+    for (const fs::path& path : left) {
+        const std::string name = path.filename();
+        // A kill between the two renames of `publish` left the old result without a successor.
+        if (name.starts_with(oldStart) && !fs::exists(runFolder(name.substr(oldStart.size()))))
+            fs::rename(path, runFolder(name.substr(oldStart.size())));
+        else
+            fs::remove_all(path);
+    }
+}
+
+void ResultsFolder::readRuns() {
+    std::vector<fs::path> folders;
+    for (const auto& entry : fs::directory_iterator(folder_ / "runs"))
+        if (!entry.path().filename().string().starts_with('.') && fs::exists(entry.path() / "run.json"))
+            folders.push_back(entry.path());
+    for (const fs::path& folder : folders) {
+        const std::string name = folder.filename();
+        try {
+            StoredRun run = readRunFile(folder / "run.json");
+            if (run.runId != name) throw InputError(fmt::format("{}: holds the run '{}'", folder.string(), run.runId));
+            runs_[name] = std::move(run);
+        } catch (const InputError& damage) {
+            fs::path aside = folder.parent_path() / fmt::format("{}{}", asideStart, name);
+            for (int i = 2; fs::exists(aside); ++i)
+                aside = folder.parent_path() / fmt::format("{}{}-{}", asideStart, name, i);
+            fs::rename(folder, aside);
+            setAside_.push_back(fmt::format("{}; set aside as {}", damage.what(), aside.string()));
+        }
+    }
+}
+
+ResultsFolder::~ResultsFolder() {
+    close(lock_);
+}
+
+fs::path ResultsFolder::hidden(const std::string& runId) const {
+    return folder_ / "runs" / fmt::format("{}{}", hiddenStart, runId);
+}
+
+fs::path ResultsFolder::beginRun(const std::string& runId) {
+    std::error_code error;
+    fs::remove_all(hidden(runId), error);
+    fs::create_directory(hidden(runId), error);
+    if (error) throw cannotWrite(hidden(runId), error.message());
+    return hidden(runId);
+}
+
+void ResultsFolder::publish(const std::string& runId) {
+    place(runId);
+    writeSummary();
+}
+
+void ResultsFolder::place(const std::string& runId) {
+    StoredRun run = readRunFile(hidden(runId) / "run.json");
+    const fs::path old = folder_ / "runs" / fmt::format("{}{}", oldStart, runId);
+    std::error_code error;
+    if (fs::exists(runFolder(runId))) {
+        fs::remove_all(old, error);
+        fs::rename(runFolder(runId), old, error);
+        if (error) throw cannotWrite(runFolder(runId), error.message());
+    }
+    fs::rename(hidden(runId), runFolder(runId), error);
+    if (error) throw cannotWrite(runFolder(runId), error.message());
+    fs::remove_all(old, error);
+    runs_[runId] = std::move(run);
+}
+
+void ResultsFolder::discard(const std::string& runId) {
+    std::error_code error;
+    fs::remove_all(hidden(runId), error);
+}
+
+void ResultsFolder::writeSummary() const {
+    std::set<std::string> parameters;
+    for (const auto& [id, run] : runs_)
+        for (const auto& [name, text] : run.parameters) parameters.insert(name);
+
+    std::string text;
+    for (const std::string& name : columnsBeforeParameters()) text.append(name).append(1, ',');
+    for (const std::string& name : parameters) text.append(files::csvCell(fmt::format("p.{}", name))).append(1, ',');
+    for (const std::string& name : columnsAfterParameters()) text.append(name).append(1, ',');
+    text.back() = '\n';
+
+    for (const auto& [id, run] : runs_) {
+        std::string row;
+        const auto add = [&row](std::string_view cell) { row.append(files::csvCell(cell)).append(1, ','); };
+        const auto cellOf = [&run = run](const std::string& name) {
+            const auto found = run.cells.find(name);
+            return found == run.cells.end() ? std::string() : found->second;
+        };
+        for (const std::string& name : columnsBeforeParameters()) add(cellOf(name));
+        for (const std::string& name : parameters) {
+            const auto found = run.parameters.find(name);
+            add(found == run.parameters.end() ? std::string() : found->second);
+        }
+        for (const std::string& name : columnsAfterParameters()) add(cellOf(name));
+        row.back() = '\n';
+        text += row;
+    }
+    writeWhole(folder_ / "summary.csv", text);
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,275 @@
+#include "bench/results/run_record.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "methods/shared/errors.h"
+#include "methods/shared/files/csv.h"
+
+namespace dustbench::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 4> statusNames{"done", "failed", "timeout", "skipped"};
+
+/// Numbers in canonical text become numbers, everything else stays text.
+Json typed(const std::string& text) {
+    const char* const end = text.data() + text.size();
+    std::int64_t whole = 0;
+    if (const auto [at, error] = std::from_chars(text.data(), end, whole); error == std::errc() && at == end)
+        return whole;
+    double number = 0;
+    if (const auto [at, error] = std::from_chars(text.data(), end, number);
+        error == std::errc() && at == end && std::isfinite(number))
+        return number;
+    return text;
+}
+
+Json toValue(const Value& value) {
+    return std::visit(
+        [](const auto& held) -> Json {
+            using Held = std::decay_t<decltype(held)>;
+            if constexpr (std::is_same_v<Held, std::monostate>)
+                return nullptr;
+            else if constexpr (std::is_same_v<Held, double>)
+                return std::isfinite(held) ? Json(held) : Json(nullptr);
+            else
+                return held;
+        },
+        value);
+}
+
+std::string cellText(const Json& value) {
+    if (value.is_null()) return {};
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) return files::csvNumber(value.get<double>());
+    return value.dump();
+}
+
+Json columnsObject(const Columns& columns) {
+    Json object = Json::object();
+    for (const auto& [name, value] : columns) object[name] = toValue(value);
+    return object;
+}
+
+Json parametersObject(const ParameterTexts& parameters) {
+    Json object = Json::object();
+    for (const auto& [name, text] : parameters) object[name] = typed(text);
+    return object;
+}
+
+Json provenanceObject(const Provenance& provenance) {
+    Json inputs = Json::array();
+    for (const InputHash& input : provenance.inputs) inputs.push_back({{"file", input.file}, {"sha256", input.sha256}});
+    const BuildFacts& build = provenance.build;
+    const Machine& machine = provenance.machine;
+    return {{"argv", provenance.argv},
+            {"started_utc", provenance.startedUtc},
+            {"version", build.version},
+            {"git_commit", build.gitCommit},
+            {"git_dirty", build.gitDirty},
+            {"compiler", build.compiler},
+            {"flags", build.flags},
+            {"build_type", build.buildType},
+            {"build_id", build.buildId},
+            {"cpu", machine.cpu},
+            {"governor", machine.governor},
+            {"cores", machine.cores},
+            {"ram_bytes", machine.ramBytes},
+            {"kernel", machine.kernel},
+            {"load_average", machine.loadAverage},
+            {"virtual_machine", machine.virtualMachine},
+            {"stolen_share", machine.stolenShare},
+            {"quota_cores", machine.quotaCores},
+            {"gl_vendor", provenance.device.vendor},
+            {"gl_renderer", provenance.device.renderer},
+            {"gl_version", provenance.device.version},
+            {"gl_platform", provenance.device.platform},
+            {"gpu_timers", provenance.gpuTimersTrusted},
+            {"clock_reading_ns", provenance.clock.readingNs},
+            {"clock_stage_ns", provenance.clock.stageNs},
+            {"inputs", inputs}};
+}
+
+Json volumesObject(const std::optional<VolumeSettings>& volumes) {
+    if (!volumes) return nullptr;
+    return {{"frames", volumes->frames.text()},
+            {"formats", formatsText(volumes->formats)},
+            {"resolution", volumes->resolution},
+            {"region", volumes->region ? Json(regionText(*volumes->region)) : Json(nullptr)},
+            {"vdb_precision", precisionName(volumes->vdbPrecision)}};
+}
+
+std::optional<VolumeSettings> readVolumes(const Json& json) {
+    if (json.is_null()) return std::nullopt;
+    VolumeSettings volumes;
+    volumes.frames = parseFrameRange("volumes", json.at("frames").get<std::string>());
+    volumes.formats = parseFormats(json.at("formats").get<std::string>());
+    volumes.resolution = json.at("resolution").get<int>();
+    if (!json.at("region").is_null()) volumes.region = parseRegion(json.at("region").get<std::string>());
+    volumes.vdbPrecision = parsePrecision(json.at("vdb_precision").get<std::string>());
+    return volumes;
+}
+
+Json judgingObject(const std::optional<JudgingPlan>& judging) {
+    if (!judging) return nullptr;
+    return {{"frames", judging->moments ? Json(judging->moments->text()) : Json(nullptr)}, {"finer", judging->finer}};
+}
+
+std::optional<JudgingPlan> readJudging(const Json& json) {
+    if (json.is_null()) return std::nullopt;
+    JudgingPlan judging;
+    if (!json.at("frames").is_null())
+        judging.moments = parseFrameRange("metrics", json.at("frames").get<std::string>());
+    for (const auto& [name, value] : json.at("finer").items()) judging.finer[name] = value.get<std::string>();
+    return judging;
+}
+
+/// Text that is no UTF-8 (a file name, a child's last words) must not keep a result from being written.
+std::string text(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string_view statusName(RunStatus status) {
+    return statusNames[static_cast<std::size_t>(status)];
+}
+
+RunStatus parseStatus(std::string_view name) {
+    const auto found = std::ranges::find(statusNames, name);
+    if (found == statusNames.end()) throw InputError("unknown status '" + std::string(name) + "'");
+    return static_cast<RunStatus>(found - statusNames.begin());
+}
+
+std::string valueText(const Value& value) {
+    return cellText(toValue(value));
+}
+
+std::string toJson(const RunRecord& record) {
+    const RunSpec& spec = record.spec;
+    Json memory = Json::array();
+    for (const auto& [owner, use] : record.memory)
+        memory.push_back(
+            {{"owner", owner}, {"structure", use.structure}, {"cpu_bytes", use.cpuBytes}, {"gpu_bytes", use.gpuBytes}});
+    Json provenance = provenanceObject(record.provenance);
+    provenance["key"] = canonicalKey(spec);
+    return text({{"run_id", runId(spec)},
+                 {"status", statusName(record.status)},
+                 {"reason", record.reason},
+                 {"method", spec.method},
+                 {"scene", spec.scene},
+                 {"drive", record.drive},
+                 {"seed", spec.seed},
+                 {"repetition", spec.repetition},
+                 {"frames", spec.frames},
+                 {"warmup", spec.warmup},
+                 {"width", spec.size.width},
+                 {"height", spec.size.height},
+                 {"sync", syncName(spec.sync)},
+                 {"threads", spec.threads},
+                 {"images", spec.imagesEvery},
+                 {"volumes", volumesObject(spec.volumes)},
+                 {"metrics", judgingObject(spec.judging)},
+                 {"parameters", parametersObject(spec.parameters)},
+                 {"state_hash", record.stateHash},
+                 {"method_hash", record.methodHash.empty() ? Json(nullptr) : Json(record.methodHash)},
+                 {"summary", columnsObject(record.summary)},
+                 {"memory", memory},
+                 {"provenance", provenance},
+                 {"warnings", record.provenance.warnings}});
+}
+
+std::string toJson(const ExportRecord& record) {
+    const RunSpec& spec = record.spec;
+    Json frames = Json::array();
+    for (const ExportRecord::Moment& moment : record.moments)
+        frames.push_back({{"frame", moment.frame}, {"time_s", moment.timeSeconds}, {"state_hash", moment.stateHash}});
+    return text({{"method", spec.method},
+                 {"scene", spec.scene},
+                 {"drive", record.drive},
+                 {"seed", spec.seed},
+                 {"warmup", spec.warmup},
+                 {"width", spec.size.width},
+                 {"height", spec.size.height},
+                 {"threads", spec.threads},
+                 {"volumes", volumesObject(spec.volumes)},
+                 {"parameters", parametersObject(spec.parameters)},
+                 {"frames", frames},
+                 {"series", record.series},
+                 {"provenance", provenanceObject(record.provenance)}});
+}
+
+std::string specToJson(const RunSpec& spec) {
+    return text({{"method", spec.method},
+                 {"scene", spec.scene},
+                 {"drive", spec.drive},
+                 {"parameters", spec.parameters},
+                 {"frames", spec.frames},
+                 {"warmup", spec.warmup},
+                 {"width", spec.size.width},
+                 {"height", spec.size.height},
+                 {"seed", spec.seed},
+                 {"threads", spec.threads},
+                 {"sync", syncName(spec.sync)},
+                 {"images", spec.imagesEvery},
+                 {"volumes", volumesObject(spec.volumes)},
+                 {"metrics", judgingObject(spec.judging)},
+                 {"repetition", spec.repetition}});
+}
+
+RunSpec specFromJson(std::string_view text) {
+    try {
+        const Json json = Json::parse(text);
+        RunSpec spec;
+        spec.method = json.at("method").get<std::string>();
+        spec.scene = json.at("scene").get<std::string>();
+        spec.drive = json.at("drive").get<std::string>();
+        for (const auto& [name, value] : json.at("parameters").items())
+            spec.parameters[name] = value.get<std::string>();
+        spec.frames = json.at("frames").get<std::int64_t>();
+        spec.warmup = json.at("warmup").get<std::int64_t>();
+        spec.size = {json.at("width").get<int>(), json.at("height").get<int>()};
+        spec.seed = json.at("seed").get<std::uint64_t>();
+        spec.threads = json.at("threads").get<int>();
+        spec.sync = parseSync(json.at("sync").get<std::string>());
+        spec.imagesEvery = json.at("images").get<std::int64_t>();
+        spec.volumes = readVolumes(json.at("volumes"));
+        spec.judging = readJudging(json.at("metrics"));
+        spec.repetition = json.at("repetition").get<int>();
+        return spec;
+    } catch (const nlohmann::json::exception& error) {
+        throw InputError(std::string("run specification: ") + error.what());
+    }
+}
+
+std::string listToJson(const std::vector<ListedItem>& items) {
+    Json list = Json::array();
+    for (const ListedItem& item : items) {
+        Json object = columnsObject(item.cells);
+        if (item.withParameters) {
+            object["parameters"] = Json::array();
+            for (const Parameter& parameter : item.parameters)
+                object["parameters"].push_back({{"name", parameter.name},
+                                                {"allowed", parameter.allowed()},
+                                                {"default", typed(parameter.initial)},
+                                                {"unit", parameter.unit},
+                                                {"help", parameter.help}});
+        }
+        list.push_back(object);
+    }
+    return text(list);
+}
+
+std::string provenanceToJson(const Provenance& provenance, const Columns& more) {
+    Json object = provenanceObject(provenance);
+    object.update(columnsObject(more));
+    object["warnings"] = provenance.warnings;
+    return text(object);
+}
+
+}  // namespace dustbench::bench

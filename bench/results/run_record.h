@@ -1,0 +1,78 @@
+// What is kept of one run as run.json is written, and the specification a run's process is given.
+//
+// The JSON library behind it stays in one source file. stored_run.h reads what is written here.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bench/measure/provenance.h"
+#include "bench/results/run_spec.h"
+#include "methods/shared/memory_ledger.h"
+
+namespace dustbench::bench {
+
+enum class RunStatus { done, failed, timeout, skipped };
+[[nodiscard]] std::string_view statusName(RunStatus status);
+/// Throws InputError.
+[[nodiscard]] RunStatus parseStatus(std::string_view name);
+
+/// A cell of summary.csv; nothing, and numbers that are not finite, are empty there and null in JSON.
+using Value = std::variant<std::monostate, std::int64_t, double, std::string>;
+/// As it stands in a CSV file, not yet quoted.
+[[nodiscard]] std::string valueText(const Value& value);
+
+using Columns = std::vector<std::pair<std::string, Value>>;
+
+struct RunRecord {
+    RunSpec spec;
+    RunStatus status = RunStatus::done;
+    std::string reason;      ///< why it is not done; empty where it is
+    std::string drive;       ///< the resolved one
+    std::string stateHash;   ///< 16 hexadecimal digits, of vehicle and shared dust after the last frame
+    std::string methodHash;  ///< of the method's own simulation; empty where it has none
+    Columns summary;         ///< what summary.csv shows, without parameters
+    std::vector<std::pair<std::string, MemoryUse>> memory;  ///< owner (`world`, `method`, `device`) and structure
+    Provenance provenance;
+};
+
+/// run.json as text.
+[[nodiscard]] std::string toJson(const RunRecord& record);
+
+/// What is kept of an export beside its files.
+struct ExportRecord {
+    struct Moment {
+        std::int64_t frame;
+        double timeSeconds;
+        std::string stateHash;
+    };
+    RunSpec spec;
+    std::string drive;  ///< the resolved one
+    std::vector<Moment> moments;
+    std::vector<std::string> series;  ///< names beside it
+    Provenance provenance;
+};
+/// export.json as text.
+[[nodiscard]] std::string toJson(const ExportRecord& record);
+
+[[nodiscard]] std::string specToJson(const RunSpec& spec);
+/// Throws InputError.
+[[nodiscard]] RunSpec specFromJson(std::string_view text);
+
+struct ListedItem {
+    Columns cells;
+    std::vector<Parameter> parameters;
+    bool withParameters = false;
+};
+/// An array of objects with the items' cells in order, and `parameters` where asked for. For `--json`.
+[[nodiscard]] std::string listToJson(const std::vector<ListedItem>& items);
+/// One object, with `more` behind what is known of every run.
+[[nodiscard]] std::string provenanceToJson(const Provenance& provenance, const Columns& more);
+
+}  // namespace dustbench::bench

@@ -1,0 +1,106 @@
+#include "bench/results/run_spec.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+
+#include "bench/measure/sha256.h"
+#include "bench/scene/world.h"
+#include "methods/shared/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr std::array<std::string_view, 3> syncNames{"frame", "stage", "none"};
+constexpr int largestEdge = 16384;
+
+/// Letters, digits, '_' and '-' of a scene's name or of its file's.
+std::string plainName(std::string_view name) {
+    std::string plain;
+    for (const char letter : std::filesystem::path(name).stem().string())
+        if (std::isalnum(static_cast<unsigned char>(letter)) || letter == '_' || letter == '-') plain.push_back(letter);
+    return plain.substr(0, 40);
+}
+
+}  // namespace
+
+std::string_view syncName(Sync sync) {
+    return syncNames[static_cast<std::size_t>(sync)];
+}
+
+Sync parseSync(std::string_view text) {
+    for (std::size_t i = 0; i < syncNames.size(); ++i)
+        if (text == syncNames[i]) return static_cast<Sync>(i);
+    throw InputError(fmt::format("sync: got '{}', allowed: frame|stage|none", text));
+}
+
+ImageSize parseSize(std::string_view text) {
+    ImageSize size{0, 0};
+    const char* const end = text.data() + text.size();
+    const auto [middle, widthError] = std::from_chars(text.data(), end, size.width);
+    if (widthError == std::errc() && middle != end && *middle == 'x') {
+        const auto [last, heightError] = std::from_chars(middle + 1, end, size.height);
+        if (heightError == std::errc() && last == end && size.width >= 1 && size.height >= 1 &&
+            size.width <= largestEdge && size.height <= largestEdge)
+            return size;
+    }
+    throw InputError(fmt::format("size: got '{}', allowed: WIDTHxHEIGHT with edges 1..{}", text, largestEdge));
+}
+
+ResolvedParameters resolveParameters(const MethodInfo& method, const ParameterTexts& given) {
+    ResolvedParameters resolved{ParameterValues(worldParameters()), ParameterValues(method.parameters)};
+    for (const auto& [name, text] : given) {
+        if (method.parameters.find(name)) {
+            resolved.method.set(name, text);
+        } else if (worldParameters().find(name)) {
+            resolved.world.set(name, text);
+        } else {
+            std::vector<std::string> known;
+            for (const ParameterSet* set : {&method.parameters, &worldParameters()})
+                for (const Parameter& parameter : set->all()) known.push_back(parameter.name);
+            throw unknownName("parameter of " + method.id, name, known);
+        }
+    }
+    return resolved;
+}
+
+ParameterTexts canonicalParameters(const MethodInfo& method, const ParameterTexts& given) {
+    const ResolvedParameters resolved = resolveParameters(method, given);
+    ParameterTexts all = resolved.world.canonical();
+    for (const auto& [name, text] : resolved.method.canonical()) all[name] = text;
+    return all;
+}
+
+void requireFramesWithinRun(const RunSpec& spec) {
+    if (spec.judging) requireMomentsWithinRun(*spec.judging, spec.frames);
+    if (!spec.volumes || spec.volumes->frames.last < spec.frames) return;
+    throw InputError(fmt::format("volumes: frame {} is beyond the run's end, allowed: frames 0..{} (--frames {})",
+                                 spec.volumes->frames.last, spec.frames - 1, spec.frames));
+}
+
+std::string canonicalKey(const RunSpec& spec) {
+    std::string key = fmt::format("method={}\nscene={}\ndrive={}\n", spec.method, spec.scene, spec.drive);
+    for (const auto& [name, text] : spec.parameters) key += fmt::format("p.{}={}\n", name, text);
+    key += fmt::format("frames={}\nwarmup={}\nsize={}x{}\nseed={}\nthreads={}\nsync={}\nimages={}\nrepetition={}\n",
+                       spec.frames, spec.warmup, spec.size.width, spec.size.height, spec.seed, spec.threads,
+                       syncName(spec.sync), spec.imagesEvery, spec.repetition);
+    if (spec.volumes) {
+        const VolumeSettings& volumes = *spec.volumes;
+        key += fmt::format("volumes={}\nformats={}\nresolution={}\nregion={}\nvdb_precision={}\n",
+                           volumes.frames.text(), formatsText(volumes.formats), volumes.resolution,
+                           volumes.region ? regionText(*volumes.region) : "", precisionName(volumes.vdbPrecision));
+    }
+    if (spec.judging)
+        key += fmt::format("metrics={}\nmetric_reference={}\n",
+                           spec.judging->moments ? spec.judging->moments->text() : "", spec.judging->referenceText());
+    return key;
+}
+
+std::string runId(const RunSpec& spec) {
+    const std::string drive = spec.drive.empty() ? "" : fmt::format("-{}", plainName(spec.drive));
+    return fmt::format("{}-{}{}-r{}-{}", spec.method, plainName(spec.scene), drive, spec.repetition,
+                       sha256(canonicalKey(spec)).substr(0, 12));
+}
+
+}  // namespace dustbench::bench

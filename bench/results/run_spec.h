@@ -1,0 +1,73 @@
+// One run, fully named: what is measured, under which parameters and how. Two equal specifications have one run id.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/export/volume_settings.h"
+#include "bench/judge/judging_plan.h"
+#include "methods/shared/method.h"
+#include "methods/shared/parameters.h"
+
+namespace dustbench::bench {
+
+/// What waits for the GPU: every frame, every stage, or no frame before two are in flight.
+enum class Sync { frame, stage, none };
+[[nodiscard]] std::string_view syncName(Sync sync);
+/// Throws InputError.
+[[nodiscard]] Sync parseSync(std::string_view text);
+
+struct ImageSize {
+    int width = 640;
+    int height = 480;
+    friend bool operator==(const ImageSize&, const ImageSize&) = default;
+};
+/// `640x480`. Throws InputError.
+[[nodiscard]] ImageSize parseSize(std::string_view text);
+
+using ParameterTexts = std::map<std::string, std::string, std::less<>>;
+
+struct RunSpec {
+    std::string method;
+    std::string scene = "plain";
+    std::string drive;          ///< empty: the scene's own
+    ParameterTexts parameters;  ///< the world's and the method's, all of them, in canonical form
+    std::int64_t frames = 120;
+    std::int64_t warmup = 10;
+    ImageSize size;
+    std::uint64_t seed = 1;
+    int threads = 0;  ///< 0: as many as there are cores
+    Sync sync = Sync::frame;
+    std::int64_t imagesEvery = 0;           ///< 0: no images
+    std::optional<VolumeSettings> volumes;  ///< what is exported besides; none: nothing
+    std::optional<JudgingPlan> judging;     ///< which frames get metrics; none: no frame
+    int repetition = 1;                     ///< from 1
+};
+
+/// Throws InputError where a volume or a metric is asked for of a frame that the run does not record.
+void requireFramesWithinRun(const RunSpec& spec);
+
+/// A specification's values, sorted out into the world's and the method's.
+struct ResolvedParameters {
+    ParameterValues world;
+    ParameterValues method;
+};
+
+/// Sorts `given` out; what is not given has its default. Throws InputError for an unknown name (with the nearest of
+/// both sets) or a value that is not allowed.
+[[nodiscard]] ResolvedParameters resolveParameters(const MethodInfo& method, const ParameterTexts& given);
+
+/// Fills in all defaults and puts every value into canonical form.
+[[nodiscard]] ParameterTexts canonicalParameters(const MethodInfo& method, const ParameterTexts& given);
+
+/// Everything that tells two runs apart, one `name=value` a line in a fixed order.
+[[nodiscard]] std::string canonicalKey(const RunSpec& spec);
+
+/// `billboard-plain-r1-0f3a9b5c2d1e`: a readable start and the first 12 digits of the key's SHA-256.
+[[nodiscard]] std::string runId(const RunSpec& spec);
+
+}  // namespace dustbench::bench

@@ -1,0 +1,110 @@
+// Holds reports/SCHEMA.md against the headers of the files that the program writes, in both directions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "bench/judge/judgement.h"
+#include "bench/results/frame_files.h"
+#include "bench/results/summary.h"
+#include "methods/shared/files/csv.h"
+
+namespace dustbench::bench {
+namespace {
+
+using Names = std::vector<std::string>;
+
+struct Row {
+    Names cells;
+};
+
+/// The rows of the table below `## section`, without its head.
+std::vector<Row> tableOf(const std::string& section) {
+    std::ifstream file(std::string(DUSTBENCH_SOURCE_DIR) + "/reports/SCHEMA.md");
+    std::vector<Row> rows;
+    bool inside = false;
+    int head = 2;
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("## ")) inside = line == "## " + section;
+        if (!inside || !line.starts_with("|") || head-- > 0) continue;
+        Row row;
+        std::size_t at = 1;
+        for (std::size_t end; (end = line.find('|', at)) != std::string::npos; at = end + 1)
+            row.cells.push_back(line.substr(at, end - at));
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+/// The columns that a row stands for: `a`, `b` and `c` … `f`, which is all of the header from c to f; `<stage>` is any.
+Names namesIn(const std::string& cell, const Names& header) {
+    Names names;
+    const std::regex name("(`([^`]+)`)|…");
+    bool range = false;
+    for (std::sregex_iterator at(cell.begin(), cell.end(), name); at != std::sregex_iterator(); ++at) {
+        const std::string found = (*at)[2];
+        if (found.empty()) {
+            range = true;
+        } else if (found == "<stage>_ms_median") {
+            for (const std::string_view stage : stageNames) names.push_back(std::string(stage) + "_ms_median");
+        } else if (range) {
+            auto from = std::ranges::find(header, names.back());
+            const auto to = std::ranges::find(header, found);
+            while (from != header.end() && from != to) names.push_back(*++from);
+            range = false;
+        } else {
+            names.push_back(found);
+        }
+    }
+    return names;
+}
+
+/// Every column has a unit's cell and a definition, and nothing else is defined.
+void expectDefined(const std::string& section, const Names& header, std::size_t definitionCell = 2) {
+    std::set<std::string> defined;
+    for (const Row& row : tableOf(section)) {
+        ASSERT_EQ(row.cells.size(), definitionCell + 1) << section << ": " << row.cells.front();
+        EXPECT_GT(row.cells[definitionCell].size(), 4u) << section << ": " << row.cells.front() << " has no definition";
+        for (const std::string& name : namesIn(row.cells[0], header))
+            EXPECT_TRUE(defined.insert(name).second) << section << ": " << name << " is defined twice";
+    }
+    EXPECT_EQ(defined, std::set<std::string>(header.begin(), header.end())) << section;
+}
+
+Names headerOf(const std::string& csv) {
+    return files::CsvTable::parseText(csv, "file.csv").header();
+}
+
+TEST(Schema, DefinesEveryColumnOfEveryTable) {
+    expectDefined("frames.csv", headerOf(framesCsv({})));
+    expectDefined("stages.csv", headerOf(stagesCsv({})));
+    expectDefined("metrics.csv", headerOf(metricsCsv(Judgement())));
+    Names summary = columnsBeforeParameters();
+    summary.push_back("p.<name>");
+    summary.insert(summary.end(), columnsAfterParameters().begin(), columnsAfterParameters().end());
+    expectDefined("summary.csv", summary);
+}
+
+TEST(Schema, DefinesEveryFieldOfARun) {
+    const auto run = nlohmann::ordered_json::parse(toJson(RunRecord()));
+    Names fields;
+    for (const auto& [name, value] : run.items()) fields.push_back(name);
+    expectDefined("run.json", fields, 1);
+
+    std::ifstream file(std::string(DUSTBENCH_SOURCE_DIR) + "/reports/SCHEMA.md");
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const std::size_t begin = text.find("\n`provenance`: ");
+    ASSERT_NE(begin, std::string::npos);
+    const std::string paragraph = text.substr(begin, text.find("\n\n", begin + 1) - begin);
+    for (const auto& [name, value] : run.at("provenance").items())
+        EXPECT_NE(paragraph.find("`" + name + "`"), std::string::npos) << "provenance: " << name;
+}
+
+}  // namespace
+}  // namespace dustbench::bench

@@ -1,0 +1,144 @@
+#include "bench/results/summary.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "bench/measure/statistics.h"
+
+namespace dustbench::bench {
+namespace {
+
+std::vector<double> column(std::span<const FrameRecord> frames, const std::function<double(const FrameRecord&)>& of) {
+    std::vector<double> values;
+    values.reserve(frames.size());
+    for (const FrameRecord& frame : frames) values.push_back(of(frame));
+    return values;
+}
+
+std::int64_t largest(std::span<const FrameRecord> frames, std::int64_t FrameRecord::*member) {
+    std::int64_t value = 0;
+    for (const FrameRecord& frame : frames) value = std::max(value, frame.*member);
+    return value;
+}
+
+}  // namespace
+
+const std::vector<std::string>& columnsBeforeParameters() {
+    static const std::vector<std::string> names{"run_id", "status",     "reason", "method", "scene", "drive",
+                                                "seed",   "repetition", "width",  "height", "sync",  "threads"};
+    return names;
+}
+
+const std::vector<std::string>& columnsAfterParameters() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> list{"frames",       "fps_avg",      "frame_ms_median", "frame_ms_p95",
+                                      "frame_ms_p99", "frame_ms_max", "fps_1pct_low"};
+        for (const std::string_view stage : stageNames) list.push_back(std::string(stage) + "_ms_median");
+        for (const char* name : {"cpu_bytes",
+                                 "gpu_bytes",
+                                 "rss_peak_bytes",
+                                 "energy_j",
+                                 "particles_median",
+                                 "primitives_median",
+                                 "clipped",
+                                 "mass_kept",
+                                 "psnr_db",
+                                 "ssim",
+                                 "flip",
+                                 "rmse_linear",
+                                 "identical",
+                                 "popping",
+                                 "popping_max",
+                                 "gaps",
+                                 "components",
+                                 "cutoff",
+                                 "self_similarity",
+                                 "quads_per_pixel",
+                                 "volume_error",
+                                 "FILE_image",
+                                 "FILE_volume",
+                                 "gpu_ms_median",
+                                 "harness_us_median",
+                                 "psnr_continuum_db",
+                                 "components_reference",
+                                 "metric_reference",
+                                 "frame_ms_p999",
+                                 "fps_01pct_low",
+                                 "start_s",
+                                 "gpu_driver_bytes",
+                                 "energy_cpu_j",
+                                 "energy_gpu_j"})
+            list.emplace_back(name);
+        return list;
+    }();
+    return names;
+}
+
+Columns identityColumns(const RunRecord& record, int threads) {
+    const RunSpec& spec = record.spec;
+    return {{"run_id", runId(spec)},
+            {"status", std::string(statusName(record.status))},
+            {"reason", record.reason},
+            {"method", spec.method},
+            {"scene", spec.scene},
+            {"drive", record.drive},
+            {"seed", static_cast<std::int64_t>(spec.seed)},
+            {"repetition", std::int64_t{spec.repetition}},
+            {"width", std::int64_t{spec.size.width}},
+            {"height", std::int64_t{spec.size.height}},
+            {"sync", std::string(syncName(spec.sync))},
+            {"threads", std::int64_t{threads}}};
+}
+
+Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run) {
+    const auto frameMs = column(frames, [](const FrameRecord& frame) { return frame.frameMs; });
+    Columns columns{{"frames", static_cast<std::int64_t>(frames.size())},
+                    {"fps_avg", averageFps(frameMs)},
+                    {"frame_ms_median", median(frameMs)},
+                    {"frame_ms_p95", quantile(frameMs, 0.95)},
+                    {"frame_ms_p99", quantile(frameMs, 0.99)},
+                    {"frame_ms_max", maximum(frameMs)},
+                    {"fps_1pct_low", lowFps(frameMs)},
+                    {"frame_ms_p999", quantile(frameMs, 0.999)},
+                    {"fps_01pct_low", lowFps(frameMs, 0.001)}};
+    for (std::size_t stage = 0; stage < stageNames.size(); ++stage)
+        columns.emplace_back(
+            std::string(stageNames[stage]) + "_ms_median",
+            median(column(frames, [stage](const FrameRecord& frame) { return frame.stageMs[stage]; })));
+    columns.emplace_back("cpu_bytes", largest(frames, &FrameRecord::cpuBytes));
+    columns.emplace_back("gpu_bytes", largest(frames, &FrameRecord::gpuBytes));
+    columns.emplace_back("rss_peak_bytes", run.peakResidentBytes);
+    columns.emplace_back(
+        "particles_median",
+        median(column(frames, [](const FrameRecord& frame) { return static_cast<double>(frame.particles); })));
+    columns.emplace_back(
+        "primitives_median",
+        median(column(frames, [](const FrameRecord& frame) { return static_cast<double>(frame.primitives); })));
+    std::optional<std::int64_t> clipped;
+    for (const FrameRecord& frame : frames)
+        if (frame.clipped) clipped = std::max(clipped.value_or(0), *frame.clipped);
+    if (clipped) columns.emplace_back("clipped", *clipped);
+    std::vector<double> gpuMs;
+    for (const FrameRecord& frame : frames)
+        if (frame.gpuMs) gpuMs.push_back(*frame.gpuMs);
+    columns.emplace_back("gpu_ms_median", median(gpuMs));
+    columns.emplace_back("harness_us_median",
+                         median(column(frames, [](const FrameRecord& frame) { return frame.harnessMs() * 1000; })));
+    const auto add = [&columns](const char* name, const auto& value) {
+        if (value) columns.emplace_back(name, *value);
+    };
+    add("start_s", run.startSeconds);
+    add("gpu_driver_bytes", run.driverBytes);
+    const auto perFrame = [&](std::optional<double> joules) {
+        if (joules) *joules /= static_cast<double>(std::max<std::size_t>(frames.size(), 1));
+        return joules;
+    };
+    const std::optional<double> cpu = perFrame(run.cpuJoules), gpu = perFrame(run.gpuJoules);
+    add("energy_cpu_j", cpu);
+    add("energy_gpu_j", gpu);
+    // A sum without one of its parts would look like a saving.
+    if (cpu && (gpu || run.softwareRenderer)) columns.emplace_back("energy_j", *cpu + gpu.value_or(0));
+    return columns;
+}
+
+}  // namespace dustbench::bench

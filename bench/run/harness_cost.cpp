@@ -1,0 +1,55 @@
+#include "bench/run/harness_cost.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "methods/shared/errors.h"
+#include "methods/shared/registry.h"
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+namespace {
+
+/// Gone with everything in it.
+class TemporaryFolder {
+ public:
+    TemporaryFolder() {
+        std::string name = (fs::temp_directory_path() / "dustbench-XXXXXX").string();
+        if (!mkdtemp(name.data())) throw InputError(name + ": a temporary folder cannot be made");
+        path_ = name;
+    }
+    ~TemporaryFolder() {
+        std::error_code error;
+        fs::remove_all(path_, error);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+    fs::path path_;
+};
+
+}  // namespace
+
+HarnessCost measureHarness(ExecutionOptions options) {
+    PlannedRun run;
+    run.spec.method = "null";
+    run.spec.frames = 60;
+    run.spec.parameters = canonicalParameters(findMethod(run.spec.method), {{"preroll", "0"}});
+    options.timeoutSeconds = 60;
+
+    const TemporaryFolder folder;
+    ResultsFolder results(folder.path());
+    ExecutionListener unheard;
+    (void)execute({run}, 1, results, options, unheard);
+    const auto stored = results.runs().find(runId(run.spec));
+    if (stored == results.runs().end()) throw InputError("the null method was interrupted");
+    if (stored->second.status != RunStatus::done)
+        throw InputError("the null method did not run: " + stored->second.reason);
+    const auto number = [&](const char* column) { return std::stod(stored->second.cells.at(column)); };
+    return {number("harness_us_median"), number("start_s"), number("frame_ms_median")};
+}
+
+}  // namespace dustbench::bench

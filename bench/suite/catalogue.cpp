@@ -1,0 +1,110 @@
+#include "bench/suite/catalogue.h"
+
+#include <fmt/format.h>
+
+#include "bench/judge/judgement.h"
+#include "bench/results/run_record.h"
+#include "bench/scene/data_list.h"
+#include "bench/scene/world.h"
+#include "bench/suite/suite.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/files/toml_reader.h"
+#include "methods/shared/registry.h"
+#include "methods/shared/stage_clock.h"
+
+namespace dustbench::bench {
+namespace {
+
+/// What this build measures, by column of summary.csv; reports/SCHEMA.md and METRICS.md have the definitions.
+std::vector<CatalogueItem> listMetrics() {
+    std::vector<CatalogueItem> items;
+    const auto add = [&items](const std::string& id, const std::string& title) {
+        items.push_back({"metrics", id, title, "", ""});
+    };
+    add("fps_avg", "frames per second: frames·1000 / Σ frame_ms");
+    add("frame_ms_median", "median time of a frame, ms");
+    add("frame_ms_p95", "95th percentile of the frame times, ms");
+    add("frame_ms_p99", "99th percentile of the frame times, ms");
+    add("frame_ms_max", "longest frame, ms");
+    add("fps_1pct_low", "frame rate of the slowest frames that make up 1 % of the time, 1/s");
+    add("frame_ms_p999", "99.9th percentile of the frame times, ms");
+    add("fps_01pct_low", "frame rate of the slowest frames that make up 0.1 % of the time, 1/s");
+    for (const std::string_view stage : stageNames)
+        add(fmt::format("{}_ms_median", stage), fmt::format("median time of the stage '{}', ms", stage));
+    add("gpu_ms_median", "median GPU time of scene and drawing, where timer queries are true, ms");
+    add("harness_us_median", "median time of a frame outside every stage: the harness's own share, µs");
+    add("cpu_bytes", "largest CPU memory of world and method, bytes");
+    add("gpu_bytes", "largest memory of all buffers and textures, bytes");
+    add("rss_peak_bytes", "largest resident set of the run's process, bytes");
+    add("particles_median", "median number of dust particles");
+    add("primitives_median", "median number of primitives that the method drew");
+    for (const MetricInfo& metric : metricInfos()) add(std::string(metric.column), std::string(metric.title));
+    add("state_hash", "hash of vehicle and dust after the last frame (run.json)");
+    add("method_hash", "hash of the method's own simulation after the last frame (run.json)");
+    return items;
+}
+
+std::vector<CatalogueItem> listMethods() {
+    std::vector<CatalogueItem> items;
+    for (const MethodInfo& info : methods())
+        items.push_back({"methods", info.id, info.title, info.summary, info.source, info.parameters.all()});
+    return items;
+}
+
+std::vector<CatalogueItem> fromData(const std::string& kind, const std::vector<DataEntry>& entries) {
+    std::vector<CatalogueItem> items;
+    for (const DataEntry& entry : entries) items.push_back({kind, entry.id, entry.description, "", ""});
+    return items;
+}
+
+std::vector<CatalogueItem> listSuiteItems() {
+    std::vector<CatalogueItem> items;
+    for (const SuiteFile& suite : listSuites()) {
+        files::TomlReader table = files::TomlReader::parseFile(suite.file);
+        items.push_back({"suites", suite.id, table.text("title", ""), table.text("summary", ""), suite.paper});
+    }
+    return items;
+}
+
+}  // namespace
+
+const std::vector<std::string>& catalogueKinds() {
+    static const std::vector<std::string> kinds{"methods", "scenes", "drives", "suites", "metrics"};
+    return kinds;
+}
+
+std::vector<CatalogueItem> catalogue(const std::string& kind) {
+    if (kind == "methods") return listMethods();
+    if (kind == "scenes") return fromData(kind, listScenes());
+    if (kind == "drives") return fromData(kind, listDrives());
+    if (kind == "suites") return listSuiteItems();
+    if (kind != "metrics") throw unknownName("list", kind, catalogueKinds());
+    return listMetrics();
+}
+
+CatalogueItem findItem(const std::string& kind, const std::vector<CatalogueItem>& items, const std::string& id) {
+    std::vector<std::string> known;
+    for (const CatalogueItem& item : items) {
+        if (item.id == id) return item;
+        known.push_back(item.id);
+    }
+    throw unknownName(kind.substr(0, kind.size() - 1), id, known);
+}
+
+const std::vector<Parameter>& worldParameterList() {
+    return worldParameters().all();
+}
+
+std::string catalogueJson(const std::vector<CatalogueItem>& items) {
+    std::vector<ListedItem> listed;
+    for (const CatalogueItem& item : items) {
+        ListedItem entry{
+            {{"id", item.id}, {"kind", item.kind}, {"title", item.title}}, item.parameters, item.kind == "methods"};
+        if (!item.summary.empty()) entry.cells.emplace_back("summary", item.summary);
+        if (!item.source.empty()) entry.cells.emplace_back(item.kind == "suites" ? "paper" : "source", item.source);
+        listed.push_back(std::move(entry));
+    }
+    return listToJson(listed);
+}
+
+}  // namespace dustbench::bench

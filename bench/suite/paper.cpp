@@ -1,0 +1,41 @@
+#include "bench/suite/paper.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "methods/shared/errors.h"
+#include "methods/shared/files/data_folder.h"
+#include "methods/shared/files/toml_reader.h"
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+
+std::vector<std::string> listPapers() {
+    std::vector<std::string> ids;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(files::dataFolder() / "papers", error))
+        if (fs::exists(entry.path() / "paper.toml")) ids.push_back(entry.path().filename());
+    std::ranges::sort(ids);
+    return ids;
+}
+
+Paper loadPaper(const std::string& id) {
+    const std::vector<std::string> known = listPapers();
+    if (std::ranges::find(known, id) == known.end()) throw unknownName("paper", id, known);
+    files::TomlReader file = files::TomlReader::parseFile(files::dataFolder() / "papers" / id / "paper.toml");
+    Paper paper;
+    paper.id = id;
+    if (const std::string named = file.text("id"); named != id)
+        throw InputError(file.where("id") + "key 'id': got '" + named + "', expected the folder's name '" + id + "'");
+    paper.title = file.text("title");
+    paper.authors = file.text("authors");
+    paper.year = file.integer("year", 1800, 2200);
+    paper.venue = file.text("venue");
+    paper.key = file.text("key");
+    paper.summary = file.text("summary");
+    paper.suites = file.texts("suites");
+    file.finish();
+    return paper;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,111 @@
+#include "bench/suite/shard.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "bench/suite/suite_axes.h"
+#include "bench/suite/suite_comparison.h"
+#include "methods/shared/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+/// Scene, drive, size and the world's parameters.
+std::string worldKey(const RunSpec& spec) {
+    std::string key = fmt::format("{}\n{}\n{}x{}\n", spec.scene, spec.drive, spec.size.width, spec.size.height);
+    for (const auto& [name, text] : spec.parameters)
+        if (isOfTheWorld(name)) key += fmt::format("{}={}\n", name, text);
+    return key;
+}
+
+/// Disjoint sets of cells, each known by the first of its cells.
+class CellGroups {
+ public:
+    explicit CellGroups(std::size_t cells) : parents_(cells) { std::iota(parents_.begin(), parents_.end(), 0); }
+    [[nodiscard]] std::size_t firstOf(std::size_t cell) const {
+        while (parents_[cell] != cell) cell = parents_[cell];
+        return cell;
+    }
+    void join(std::size_t a, std::size_t b) {
+        const auto [first, later] = std::minmax({firstOf(a), firstOf(b)});
+        parents_[later] = first;
+    }
+
+ private:
+    std::vector<std::size_t> parents_;
+};
+
+CellGroups groupCells(const Suite& suite) {
+    CellGroups groups(suite.cells.size());
+    std::map<std::string, std::size_t> firstOfWorld;
+    for (std::size_t i = 0; i < suite.cells.size(); ++i)
+        groups.join(i, firstOfWorld.emplace(worldKey(suite.cells[i].spec), i).first->second);
+    for (const PlannedComparison& comparison : suite.comparisons)
+        for (const CellPair& pair : matchCells(suite, comparison).pairs)
+            groups.join(static_cast<std::size_t>(pair.of - suite.cells.data()),
+                        static_cast<std::size_t>(pair.with - suite.cells.data()));
+    return groups;
+}
+
+}  // namespace
+
+Shard parseShard(std::string_view text) {
+    Shard shard{0, 0};
+    const char* const end = text.data() + text.size();
+    const auto [slash, indexError] = std::from_chars(text.data(), end, shard.index);
+    if (indexError == std::errc() && slash != end && *slash == '/') {
+        const auto [last, countError] = std::from_chars(slash + 1, end, shard.count);
+        if (countError == std::errc() && last == end && shard.index >= 1 && shard.index <= shard.count &&
+            shard.count <= mostShards)
+            return shard;
+    }
+    throw InputError(fmt::format("--shard: got '{}', allowed: I/N with 1 <= I <= N <= {}", text, mostShards));
+}
+
+std::vector<int> shardOfCells(const Suite& suite, int count) {
+    const CellGroups groups = groupCells(suite);
+    std::map<std::size_t, std::size_t> sizes;  // by a group's first cell
+    for (std::size_t i = 0; i < suite.cells.size(); ++i) ++sizes[groups.firstOf(i)];
+    std::vector<std::pair<std::size_t, std::size_t>> largestFirst(sizes.begin(), sizes.end());
+    std::ranges::stable_sort(largestFirst, std::ranges::greater(), [](const auto& entry) { return entry.second; });
+
+    std::set<std::pair<std::size_t, int>> loads;  // the fewest cells, then the lowest number, comes first
+    for (int shard = 1; shard <= count; ++shard) loads.emplace(0, shard);
+    std::map<std::size_t, int> shardOfGroup;
+    for (const auto& [first, size] : largestFirst) {
+        const auto [load, shard] = *loads.begin();
+        loads.erase(loads.begin());
+        loads.emplace(load + size, shard);
+        shardOfGroup[first] = shard;
+    }
+    std::vector<int> shards;
+    for (std::size_t i = 0; i < suite.cells.size(); ++i) shards.push_back(shardOfGroup.at(groups.firstOf(i)));
+    return shards;
+}
+
+Suite partOf(const Suite& suite, Shard shard) {
+    const std::vector<int> shards = shardOfCells(suite, shard.count);
+    Suite part = suite;
+    part.cells.clear();
+    part.comparisons.clear();
+    for (std::size_t i = 0; i < suite.cells.size(); ++i)
+        if (shards[i] == shard.index) part.cells.push_back(suite.cells[i]);
+    return part;
+}
+
+std::vector<PlannedRun> planRuns(const Suite& suite, Shard shard) {
+    std::set<std::string> mine;
+    for (const PlannedRun& cell : partOf(suite, shard).cells)
+        for (int repetition = 1; repetition <= suite.repetitions; ++repetition)
+            mine.insert(runId(inRepetition(cell.spec, repetition)));
+    std::vector<PlannedRun> plan = planRuns(suite);
+    std::erase_if(plan, [&mine](const PlannedRun& run) { return !mine.contains(runId(run.spec)); });
+    return plan;
+}
+
+}  // namespace dustbench::bench

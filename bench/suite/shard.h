@@ -1,0 +1,34 @@
+// A suite in parts, for several machines: `--shard 2/3`.
+//
+// Runs that are compared with each other belong on one machine, so what is shared out are groups of cells: all methods
+// and repetitions of one world, and the worlds that a comparison of the suite brings together. The largest group goes
+// first, each to the shard that has the fewest runs. This depends on the suite alone; run ids do not depend on it.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "bench/suite/suite.h"
+
+namespace dustbench::bench {
+
+struct Shard {
+    int index = 1;  ///< from 1
+    int count = 1;
+};
+/// `2/3`. Throws InputError.
+[[nodiscard]] Shard parseShard(std::string_view text);
+
+inline constexpr int mostShards = 10'000;
+
+/// The shard of every cell, from 1.
+[[nodiscard]] std::vector<int> shardOfCells(const Suite& suite, int count);
+
+/// The suite with the shard's cells only. Its verdicts are left out: they are for the whole.
+[[nodiscard]] Suite partOf(const Suite& suite, Shard shard);
+
+/// The shard's runs, in the order of the whole suite's plan.
+[[nodiscard]] std::vector<PlannedRun> planRuns(const Suite& suite, Shard shard);
+
+}  // namespace dustbench::bench

@@ -1,0 +1,188 @@
+#include "bench/suite/suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/suite/suite_comparison.h"
+#include "bench/suite/suite_draft.h"
+#include "bench/suite/suite_fit.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/files/data_folder.h"
+#include "methods/shared/files/toml_reader.h"
+#include "methods/shared/maths/philox.h"
+#include "methods/shared/registry.h"
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+namespace {
+
+bool covers(const Exception& exception, const RunSpec& cell) {
+    const auto isOneOf = [](const std::string& value, const std::vector<std::string>& list) {
+        return list.empty() || std::ranges::find(list, value) != list.end();
+    };
+    const auto hasOneOf = [&](const auto& parameter) {
+        const auto& [name, values] = parameter;
+        const auto own = cell.parameters.find(name);
+        return own != cell.parameters.end() && std::ranges::any_of(values, [&](const std::string& value) {
+                   return canonicalParameters(findMethod(cell.method), {{name, value}}).at(name) == own->second;
+               });
+    };
+    const auto hasSize = [&](const ImageSize& size) {
+        return exception.sizes.empty() ||
+               std::ranges::any_of(exception.sizes, [&](const std::string& text) { return parseSize(text) == size; });
+    };
+    return isOneOf(cell.method, exception.methods) && isOneOf(cell.scene, exception.scenes) &&
+           isOneOf(cell.drive, exception.drives) && hasSize(cell.size) &&
+           std::ranges::all_of(exception.parameters, hasOneOf);
+}
+
+/// `wholeFile`: an exception that leaves nothing out is a mistake; in `[quick]`, which has fewer cells, it is not.
+Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
+    requireFramesWithinRun(draft.base);
+    Suite suite = std::move(draft.suite);
+    for (const std::string& id : draft.methods) {
+        ParameterLists lists = draft.parameters;
+        for (const auto& [method, own] : draft.methodParameters)
+            if (method == id)
+                for (const auto& [name, values] : own) setList(lists, name, values);
+        for (const std::string& scene : draft.scenes)
+            for (const std::string& drive : draft.drives)
+                for (const std::string& size : draft.sizes) {
+                    RunSpec base = draft.base;
+                    base.method = id;
+                    base.scene = scene;
+                    base.drive = drive;
+                    base.size = parseSize(size);
+                    if (const auto finer = draft.finerSettings.find(id);
+                        base.judging && finer != draft.finerSettings.end())
+                        base.judging->finer = finer->second;
+                    for (PlannedRun& run : expandParameters(base, findMethod(id), lists)) {
+                        if (draft.drives.size() > 1) run.label = drive + " " + run.label;
+                        if (draft.sizes.size() > 1) run.label = size + " " + run.label;
+                        suite.cells.push_back(std::move(run));
+                    }
+                }
+    }
+    for (const Exception& exception : draft.exceptions)
+        if (std::erase_if(suite.cells, [&](const PlannedRun& cell) { return covers(exception, cell.spec); }) == 0 &&
+            wholeFile)
+            throw InputError(exception.where + "except: leaves nothing out, no cell has these values");
+    if (suite.cells.empty()) throw InputError("suite: nothing is left of it by its exceptions");
+    for (const PlannedComparison& comparison : suite.comparisons) (void)matchCells(suite, comparison);
+    for (const PlannedFit& fit : suite.fits) (void)cellsByLoad(suite, fit);
+    return suite;
+}
+
+Suite readSuite(files::TomlReader file, std::string id, bool quick) {
+    SuiteDraft draft;
+    draft.read(file);
+    Suite suite = multiplyOut(draft, true);
+    if (file.has("quick")) {
+        // Read in any case, so that a mistake in it shows early.
+        files::TomlReader table = file.table("quick");
+        draft.read(table);
+        table.finish();
+        Suite shorter = multiplyOut(std::move(draft), false);
+        if (quick) suite = std::move(shorter);
+    }
+    file.finish();
+    suite.id = std::move(id);
+    return suite;
+}
+
+/// Fisher-Yates with the round's own random numbers.
+void shuffle(std::vector<PlannedRun>& runs, std::size_t first, std::uint64_t seed, std::uint32_t round) {
+    for (std::size_t i = runs.size() - 1; i > first; --i) {
+        const std::size_t choice = maths::randomWords(seed, round, i)[0] % (i - first + 1);
+        std::swap(runs[i], runs[first + choice]);
+    }
+}
+
+}  // namespace
+
+Order parseOrder(std::string_view text) {
+    if (text == "interleaved") return Order::interleaved;
+    if (text == "batch") return Order::batch;
+    throw InputError(fmt::format("order: got '{}', allowed: interleaved|batch", text));
+}
+
+std::vector<SuiteFile> listSuites() {
+    std::vector<SuiteFile> suites;
+    const auto add = [&suites](const std::string& folder, const std::string& paper) {
+        for (const std::string& id : files::listData(folder, ".toml"))
+            suites.push_back({id, files::dataFolder() / folder / (id + ".toml"), paper});
+    };
+    add("suites", "");
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(files::dataFolder() / "papers", error)) {
+        const std::string paper = entry.path().filename();
+        add("papers/" + paper + "/suites", paper);
+    }
+    std::ranges::sort(suites, {}, &SuiteFile::id);
+    return suites;
+}
+
+Suite loadSuite(const std::string& idOrFile, bool quick) {
+    fs::path file = idOrFile;
+    if (idOrFile.find('/') == std::string::npos && !idOrFile.ends_with(".toml")) {
+        std::vector<std::string> known;
+        for (const SuiteFile& suite : listSuites()) {
+            known.push_back(suite.id);
+            if (suite.id == idOrFile) file = suite.file;
+        }
+        if (file == fs::path(idOrFile)) throw unknownName("suite", idOrFile, known);
+    }
+    return readSuite(files::TomlReader::parseFile(file), file.stem(), quick);
+}
+
+Suite parseSuite(std::string_view text, const std::string& name, bool quick) {
+    return readSuite(files::TomlReader::parseText(text, name), name, quick);
+}
+
+std::vector<PlannedRun> expandParameters(const RunSpec& base, const MethodInfo& method, const ParameterLists& lists) {
+    std::vector<PlannedRun> runs;
+    std::vector<std::size_t> choice(lists.size(), 0);
+    for (;;) {
+        ParameterTexts given;
+        std::string label;
+        for (std::size_t i = 0; i < lists.size(); ++i) {
+            given[lists[i].first] = lists[i].second[choice[i]];
+            label += (i ? " " : "") + lists[i].first + "=" + lists[i].second[choice[i]];
+        }
+        runs.push_back({base, label});
+        runs.back().spec.parameters = canonicalParameters(method, given);
+
+        std::size_t digit = lists.size();
+        while (digit > 0 && ++choice[digit - 1] == lists[digit - 1].second.size()) choice[--digit] = 0;
+        if (digit == 0) return runs;
+    }
+}
+
+RunSpec inRepetition(RunSpec cell, int repetition) {
+    cell.repetition = repetition;
+    if (repetition > 1) cell.judging.reset();
+    return cell;
+}
+
+std::vector<PlannedRun> planRuns(const Suite& suite) {
+    std::vector<PlannedRun> plan;
+    const auto add = [&plan](PlannedRun run, int repetition) {
+        run.spec = inRepetition(run.spec, repetition);
+        plan.push_back(std::move(run));
+    };
+    if (suite.order == Order::batch) {
+        for (const PlannedRun& cell : suite.cells)
+            for (int repetition = 1; repetition <= suite.repetitions; ++repetition) add(cell, repetition);
+        return plan;
+    }
+    for (int repetition = 1; repetition <= suite.repetitions; ++repetition) {
+        const std::size_t first = plan.size();
+        for (const PlannedRun& cell : suite.cells) add(cell, repetition);
+        if (plan.size() > first)
+            shuffle(plan, first, suite.cells.front().spec.seed, static_cast<std::uint32_t>(repetition));
+    }
+    return plan;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,75 @@
+#include "bench/suite/suite_axes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "bench/scene/world.h"
+
+namespace dustbench::bench {
+namespace {
+
+Axis parameterAxis(const std::string& name) {
+    return {name, [name](const RunSpec& spec) {
+                const auto found = spec.parameters.find(name);
+                return found == spec.parameters.end() ? std::string() : found->second;
+            }};
+}
+
+std::set<std::string> parameterNames(std::span<const PlannedRun* const> cells) {
+    std::set<std::string> names;
+    for (const PlannedRun* cell : cells)
+        for (const auto& [name, text] : cell->spec.parameters) names.insert(name);
+    return names;
+}
+
+}  // namespace
+
+bool isOfTheWorld(std::string_view parameter) {
+    return worldParameters().find(parameter) != nullptr;
+}
+
+std::vector<Axis> worldAxes(std::span<const PlannedRun* const> cells) {
+    std::vector<Axis> axes{
+        {"scene", [](const RunSpec& spec) { return spec.scene; }},
+        {"drive", [](const RunSpec& spec) { return spec.drive; }},
+        {"size", [](const RunSpec& spec) { return fmt::format("{}x{}", spec.size.width, spec.size.height); }}};
+    for (const std::string& name : parameterNames(cells))
+        if (isOfTheWorld(name)) axes.push_back(parameterAxis(name));
+    std::erase_if(axes, [cells](const Axis& axis) {
+        return std::ranges::all_of(
+            cells, [&](const PlannedRun* cell) { return axis.of(cell->spec) == axis.of(cells.front()->spec); });
+    });
+    return axes;
+}
+
+std::vector<Axis> methodAxes(std::span<const PlannedRun* const> cells) {
+    std::vector<Axis> axes;
+    for (const std::string& name : parameterNames(cells)) {
+        if (isOfTheWorld(name)) continue;
+        Axis axis = parameterAxis(name);
+        std::map<std::string, std::set<std::string>> valuesByMethod;
+        for (const PlannedRun* cell : cells) valuesByMethod[cell->spec.method].insert(axis.of(cell->spec));
+        if (std::ranges::any_of(valuesByMethod, [](const auto& entry) { return entry.second.size() > 1; }))
+            axes.push_back(std::move(axis));
+    }
+    return axes;
+}
+
+std::string labelOf(const std::vector<Axis>& axes, const RunSpec& spec) {
+    std::string label;
+    for (const Axis& axis : axes)
+        if (const std::string value = axis.of(spec); !value.empty())
+            label += (label.empty() ? "" : " ") + axis.name + "=" + value;
+    return label;
+}
+
+std::vector<const PlannedRun*> cellsOf(const Suite& suite) {
+    std::vector<const PlannedRun*> cells;
+    for (const PlannedRun& cell : suite.cells) cells.push_back(&cell);
+    return cells;
+}
+
+}  // namespace dustbench::bench

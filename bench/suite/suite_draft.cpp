@@ -1,0 +1,235 @@
+#include "bench/suite/suite_draft.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "bench/suite/value_list.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/files/data_folder.h"
+#include "methods/shared/registry.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr std::int64_t mostFrames = 10'000'000;
+
+[[nodiscard]] InputError at(const std::string& where, const InputError& error) {
+    return InputError(where + error.what());
+}
+
+std::vector<std::string> readValues(files::TomlReader& table, const std::string& name) {
+    try {
+        std::vector<std::string> values;
+        for (const std::string& text : table.scalars(name))
+            for (std::string& value : expandValues(name, text)) values.push_back(std::move(value));
+        if (values.empty()) throw InputError("parameter " + name + ": no values");
+        return values;
+    } catch (const InputError& error) {
+        const std::string message = error.what();
+        throw message.starts_with(table.where(name)) ? error : at(table.where(name), error);
+    }
+}
+
+/// Every value must suit each of the methods, or the file is wrong at this line.
+void readParameters(files::TomlReader& table, const std::vector<std::string>& methodIds, ParameterLists& lists) {
+    for (const std::string& name : table.keys()) {
+        const std::vector<std::string> values = readValues(table, name);
+        for (const std::string& id : methodIds)
+            for (const std::string& value : values) try {
+                    (void)resolveParameters(findMethod(id), {{name, value}});
+                } catch (const InputError& error) {
+                    throw at(table.where(name), error);
+                }
+        setList(lists, name, values);
+    }
+}
+
+template <typename Check>
+void readNames(files::TomlReader& table, const std::string& key, std::vector<std::string>& names, const Check& check) {
+    if (!table.has(key)) return;
+    names = table.texts(key);
+    if (names.empty()) throw InputError(table.where(key) + "key '" + key + "': got an empty array, expected names");
+    for (const std::string& name : names) try {
+            check(name);
+        } catch (const InputError& error) {
+            throw at(table.where(key), error);
+        }
+}
+
+std::vector<std::string> allMethods() {
+    std::vector<std::string> ids;
+    for (const MethodInfo& info : methods()) ids.push_back(info.id);
+    return ids;
+}
+
+/// `volumes` asks for them; the other keys say more about it.
+void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volumes) {
+    const auto read = [&](const std::string& key, const auto& apply) {
+        if (!table.has(key)) return;
+        if (!volumes)
+            throw InputError(table.where(key) + "key '" + key +
+                             "': got it without 'volumes', which says of which frames");
+        try {
+            apply(key);
+        } catch (const InputError& error) {
+            const std::string message = error.what();
+            throw message.starts_with(table.where(key)) ? error : at(table.where(key), error);
+        }
+    };
+    if (table.has("volumes") && !volumes) volumes.emplace();
+    read("volumes", [&](const std::string& key) { volumes->frames = parseFrameRange(key, table.text(key, "")); });
+    read("formats", [&](const std::string& key) {
+        std::string joined;
+        for (const std::string& name : table.texts(key)) joined.append(joined.empty() ? "" : ",").append(name);
+        volumes->formats = parseFormats(joined);
+    });
+    read("resolution", [&](const std::string& key) {
+        volumes->resolution = static_cast<int>(table.integer(key, 1, mostCellsPerEdge, volumes->resolution));
+    });
+    read("region", [&](const std::string& key) { volumes->region = parseRegion(table.text(key, "")); });
+    read("vdb_precision", [&](const std::string& key) { volumes->vdbPrecision = parsePrecision(table.text(key, "")); });
+}
+
+/// `metrics` asks for them; `metric_frames` says of which frames.
+void readJudging(files::TomlReader& table, std::optional<JudgingPlan>& judging) {
+    if (table.has("metrics")) {
+        if (!table.boolean("metrics", false))
+            judging.reset();
+        else if (!judging)
+            judging.emplace();
+    }
+    if (!table.has("metric_frames")) return;
+    if (!judging)
+        throw InputError(table.where("metric_frames") + "key 'metric_frames': got it without 'metrics = true'");
+    const std::string text = table.text("metric_frames", "");
+    try {
+        judging->moments = parseFrameRange("metric_frames", text);
+    } catch (const InputError& error) {
+        throw at(table.where("metric_frames"), error);
+    }
+}
+
+/// `[metric_reference.ID]`: parameters of the method's own, one value each.
+void readFinerSettings(files::TomlReader& table, SuiteDraft& draft) {
+    files::TomlReader perMethod = table.table("metric_reference");
+    for (const std::string& id : perMethod.keys()) {
+        if (std::ranges::find(draft.methods, id) == draft.methods.end())
+            throw at(perMethod.where(id), unknownName("method of this suite", id, draft.methods));
+        files::TomlReader settings = perMethod.table(id);
+        ParameterTexts& finer = draft.finerSettings[id];
+        for (const std::string& name : settings.keys()) {
+            const std::vector<std::string> values = readValues(settings, name);
+            if (values.size() != 1)
+                throw InputError(
+                    fmt::format("{}key '{}': got {} values, expected one", settings.where(name), name, values.size()));
+            try {
+                ParameterValues own(findMethod(id).parameters);
+                own.set(name, values.front());
+                finer[name] = own.canonical().at(name);
+            } catch (const InputError& error) {
+                throw at(settings.where(name), error);
+            }
+        }
+        settings.finish();
+    }
+    perMethod.finish();
+}
+
+/// Which of the cells are left out. A value that no cell could have is a mistake in the file.
+void readExceptions(files::TomlReader& suite, SuiteDraft& draft) {
+    draft.exceptions.clear();
+    for (files::TomlReader& table : suite.tables("except")) {
+        Exception exception;
+        exception.where = table.where("");
+        const auto names = [&](const std::string& key, const std::vector<std::string>& ofSuite) {
+            std::vector<std::string> chosen;
+            readNames(table, key, chosen, [&](const std::string& name) {
+                if (std::ranges::find(ofSuite, name) == ofSuite.end())
+                    throw unknownName(key.substr(0, key.size() - 1) + " of this suite", name, ofSuite);
+            });
+            return chosen;
+        };
+        exception.methods = names("methods", draft.methods);
+        exception.scenes = names("scenes", draft.scenes);
+        exception.drives = names("drives", draft.drives);
+        exception.sizes = names("sizes", draft.sizes);
+        if (table.has("parameters")) {
+            files::TomlReader parameters = table.table("parameters");
+            for (const std::string& name : parameters.keys())
+                exception.parameters.emplace_back(name, readValues(parameters, name));
+            parameters.finish();
+        }
+        table.finish();
+        draft.exceptions.push_back(std::move(exception));
+    }
+}
+
+}  // namespace
+
+void SuiteDraft::read(files::TomlReader& table) {
+    readNames(table, "methods", methods, [](const std::string& id) {
+        if (id != "all") (void)findMethod(id);
+    });
+    if (std::ranges::find(methods, "all") != methods.end()) methods = allMethods();
+    readNames(table, "scenes", scenes,
+              [](const std::string& id) { (void)files::findData("scene", "scenes", id, ".toml"); });
+    readNames(table, "drives", drives, [](const std::string& id) {
+        if (!id.empty()) (void)files::findData("drive", "drives", id, ".csv");
+    });
+    readNames(table, "sizes", sizes, [](const std::string& size) { (void)parseSize(size); });
+
+    base.frames = table.integer("frames", 1, mostFrames, base.frames);
+    base.warmup = table.integer("warmup", 0, mostFrames, base.warmup);
+    base.seed = static_cast<std::uint64_t>(
+        table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), static_cast<std::int64_t>(base.seed)));
+    base.threads = static_cast<int>(table.integer("threads", 0, 1024, base.threads));
+    base.imagesEvery = table.integer("images", 0, mostFrames, base.imagesEvery);
+    readVolumes(table, base.volumes);
+    readJudging(table, base.judging);
+    if (table.has("sync")) base.sync = parseSync(table.choice("sync", {"frame", "stage", "none"}));
+
+    suite.title = table.text("title", suite.title);
+    suite.summary = table.text("summary", suite.summary);
+    suite.repetitions = static_cast<int>(table.integer("repetitions", 1, 1000, suite.repetitions));
+    suite.timeoutSeconds = table.number("timeout_s", 1, 1e6, suite.timeoutSeconds);
+    suite.cooldownSeconds = table.number("cooldown_s", 0, 3600, suite.cooldownSeconds);
+    if (table.has("order")) suite.order = parseOrder(table.choice("order", {"interleaved", "batch"}));
+
+    if (table.has("parameters")) {
+        files::TomlReader ofAll = table.table("parameters");
+        readParameters(ofAll, methods, parameters);
+        ofAll.finish();
+    }
+    if (table.has("method")) {
+        files::TomlReader perMethod = table.table("method");
+        for (const std::string& id : perMethod.keys()) {
+            if (std::ranges::find(methods, id) == methods.end())
+                throw at(perMethod.where(id), unknownName("method of this suite", id, methods));
+            files::TomlReader own = perMethod.table(id);
+            auto known = std::ranges::find(methodParameters, id, [](const auto& entry) { return entry.first; });
+            if (known == methodParameters.end()) {
+                methodParameters.emplace_back(id, ParameterLists{});
+                known = std::prev(methodParameters.end());
+            }
+            readParameters(own, {id}, known->second);
+            own.finish();
+        }
+        perMethod.finish();
+    }
+    if (table.has("metric_reference")) readFinerSettings(table, *this);
+    if (table.has("except")) readExceptions(table, *this);
+    if (table.has("fit")) suite.fits = readFits(table);
+    if (table.has("compare")) suite.comparisons = readComparisons(table, methods);
+}
+
+void setList(ParameterLists& lists, const std::string& name, std::vector<std::string> values) {
+    const auto known = std::ranges::find(lists, name, &ParameterLists::value_type::first);
+    if (known != lists.end())
+        known->second = std::move(values);
+    else
+        lists.emplace_back(name, std::move(values));
+}
+
+}  // namespace dustbench::bench

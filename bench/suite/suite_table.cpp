@@ -1,0 +1,131 @@
+#include "bench/suite/suite_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bench/judge/judgement.h"
+#include "bench/measure/statistics.h"
+#include "bench/suite/suite_axes.h"
+#include "methods/shared/stage_clock.h"
+
+namespace dustbench::bench {
+namespace {
+
+using Row = std::vector<std::string>;
+
+std::string oneDecimal(double value) {
+    return std::isfinite(value) ? fmt::format("{:.1f}", value) : "";
+}
+
+Row timesHeader() {
+    Row names{"fps", "min", "max", "frame"};
+    for (const std::string_view stage : stageNames) names.emplace_back(stage);
+    return names;
+}
+
+Row timesOf(const std::vector<const StoredRun*>& done) {
+    const auto fps = numbersIn(done, "fps_avg");
+    Row row;
+    for (const double value : {median(fps), quantile(fps, 0), quantile(fps, 1)}) row.push_back(oneDecimal(value));
+    row.push_back(fourDigits(median(numbersIn(done, "frame_ms_median"))));
+    for (const std::string_view stage : stageNames)
+        row.push_back(fourDigits(median(numbersIn(done, fmt::format("{}_ms_median", stage)))));
+    return row;
+}
+
+/// Of the first repetition, the one that is judged. Where none of three digits is left, the number is in powers of ten.
+Row metricsOf(const std::vector<const StoredRun*>& done) {
+    Row row;
+    for (const MetricInfo& metric : metricInfos()) {
+        const auto values = numbersIn(done, metric.column);
+        const double value = values.empty() ? std::numeric_limits<double>::quiet_NaN() : values.front();
+        row.push_back(value != 0 && std::abs(value) < 0.0995 ? fmt::format("{:.3g}", value) : fourDigits(value));
+    }
+    return row;
+}
+
+Row joined(Row row, Row more) {
+    row.insert(row.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    return row;
+}
+
+/// The cells by the world that they show, in the order in which the suite first names it.
+std::vector<std::pair<std::string, std::vector<const PlannedRun*>>> groupByWorld(
+    const std::vector<const PlannedRun*>& cells, const std::vector<Axis>& world) {
+    std::vector<std::pair<std::string, std::vector<const PlannedRun*>>> groups;
+    for (const PlannedRun* cell : cells) {
+        const std::string label = labelOf(world, cell->spec);
+        auto group = std::ranges::find(groups, label, [](const auto& entry) { return entry.first; });
+        if (group == groups.end()) group = groups.insert(group, {label, {}});
+        group->second.push_back(cell);
+    }
+    return groups;
+}
+
+/// `numbersOf` gives the cells under `numberHeader` for a cell's runs.
+template <typename NumbersOf>
+TextRows tabulateRuns(const Suite& suite, const StoredRuns& runs, const Row& numberHeader, const NumbersOf& numbersOf) {
+    TextRows table;
+    const auto cells = cellsOf(suite);
+    if (cells.empty()) return table;
+    const auto world = worldAxes(cells);
+    const auto settings = methodAxes(cells);
+    const auto nameOf = [&](const PlannedRun& cell, std::size_t done) {
+        std::string name = cell.spec.method;
+        if (const std::string setting = labelOf(settings, cell.spec); !setting.empty()) name += " " + setting;
+        if (done < static_cast<std::size_t>(suite.repetitions))
+            name += fmt::format(" ({} of {} runs)", done, suite.repetitions);
+        return name;
+    };
+    const auto groups = groupByWorld(cells, world);
+    const bool inColumns = std::ranges::all_of(groups, [](const auto& group) { return group.second.size() == 1; });
+
+    table.header.emplace_back("method");
+    if (inColumns)
+        for (const Axis& axis : world) table.header.push_back(axis.name);
+    table.header = joined(std::move(table.header), numberHeader);
+
+    for (const auto& [label, members] : groups) {
+        const bool headed = !inColumns && !label.empty();
+        if (headed) {
+            table.rows.push_back({label});
+            table.rows.back().resize(table.header.size());
+        }
+        for (const PlannedRun* cell : members) {
+            const auto done = doneRuns(*cell, suite.repetitions, runs);
+            Row row{(headed ? "  " : "") + nameOf(*cell, done.size())};
+            if (inColumns)
+                for (const Axis& axis : world) row.push_back(axis.of(cell->spec));
+            table.rows.push_back(joined(std::move(row), numbersOf(done)));
+        }
+    }
+    return table;
+}
+
+}  // namespace
+
+std::string fourDigits(double value) {
+    if (!std::isfinite(value)) return "";
+    const double size = std::abs(value);
+    return fmt::format("{:.{}f}", value, size < 9.9995 ? 3 : size < 99.995 ? 2 : size < 999.95 ? 1 : 0);
+}
+
+TextRows tabulate(const Suite& suite, const StoredRuns& runs) {
+    return tabulateRuns(suite, runs, timesHeader(), timesOf);
+}
+
+TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs) {
+    const bool judged = std::ranges::any_of(suite.cells, [&](const PlannedRun& cell) {
+        const StoredRun* first = doneRun(cell, 1, runs);
+        return first && numberIn(*first, "rmse_linear");
+    });
+    if (!judged) return {};
+    Row names;
+    for (const MetricInfo& metric : metricInfos()) names.emplace_back(metric.column);
+    return tabulateRuns(suite, runs, names, metricsOf);
+}
+
+}  // namespace dustbench::bench

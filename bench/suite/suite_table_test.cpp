@@ -1,0 +1,145 @@
+#include "bench/suite/suite_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "bench/judge/judgement.h"
+#include "bench/results/summary.h"
+#include "bench/suite/suite_fit.h"
+#include "methods/shared/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+using testing::ElementsAre;
+using Row = std::vector<std::string>;
+
+PlannedRun cellOf(const std::string& method, const std::string& particles, const ParameterTexts& own) {
+    PlannedRun cell;
+    cell.spec.method = method;
+    cell.spec.parameters = own;
+    cell.spec.parameters["particles"] = particles;
+    cell.spec.parameters["speed"] = "20";
+    return cell;
+}
+
+void store(StoredRuns& runs, const PlannedRun& cell, int repetition, const std::string& fps) {
+    RunSpec spec = cell.spec;
+    spec.repetition = repetition;
+    StoredRun run;
+    run.cells = {{"fps_avg", fps}, {"frame_ms_median", "5.5"}, {"draw_ms_median", "12.3456"}};
+    runs[runId(spec)] = run;
+}
+
+Row firstCells(const Row& row, std::size_t count) {
+    return {row.begin(), row.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+std::string cellAt(const TextRows& table, std::size_t row, const std::string& column) {
+    const auto at = std::ranges::find(table.header, column);
+    return at == table.header.end() ? "no such column"
+                                    : table.rows[row][static_cast<std::size_t>(at - table.header.begin())];
+}
+
+TEST(SuiteTable, OneMethodHasAColumnForWhatVaries) {
+    Suite suite;
+    suite.repetitions = 3;
+    for (const char* count : {"100", "200"}) suite.cells.push_back(cellOf("haze", count, {}));
+    StoredRuns runs;
+    for (const int repetition : {1, 2, 3})
+        store(runs, suite.cells[0], repetition, std::to_string(10 * repetition * repetition));
+    const TextRows table = tabulate(suite, runs);
+    EXPECT_THAT(table.header, ElementsAre("method", "particles", "fps", "min", "max", "frame", "input", "simulate",
+                                          "build", "sort", "upload", "scene", "draw", "wait"));
+    ASSERT_EQ(table.rows.size(), 2u);
+    EXPECT_THAT(firstCells(table.rows[0], 6), ElementsAre("haze", "100", "40.0", "10.0", "90.0", "5.500"));
+    EXPECT_EQ(cellAt(table, 0, "draw"), "12.35");
+    EXPECT_EQ(cellAt(table, 0, "input"), "");
+    EXPECT_THAT(firstCells(table.rows[1], 3), ElementsAre("haze (0 of 3 runs)", "200", ""));
+}
+
+TEST(SuiteTable, MethodsStandTogetherBelowTheWorldTheyAreShown) {
+    Suite suite;
+    suite.repetitions = 2;
+    for (const char* count : {"100", "200"}) suite.cells.push_back(cellOf("haze", count, {{"sort", "radix"}}));
+    for (const char* count : {"100", "200"})
+        for (const char* layout : {"plain", "packed"})
+            suite.cells.push_back(cellOf("mist", count, {{"sort", "quicksort"}, {"layout", layout}}));
+    StoredRuns runs;
+    for (const PlannedRun& cell : suite.cells) store(runs, cell, 1, "10");
+    store(runs, suite.cells[0], 2, "10");
+    const TextRows table = tabulate(suite, runs);
+
+    // A setting that differs between the methods but not within one is not shown.
+    Row names;
+    for (const Row& row : table.rows) {
+        EXPECT_EQ(row.size(), table.header.size());
+        names.push_back(row[0]);
+    }
+    EXPECT_THAT(names, ElementsAre("particles=100", "  haze", "  mist layout=plain (1 of 2 runs)",
+                                   "  mist layout=packed (1 of 2 runs)", "particles=200", "  haze (1 of 2 runs)",
+                                   "  mist layout=plain (1 of 2 runs)", "  mist layout=packed (1 of 2 runs)"));
+    EXPECT_EQ(cellAt(table, 0, "fps"), "");
+    EXPECT_EQ(cellAt(table, 1, "fps"), "10.0");
+}
+
+TEST(SuiteTable, ARunThatFailedIsNotCounted) {
+    Suite suite;
+    suite.cells.push_back(cellOf("haze", "100", {}));
+    StoredRuns runs;
+    store(runs, suite.cells[0], 1, "10");
+    runs.begin()->second.status = RunStatus::failed;
+    EXPECT_EQ(tabulate(suite, runs).rows.at(0).at(0), "haze (0 of 1 runs)");
+}
+
+TEST(SuiteTable, NumbersKeepFourDigits) {
+    EXPECT_EQ(fourDigits(0.04712), "0.047");
+    EXPECT_EQ(fourDigits(9.9996), "10.00");
+    EXPECT_EQ(fourDigits(99.996), "100.0");
+    EXPECT_EQ(fourDigits(1234.5), "1234");
+    EXPECT_EQ(fourDigits(std::numeric_limits<double>::quiet_NaN()), "");
+}
+
+TEST(Summary, HasAColumnForEveryMetric) {
+    for (const MetricInfo& metric : metricInfos())
+        EXPECT_THAT(columnsAfterParameters(), testing::Contains(std::string(metric.column)));
+}
+
+TEST(SuiteFit, MakesOneCurveOfAllRunsThatAreEqualButForTheLoad) {
+    Suite suite;
+    suite.repetitions = 2;
+    suite.fits = {{{"frame_ms_median", "fps_avg"}, "particles", ""}};
+    StoredRuns runs;
+    for (const char* method : {"haze", "mist"})
+        for (const int particles : {100, 200, 400, 800})
+            for (const int repetition : {1, 2}) {
+                PlannedRun cell = cellOf(method, std::to_string(particles), {});
+                cell.spec.repetition = repetition;
+                const double ms = method == std::string("haze") ? 5 + 0.01 * particles : 3;
+                StoredRun& run = runs[runId(cell.spec)];
+                run.cells = {{"frame_ms_median", std::to_string(ms)}, {"fps_avg", std::to_string(1000 / ms)}};
+                if (repetition == 1) suite.cells.push_back(cell);
+            }
+    const auto results = fitSuite(suite, runs);
+    ASSERT_EQ(results.size(), 1u);
+    ASSERT_EQ(results[0].curves.size(), 4u);
+    const TextRows table = tabulate(results[0]);
+    for (const std::size_t row : {0u, 2u}) {
+        EXPECT_EQ(cellAt(table, row, "method"), "haze");
+        EXPECT_EQ(cellAt(table, row, "loads"), "4");
+        EXPECT_EQ(cellAt(table, row, "runs"), "8");
+        EXPECT_EQ(cellAt(table, row, "note"), "");
+        const CostFit& fit = results[0].curves[row].fit;
+        EXPECT_NEAR(fit.fixedMs.value, 5, 1e-3);
+        EXPECT_NEAR(fit.exponent.value, 1, 1e-4);
+    }
+    EXPECT_EQ(cellAt(table, 1, "method"), "mist");
+    EXPECT_NE(cellAt(table, 1, "note"), "");
+    suite.fits[0].against = "sort";
+    EXPECT_THROW((void)cellsByLoad(suite, suite.fits[0]), InputError);
+}
+
+}  // namespace
+}  // namespace dustbench::bench

@@ -1,0 +1,252 @@
+#include "bench/suite/suite.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "bench/measure/paired_comparison.h"
+#include "bench/results/run_record.h"
+#include "bench/scene/world.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/registry.h"
+
+namespace dustbench::bench {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr const char* sweep = R"(
+title = "Sweep"
+methods = ["billboard"]
+scenes = ["plain"]
+drives = ["straight", "slalom"]
+sizes = ["64x48", "128x96", "256x192"]
+repetitions = 4
+frames = 50
+seed = 9
+
+[parameters]
+particles = [100, "200:400:100"]
+speed = "10,20"
+
+[quick]
+repetitions = 2
+frames = 5
+sizes = ["64x48"]
+[quick.parameters]
+particles = 50
+)";
+
+std::string messageOf(const std::string& text) {
+    try {
+        (void)parseSuite(text, "s.toml", false);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "nothing thrown";
+}
+
+std::vector<std::string> ids(const std::vector<PlannedRun>& plan) {
+    std::vector<std::string> list;
+    for (const PlannedRun& run : plan) list.push_back(runId(run.spec));
+    return list;
+}
+
+TEST(Suite, IsTheProductOfItsLists) {
+    const Suite suite = parseSuite(sweep, "sweep", false);
+    EXPECT_EQ(suite.cells.size(), 2u * 3u * 4u * 2u);
+    const auto plan = planRuns(suite);
+    EXPECT_EQ(plan.size(), suite.cells.size() * 4);
+    const auto list = ids(plan);
+    EXPECT_EQ(std::set<std::string>(list.begin(), list.end()).size(), plan.size());
+}
+
+TEST(Suite, QuickTakesTheValuesOfItsTableAndKeepsTheRest) {
+    const Suite suite = parseSuite(sweep, "sweep", true);
+    EXPECT_EQ(suite.cells.size(), 2u * 1u * 1u * 2u);
+    EXPECT_EQ(suite.repetitions, 2);
+    for (const PlannedRun& cell : suite.cells) {
+        EXPECT_EQ(cell.spec.frames, 5);
+        EXPECT_EQ(cell.spec.seed, 9u);
+        EXPECT_EQ(cell.spec.parameters.at("particles"), "50");
+    }
+}
+
+TEST(Suite, InterleavedRoundsHoldEveryCellOnceInSeededOrder) {
+    const Suite suite = parseSuite(sweep, "sweep", false);
+    const auto plan = planRuns(suite);
+    const std::size_t cells = suite.cells.size();
+    std::vector<std::vector<std::string>> rounds;
+    for (int round = 0; round < suite.repetitions; ++round) {
+        std::vector<std::string> keys;
+        for (std::size_t i = 0; i < cells; ++i) {
+            RunSpec spec = plan[static_cast<std::size_t>(round) * cells + i].spec;
+            EXPECT_EQ(spec.repetition, round + 1);
+            spec.repetition = 1;
+            keys.push_back(runId(spec));
+        }
+        EXPECT_EQ(std::set<std::string>(keys.begin(), keys.end()).size(), cells);
+        rounds.push_back(keys);
+    }
+    EXPECT_NE(rounds[0], rounds[1]);
+    EXPECT_NE(rounds[0], ids(suite.cells));
+    EXPECT_EQ(ids(plan), ids(planRuns(suite)));
+
+    Suite otherSeed = suite;
+    for (PlannedRun& cell : otherSeed.cells) cell.spec.seed = 10;
+    const auto other = planRuns(otherSeed);
+    const auto label = [](const PlannedRun& run) { return run.label; };
+    std::vector<std::string> labels, otherLabels;
+    std::ranges::transform(plan, std::back_inserter(labels), label);
+    std::ranges::transform(other, std::back_inserter(otherLabels), label);
+    EXPECT_NE(labels, otherLabels);
+}
+
+TEST(Suite, BatchOrderKeepsTheRepetitionsOfACellTogether) {
+    Suite suite = parseSuite(sweep, "sweep", false);
+    suite.order = Order::batch;
+    const auto plan = planRuns(suite);
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        EXPECT_EQ(plan[i].spec.repetition, static_cast<int>(i % 4) + 1);
+        EXPECT_EQ(plan[i].label, suite.cells[i / 4].label);
+    }
+}
+
+TEST(Suite, EveryMethodOfTheBuildTakesPartWhereAllAre) {
+    const Suite suite = parseSuite("methods = \"all\"", "all", false);
+    EXPECT_EQ(suite.cells.size(), methods().size());
+}
+
+TEST(Suite, ExceptionsLeaveOutTheCellsThatHaveAllTheirValues) {
+    const std::string text =
+        "methods = [\"null\"]\ndrives = [\"straight\", \"slalom\"]\n[parameters]\nwork = [0, 1, 2]\nspeed = [5, 10]\n"
+        "[[except]]\ndrives = [\"slalom\"]\n[except.parameters]\nwork = [1, 2.0]\n[[except]]\n[except.parameters]\n"
+        "speed = \"10\"\nwork = 0\n[quick]\ndrives = [\"straight\"]\n";
+    const Suite suite = parseSuite(text, "s.toml", false);
+    EXPECT_EQ(suite.cells.size(), 2u * 3u * 2u - 4u - 2u);
+    for (const PlannedRun& cell : suite.cells) {
+        const auto& parameters = cell.spec.parameters;
+        EXPECT_FALSE(cell.spec.drive == "slalom" && parameters.at("work") != "0");
+        EXPECT_FALSE(parameters.at("speed") == "10" && parameters.at("work") == "0");
+    }
+    EXPECT_EQ(parseSuite(text, "s.toml", true).cells.size(), 6u - 1u);
+    EXPECT_THAT(messageOf("[[except]]\nmethods = [\"nul\"]"), AllOf(HasSubstr("s.toml:2"), HasSubstr("'null'")));
+    EXPECT_THAT(messageOf("\n[[except]]\n[except.parameters]\nwrok = 1"),
+                AllOf(HasSubstr("s.toml:2"), HasSubstr("leaves nothing out")));
+    EXPECT_THAT(messageOf("[[except]]\n[except.parameters]\nspeed = 0"), HasSubstr("nothing is left"));
+}
+
+TEST(Suite, MistakesNameFileLineAndWhatIsNear) {
+    EXPECT_THAT(messageOf("methods = [\n\"bilboard\"]"), AllOf(HasSubstr("s.toml:1"), HasSubstr("'billboard'")));
+    EXPECT_THAT(messageOf("frames = 5\nscenes = [\"plainn\"]"), AllOf(HasSubstr("s.toml:2"), HasSubstr("'plain'")));
+    EXPECT_THAT(messageOf("repetition = 5"), AllOf(HasSubstr("s.toml:1"), HasSubstr("repetitions")));
+    EXPECT_THAT(messageOf("[parameters]\n\nparticle = 5"), AllOf(HasSubstr("s.toml:3"), HasSubstr("'particles'")));
+    EXPECT_THAT(messageOf("[parameters]\nparticles = -5"), AllOf(HasSubstr("s.toml:2"), HasSubstr("-5")));
+    EXPECT_THAT(messageOf("[parameters]\nparticles = \"1:2\""), HasSubstr("s.toml:2"));
+    EXPECT_THAT(messageOf("sizes = [\"64\"]"), AllOf(HasSubstr("s.toml:1"), HasSubstr("WIDTHxHEIGHT")));
+    EXPECT_THAT(messageOf("[quick]\nframe = 5"), AllOf(HasSubstr("s.toml:2"), HasSubstr("frames")));
+    EXPECT_THAT(messageOf("[method.billbord]\nsort = \"none\""), HasSubstr("'billboard'"));
+}
+
+TEST(Suite, EverySuiteOfTheProjectCanBePlanned) {
+    const auto suites = listSuites();
+    EXPECT_FALSE(suites.empty());
+    for (const SuiteFile& file : suites)
+        for (const bool quick : {false, true}) {
+            const Suite suite = loadSuite(file.id, quick);
+            EXPECT_FALSE(planRuns(suite).empty()) << file.id;
+            EXPECT_FALSE(suite.title.empty()) << file.id;
+            if (suite.comparisons.empty()) continue;
+            EXPECT_GE(suite.repetitions, static_cast<int>(fewestPairs)) << file.id << ": could resolve nothing";
+            EXPECT_EQ(suite.order, Order::interleaved) << file.id;
+        }
+}
+
+TEST(Suite, AsksForVolumesOfEveryRun) {
+    const char* text = R"(
+methods = ["billboard"]
+frames = 20
+volumes = "0:20:10"
+formats = ["vtp", "vti"]
+resolution = 64
+region = "0,0,0,1,2,3"
+vdb_precision = "float"
+[quick]
+frames = 4
+volumes = "0:4:2"
+)";
+    const Suite whole = parseSuite(text, "s.toml", false);
+    ASSERT_TRUE(whole.cells.at(0).spec.volumes);
+    const VolumeSettings& volumes = *whole.cells.at(0).spec.volumes;
+    EXPECT_EQ(volumes.frames.text(), "0:11:10");
+    EXPECT_EQ(formatsText(volumes.formats), "vti,vtp");
+    EXPECT_EQ(volumes.resolution, 64);
+    EXPECT_EQ(regionText(volumes.region.value()), "0,0,0,1,2,3");
+    EXPECT_EQ(volumes.vdbPrecision, VdbPrecision::single);
+    const Suite quick = parseSuite(text, "s.toml", true);
+    EXPECT_EQ(quick.cells.at(0).spec.volumes.value().frames.last, 2);
+    EXPECT_EQ(quick.cells.at(0).spec.volumes.value().resolution, 64);
+    EXPECT_FALSE(parseSuite("methods = [\"billboard\"]", "s.toml", false).cells.at(0).spec.volumes);
+}
+
+TEST(Suite, SaysWhereVolumesAreAskedForWrongly) {
+    const std::vector<std::pair<std::string, std::string>> mistakes{
+        {"volumes = \"5:1\"", "reversed"},
+        {"volumes = 5", "volumes"},
+        {"volumes = \"0\"\nformats = [\"vtk\"]", "'vtk'"},
+        {"volumes = \"0\"\nresolution = 4096", "2048"},
+        {"volumes = \"0\"\nregion = \"0,0,0\"", "3 numbers"},
+        {"volumes = \"0\"\nvdb_precision = \"double\"", "half|float"},
+        {"formats = [\"vti\"]", "without 'volumes'"},
+    };
+    for (const auto& [lines, expected] : mistakes)
+        EXPECT_THAT(messageOf(lines), AllOf(HasSubstr("s.toml:"), HasSubstr(expected))) << lines;
+    EXPECT_THAT(messageOf("frames = 4\nvolumes = \"4\""), HasSubstr("frame 4 is beyond"));
+}
+
+TEST(Suite, AsksForMetricsOfEachCellsFirstRepetition) {
+    const Suite suite = parseSuite(R"(
+methods = ["billboard"]
+sizes = ["64x48"]
+frames = 40
+repetitions = 3
+metrics = true
+metric_frames = "0:40:8"
+[metric_reference.billboard]
+soft = true
+)",
+                                   "s", false);
+    ASSERT_EQ(suite.cells.size(), 1u);
+    int judged = 0;
+    for (const PlannedRun& run : planRuns(suite)) {
+        if (!run.spec.judging) continue;
+        ++judged;
+        EXPECT_EQ(run.spec.repetition, 1);
+        EXPECT_EQ(run.spec.judging->moments->text(), "0:33:8");
+        EXPECT_EQ(run.spec.judging->referenceText(), "soft=on");
+        const RunSpec again = specFromJson(specToJson(run.spec));
+        EXPECT_EQ(runId(again), runId(run.spec));
+    }
+    EXPECT_EQ(judged, 1);
+}
+
+TEST(Suite, SaysWhereMetricsAreAskedForWrongly) {
+    EXPECT_THAT(messageOf("metric_frames = \"0:40:8\""), AllOf(HasSubstr("s.toml:1"), HasSubstr("without 'metrics")));
+    EXPECT_THAT(messageOf("frames = 20\nmetrics = true\nmetric_frames = \"0:40:8\""),
+                HasSubstr("beyond the run's end"));
+    EXPECT_THAT(messageOf("metrics = true\nmetric_frames = \"0:4\""), HasSubstr("got 4 moments"));
+    EXPECT_THAT(messageOf("metrics = true\nmethods = [\"billboard\"]\n[metric_reference.bilboard]\nsoft = true"),
+                HasSubstr("bilboard"));
+    EXPECT_THAT(messageOf("metrics = true\nmethods = [\"billboard\"]\n[metric_reference.billboard]\nsofd = true"),
+                AllOf(HasSubstr("s.toml:4"), HasSubstr("sofd")));
+    EXPECT_THAT(
+        messageOf(
+            "metrics = true\nmethods = [\"billboard\"]\n[metric_reference.billboard]\nsort = [\"radix\", \"none\"]"),
+        HasSubstr("got 2 values"));
+}
+
+}  // namespace
+}  // namespace dustbench::bench

@@ -1,0 +1,37 @@
+#include "methods/null/null.h"
+
+#include "methods/shared/maths/philox.h"
+
+namespace dustbench::null {
+namespace {
+
+constexpr std::uint64_t numbersPerUnit = 1000;
+
+}  // namespace
+
+std::uint32_t fixedWork(std::uint64_t units) {
+    std::uint32_t sum = 0;
+    for (std::uint64_t serial = 0; serial < units * numbersPerUnit; ++serial)
+        sum += maths::randomWords(0, 0, serial)[0];
+    return sum;
+}
+
+void Null::update(const Frame&) {
+    workDone_ = fixedWork(work_);
+}
+
+MethodInfo describe() {
+    MethodInfo info;
+    info.title = "Null method";
+    info.summary = "Draws nothing: what remains of a frame is the world, the opaque scene and the harness.";
+    info.parameters
+        .integer("work", 0, 0, 1'000'000, "units", "1000 random numbers each, drawn in `build`: a load of known size")
+        .choice("entry", "first", {"first", "second"},
+                "no effect: enters the same method twice, under two names that must then compare as equal");
+    info.create = [](const ParameterValues& values) {
+        return std::make_unique<Null>(static_cast<std::uint64_t>(values.integer("work")));
+    };
+    return info;
+}
+
+}  // namespace dustbench::null
