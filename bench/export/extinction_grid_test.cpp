@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "bench/export/test_clouds.h"
-#include "bench/scene/test_folder.h"
+#include "methods/shared/test_folder.h"
 
 namespace dustbench::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/scene/test_folder.h"
+#include "methods/shared/test_folder.h"
 
 namespace dustbench::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <string>
 
-#include "bench/scene/test_folder.h"
+#include "methods/shared/test_folder.h"
 
 namespace dustbench::bench {
 

@@ -27,7 +27,7 @@
 #include "bench/export/test_clouds.h"
 #include "bench/export/vti_writer.h"
 #include "bench/export/vtp_writer.h"
-#include "bench/scene/test_folder.h"
+#include "methods/shared/test_folder.h"
 
 namespace dustbench::bench {
 namespace {

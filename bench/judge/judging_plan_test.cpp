@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "bench/judge/judgement.h"
-#include "bench/scene/test_folder.h"
+#include "methods/shared/test_folder.h"
 
 namespace dustbench::bench {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <map>
 
-#include "bench/scene/test_folder.h"
 #include "bench/suite/suite.h"
 #include "methods/shared/files/csv.h"
 #include "methods/shared/registry.h"
+#include "methods/shared/test_folder.h"
 
 namespace dustbench::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "bench/scene/driver.h"
-#include "bench/scene/test_folder.h"
 #include "methods/shared/files/data_folder.h"
+#include "methods/shared/test_folder.h"
 
 namespace dustbench::bench {
 namespace {

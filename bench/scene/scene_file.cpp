@@ -6,9 +6,9 @@
 
 #include "bench/scene/car_model.h"
 #include "bench/scene/height_image.h"
-#include "bench/scene/mesh_file.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/files/toml_reader.h"
+#include "methods/shared/scene/mesh_file.h"
 
 namespace dustbench::bench {
 namespace {
@@ -82,7 +82,7 @@ void readSolid(TomlReader& table, const std::filesystem::path& folder, SceneFile
 
     std::shared_ptr<const scene::Mesh> mesh;
     try {
-        mesh = std::make_shared<scene::Mesh>(readMesh(file, paint));
+        mesh = std::make_shared<scene::Mesh>(scene::readMesh(file, paint));
     } catch (const InputError& error) {
         throw InputError(table.where("mesh") + error.what());
     }

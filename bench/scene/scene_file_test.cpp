@@ -9,8 +9,8 @@
 
 #include "bench/scene/data_list.h"
 #include "bench/scene/height_image.h"
-#include "bench/scene/test_folder.h"
 #include "methods/shared/files/data_folder.h"
+#include "methods/shared/test_folder.h"
 
 namespace dustbench::bench {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "bench/scene/test_folder.h"
 #include "methods/shared/files/data_folder.h"
+#include "methods/shared/test_folder.h"
 
 namespace dustbench::bench {
 namespace {

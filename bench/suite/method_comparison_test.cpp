@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "bench/scene/test_folder.h"
 #include "methods/shared/registry.h"
+#include "methods/shared/test_folder.h"
 
 namespace dustbench::bench {
 namespace {

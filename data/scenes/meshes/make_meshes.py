@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes the solids of this folder, one in each format that is read. Python 3, standard library only: `python3 make_meshes.py`.
 
-rock.obj (no normals: they are computed), crate.ply (vertex colours), marker_post.stl (binary). Metres, +Y up, on y = 0.
+rock.obj (no normals: they are computed), crate.ply and wall.ply (vertex colours), marker_post.stl (binary). Metres, +Y
+up, on y = 0.
 """
 import math
 import os
@@ -132,6 +133,44 @@ def crate():
             file.write("4 " + " ".join(str(i) for i in face) + "\n")
 
 
+def wall():
+    """Bricks with a running bond: 0.4 x 2.4 x 6 m, one end at z = 0, the other at z = -6."""
+    thick, high, course, long = 0.4, 2.4, 0.2, 0.6
+    vertices, faces = [], []
+
+    def quad(corners, shade):
+        first = len(vertices)
+        vertices.extend((p, shade) for p in corners)
+        faces.append(tuple(range(first, first + 4)))
+
+    courses = round(high / course)
+    for j in range(courses):
+        y0, y1 = j * course, (j + 1) * course
+        cuts = [0.0] + [z for z in (long * (k + (0.5 if j % 2 else 1.0)) for k in range(10)) if z < 6 - 1e-9] + [6.0]
+        for k, (a, b) in enumerate(zip(cuts, cuts[1:])):
+            tone = (37 * j + 61 * k + 13 * j * k) % 5
+            shade = (150 + 9 * tone, 74 + 5 * tone, 56 + 4 * tone)
+            for x, order in ((-thick / 2, 1), (thick / 2, -1)):
+                corners = [(x, y0, -a), (x, y1, -a), (x, y1, -b), (x, y0, -b)]
+                quad(corners[::-order], shade)
+            if j == courses - 1:
+                quad([(-thick / 2, y1, -a), (thick / 2, y1, -a), (thick / 2, y1, -b), (-thick / 2, y1, -b)], shade)
+            if j == 0:
+                quad([(-thick / 2, 0, -b), (thick / 2, 0, -b), (thick / 2, 0, -a), (-thick / 2, 0, -a)], shade)
+        shade = (150 + 9 * (j % 3), 74 + 5 * (j % 3), 56 + 4 * (j % 3))
+        quad([(-thick / 2, y0, 0), (thick / 2, y0, 0), (thick / 2, y1, 0), (-thick / 2, y1, 0)], shade)
+        quad([(-thick / 2, y0, -6), (-thick / 2, y1, -6), (thick / 2, y1, -6), (thick / 2, y0, -6)], shade)
+    with open(path("wall.ply"), "w") as file:
+        file.write("ply\nformat ascii 1.0\ncomment a wall of bricks\n")
+        file.write(f"element vertex {len(vertices)}\nproperty float x\nproperty float y\nproperty float z\n")
+        file.write("property uchar red\nproperty uchar green\nproperty uchar blue\n")
+        file.write(f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+        for (x, y, z), (r, g, b) in vertices:
+            file.write(f"{x:.3f} {y:.3f} {z:.3f} {r} {g} {b}\n")
+        for face in faces:
+            file.write("4 " + " ".join(str(i) for i in face) + "\n")
+
+
 def marker_post():
     """A six-sided post with a slanted cap, 1.2 m high."""
     sides, radius, triangles = 6, 0.07, []
@@ -159,4 +198,5 @@ def marker_post():
 
 rock()
 crate()
+wall()
 marker_post()

@@ -14,6 +14,7 @@ std::map<std::string, std::string> definitions(const BillboardStyle& style, cons
     std::map<std::string, std::string> names;
     if (style.facing == Facing::viewplane) names["VIEWPLANE"] = "";
     if (style.soft) names["SOFT"] = "";
+    if (style.additive) names["ADDITIVE"] = "";
     if (pictures) names["TEXTURED"] = "";
     if (pictures && pictures->crossFaded()) names["CROSS_FADED"] = "";
     return names;

@@ -62,5 +62,9 @@ void main() {
     depth *= shareBeforeScene();
 #endif
     float alpha = 1.0 - exp2(-depth);
+#ifdef ADDITIVE
+    colour = vec4(lit * alpha, 0.0);
+#else
     colour = vec4(lit * alpha, alpha);
+#endif
 }

@@ -25,6 +25,8 @@ struct BillboardStyle {
     Facing facing = Facing::viewpoint;
     /// Each puff ends at the scene behind it, by the closed form, instead of being cut off by the depth test.
     bool soft = false;
+    /// Light is added and nothing is covered, as by fire: C = αC_puff + C, in any order.
+    bool additive = false;
 };
 
 class Billboards : public InstanceBatch {

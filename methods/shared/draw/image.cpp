@@ -1,23 +1,10 @@
 #include "methods/shared/draw/image.h"
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "methods/shared/gpu/texture.h"
 
 namespace dustbench::draw {
-
-float encodeSrgb(float linear) {
-    // NaN counts as 0, so that a faulty pixel cannot take the whole file with it.
-    const float value = linear > 0 ? std::min(linear, 1.0f) : 0.0f;
-    return value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1 / 2.4f) - 0.055f;
-}
-
-float decodeSrgb(float encoded) {
-    const float value = encoded > 0 ? std::min(encoded, 1.0f) : 0.0f;
-    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
-}
 
 Image readBack(const gpu::Texture& texture) {
     const bool fourChannels = texture.format() == gpu::Format::rgba8 || texture.format() == gpu::Format::srgba8 ||

@@ -5,6 +5,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "methods/shared/maths/srgb.h"
+
 namespace dustbench::gpu {
 class Texture;
 }
@@ -21,9 +23,8 @@ struct Image {
     }
 };
 
-/// sRGB transfer function (IEC 61966-2-1), one channel; the argument is clamped to [0, 1].
-[[nodiscard]] float encodeSrgb(float linear);
-[[nodiscard]] float decodeSrgb(float encoded);
+using maths::decodeSrgb;
+using maths::encodeSrgb;
 
 /// Reads a flat texture of four channels back, values as they are stored (waits for the GPU).
 /// Throws std::invalid_argument for any other texture.

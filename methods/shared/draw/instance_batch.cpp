@@ -53,6 +53,10 @@ gpu::Program& InstanceBatch::program(const scene::View& view) {
 
 void InstanceBatch::drawInstances(const gpu::Program& program, const gpu::DrawState& state) {
     instances_.bindStorage(0);
+    if (shape_.primitives != gpu::Primitives::triangles) {
+        gpu::draw(program, vertices_, state, shape_.primitives, static_cast<int>(shape_.vertices * count_));
+        return;
+    }
     gpu::drawIndexed(program, vertices_, state, gpu::Primitives::triangles,
                      static_cast<int>(shape_.corners.size() * shape_.atOnce),
                      static_cast<int>((count_ + shape_.atOnce - 1) / shape_.atOnce));

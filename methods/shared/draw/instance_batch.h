@@ -48,6 +48,8 @@ class InstanceBatch {
         std::uint32_t vertices;              ///< of one shape: the next one's numbers begin after them
         std::size_t atOnce;                  ///< shapes in an instance
         std::map<std::string, std::string> definitions{};
+        /// Points and lines have no corners: their shaders count vertices, `vertices` of each shape.
+        gpu::Primitives primitives = gpu::Primitives::triangles;
     };
     InstanceBatch(gpu::Device& device, Shape shape);
     ~InstanceBatch() = default;

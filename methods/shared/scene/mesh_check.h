@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace dustbench::bench {
+namespace dustbench::scene {
 
 /// Every number of `v`, `vt`, `vn` is finite, and every face names what has been given. Throws InputError with file and
 /// line.
@@ -13,4 +13,4 @@ void checkObj(const std::filesystem::path& file);
 /// line, or with the element that is cut off.
 void checkPly(const std::filesystem::path& file);
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::scene

@@ -1,4 +1,4 @@
-#include "bench/scene/mesh_file.h"
+#include "methods/shared/scene/mesh_file.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
@@ -22,11 +22,11 @@
 #include <fstream>
 #include <string>
 
-#include "bench/scene/mesh_check.h"
-#include "methods/shared/draw/image.h"
 #include "methods/shared/errors.h"
+#include "methods/shared/maths/srgb.h"
+#include "methods/shared/scene/mesh_check.h"
 
-namespace dustbench::bench {
+namespace dustbench::scene {
 namespace {
 
 constexpr double creaseDegrees = 35;
@@ -82,8 +82,8 @@ glm::vec3 tuple(vtkDataArray& array, vtkIdType index) {
     return {values[0], values[1], values[2]};
 }
 
-scene::Mesh convert(vtkPolyData& surface, const glm::vec3& colour) {
-    scene::Mesh mesh;
+Mesh convert(vtkPolyData& surface, const glm::vec3& colour) {
+    Mesh mesh;
     const vtkIdType points = surface.GetNumberOfPoints();
     vtkDataArray* normals = surface.GetPointData()->GetNormals();
     auto* colours = vtkUnsignedCharArray::SafeDownCast(surface.GetPointData()->GetScalars());
@@ -93,9 +93,9 @@ scene::Mesh convert(vtkPolyData& surface, const glm::vec3& colour) {
         const glm::vec3 normal = tuple(*normals, i);
         mesh.normals.push_back(glm::length(normal) > 0 ? glm::normalize(normal) : glm::vec3(0, 1, 0));
         if (colours)
-            mesh.colours.emplace_back(draw::decodeSrgb(static_cast<float>(colours->GetTypedComponent(i, 0)) / 255.0f),
-                                      draw::decodeSrgb(static_cast<float>(colours->GetTypedComponent(i, 1)) / 255.0f),
-                                      draw::decodeSrgb(static_cast<float>(colours->GetTypedComponent(i, 2)) / 255.0f));
+            mesh.colours.emplace_back(maths::decodeSrgb(static_cast<float>(colours->GetTypedComponent(i, 0)) / 255.0f),
+                                      maths::decodeSrgb(static_cast<float>(colours->GetTypedComponent(i, 1)) / 255.0f),
+                                      maths::decodeSrgb(static_cast<float>(colours->GetTypedComponent(i, 2)) / 255.0f));
         else
             mesh.colours.push_back(colour);
     }
@@ -130,7 +130,7 @@ void checkGeometry(vtkPolyData& surface, const std::filesystem::path& file) {
 
 }  // namespace
 
-scene::Mesh readMesh(const std::filesystem::path& file, const glm::vec3& colour) {
+Mesh readMesh(const std::filesystem::path& file, const glm::vec3& colour) {
     const auto reader = readerFor(file);
     if (!std::ifstream(file) || std::filesystem::is_directory(file))
         throw InputError(file.string() + ": the mesh cannot be read");
@@ -163,4 +163,4 @@ scene::Mesh readMesh(const std::filesystem::path& file, const glm::vec3& colour)
     return convert(*surface, colour);
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::scene

@@ -1,4 +1,4 @@
-#include "bench/scene/mesh_file.h"
+#include "methods/shared/scene/mesh_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,17 +7,17 @@
 #include <cmath>
 #include <random>
 
-#include "bench/scene/test_folder.h"
-#include "methods/shared/draw/image.h"
 #include "methods/shared/files/data_folder.h"
+#include "methods/shared/maths/srgb.h"
+#include "methods/shared/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench::scene {
 namespace {
 
 using ::testing::HasSubstr;
 
 /// Six times the volume within a closed mesh; positive where its triangles face outside.
-double volume(const scene::Mesh& mesh) {
+double volume(const Mesh& mesh) {
     double sum = 0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const glm::dvec3 a(mesh.positions[mesh.indices[i]]), b(mesh.positions[mesh.indices[i + 1]]),
@@ -34,7 +34,7 @@ std::string tetrahedronObj() {
 TEST(MeshFile, ReadsEveryFormatOfTheBuiltInSolids) {
     const auto folder = files::dataFolder() / "scenes" / "meshes";
     for (const char* name : {"rock.obj", "crate.ply", "marker_post.stl"}) {
-        const scene::Mesh mesh = readMesh(folder / name, {0.5f, 0.25f, 0.125f});
+        const Mesh mesh = readMesh(folder / name, {0.5f, 0.25f, 0.125f});
         EXPECT_GT(mesh.indices.size(), 0u) << name;
         EXPECT_EQ(mesh.indices.size() % 3, 0u) << name;
         EXPECT_EQ(mesh.normals.size(), mesh.positions.size()) << name;
@@ -47,7 +47,7 @@ TEST(MeshFile, ReadsEveryFormatOfTheBuiltInSolids) {
 
 TEST(MeshFile, ComputesOutwardNormalsWhereTheFileHasNone) {
     const TestFolder folder;
-    const scene::Mesh mesh = readMesh(folder.write("t.obj", tetrahedronObj()), {1, 0, 0});
+    const Mesh mesh = readMesh(folder.write("t.obj", tetrahedronObj()), {1, 0, 0});
     ASSERT_EQ(mesh.indices.size(), 12u);
     EXPECT_NEAR(volume(mesh), 1.0 / 6, 1e-6);
     for (std::size_t i = 0; i < 12; i += 3) {
@@ -67,10 +67,10 @@ TEST(MeshFile, MakesVertexColoursOfPlyLinear) {
                                    "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
                                    "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
                                    "0 0 0 255 128 0\n1 0 0 255 128 0\n0 1 0 255 128 0\n3 0 1 2\n");
-    const scene::Mesh mesh = readMesh(file, {0, 0, 1});
+    const Mesh mesh = readMesh(file, {0, 0, 1});
     ASSERT_EQ(mesh.colours.size(), 3u);
     EXPECT_FLOAT_EQ(mesh.colours[0].r, 1);
-    EXPECT_FLOAT_EQ(mesh.colours[0].g, draw::decodeSrgb(128.0f / 255));
+    EXPECT_FLOAT_EQ(mesh.colours[0].g, maths::decodeSrgb(128.0f / 255));
     EXPECT_EQ(mesh.colours[0].b, 0);
 }
 
@@ -129,7 +129,7 @@ TEST(MeshFile, SurvivesAnyDamageToAFile) {
             if (n % 3 == 0) text.resize(random() % text.size());
             const auto file = folder.write(name, text);
             try {
-                const scene::Mesh mesh = readMesh(file, {});
+                const Mesh mesh = readMesh(file, {});
                 for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.positions.size());
             } catch (const InputError& error) {
                 ASSERT_THAT(error.what(), HasSubstr(file.string()));
@@ -139,4 +139,4 @@ TEST(MeshFile, SurvivesAnyDamageToAFile) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::scene

@@ -10,7 +10,7 @@
 
 #include "methods/shared/test_input_error.h"
 
-namespace dustbench::bench {
+namespace dustbench {
 
 /// Owns: the folder and what is in it.
 class TestFolder {
@@ -37,4 +37,4 @@ class TestFolder {
     std::filesystem::path path_;
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench

@@ -1,4 +1,4 @@
-#include "bench/scene/mesh_check.h"
+#include "methods/shared/scene/mesh_check.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 
 #include "methods/shared/errors.h"
 
-namespace dustbench::bench {
+namespace dustbench::scene {
 namespace {
 
 /// No mesh of this many elements is meant; a number like it is a broken header.
@@ -241,4 +241,4 @@ void checkPly(const std::filesystem::path& file) {
         }
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::scene

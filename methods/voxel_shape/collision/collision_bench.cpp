@@ -1,0 +1,69 @@
+// Collision of 40,000 particles with the bunny subdivided twice: all three steps, the particles all about its surface.
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+#include <map>
+
+#include "methods/shared/files/data_folder.h"
+#include "methods/shared/scene/mesh_file.h"
+#include "methods/voxel_shape/collision/shape_collision.h"
+#include "methods/voxel_shape/particles/shape_system.h"
+#include "methods/voxel_shape/voxels/surface_voxels.h"
+
+namespace dustbench::voxel_shape {
+namespace {
+
+/// Every triangle becomes four.
+scene::Mesh subdivided(const scene::Mesh& mesh) {
+    scene::Mesh finer;
+    finer.positions = mesh.positions;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+        const auto [found, isNew] =
+            middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(finer.positions.size()));
+        if (isNew) finer.positions.push_back((mesh.positions[a] + mesh.positions[b]) / 2.0f);
+        return found->second;
+    };
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
+        const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+        for (const std::uint32_t index : {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca}) finer.indices.push_back(index);
+    }
+    return finer;
+}
+
+void collision(benchmark::State& state) {
+    const auto bunny = files::dataFolder() / "shapes" / "meshes" / "bunny.ply";
+    const bool there = std::filesystem::exists(bunny);
+    scene::Mesh mesh = scene::readMesh(there ? bunny : bunny.parent_path() / "hare.ply", glm::vec3(1));
+    // Of the bunny's npm package 3,674 triangles become 58,784.
+    mesh = subdivided(subdivided(mesh));
+    scene::Scene scene;
+    scene.solids.push_back({"bunny", std::make_shared<scene::Mesh>(mesh)});
+    scene.solidPoses.push_back({});
+    state.SetLabel((there ? "bunny, " : "hare, ") + std::to_string(mesh.indices.size() / 3) + " triangles");
+
+    // The shape is the bunny too, a little aside, so that its voxels and particles are where the solid is.
+    const Lattice lattice = latticeAround(mesh, 50);
+    MemoryLedger ledger;
+    ShapeSystem system(ledger, surfaceVoxels(mesh, lattice), Voxel(), 1);
+    system.grid().shareOut(40'000);
+    Pose pose;
+    pose.position = glm::vec3(0.5f, 0.3f, 0.2f) * lattice.edgeMetres;
+    Motion motion;
+    motion.birthSpeed = 4 * lattice.edgeMetres;
+    system.step(pose, motion, 1.0f / 60);
+    ShapeCollision collision(scene, lattice.edgeMetres, {});
+    std::size_t hits = 0;
+    for (auto _ : state) {
+        collision.switchVoxels(system.grid(), pose);
+        hits += collision.stopParticles(system.particles(), 1.0f / 60);
+    }
+    state.counters["particles"] = static_cast<double>(system.particles().size());
+    state.counters["voxels_off"] = static_cast<double>(collision.switchedOff());
+    state.counters["hits_first"] = static_cast<double>(hits);
+}
+BENCHMARK(collision)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace dustbench::voxel_shape

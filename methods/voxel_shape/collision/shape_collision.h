@@ -1,0 +1,68 @@
+// Keeps a shape's particles out of the scene's solids, in three steps: the whole bounding box, then voxels, which are
+// switched off while they touch a solid, then the way of each particle that is near one against the solid's triangles.
+//
+// A particle that meets a triangle stops there, a millimetre before it; its velocity keeps the share `restitution` of
+// what led into the surface, turned round, and loses the share `friction` of what led along it.
+//
+// Units: m, s. Frame: world. Owns: the solids' tree and grids. Threads: one caller at a time; uses the current oneTBB
+// arena, and the result is the same at any number of threads.
+// Source: JuckelBeckhaus2007, 5.2. Departs: the paper gives no response.
+#pragma once
+
+#include <vector>
+
+#include "methods/shared/memory_ledger.h"
+#include "methods/shared/scene/scene.h"
+#include "methods/voxel_shape/collision/nearness.h"
+#include "methods/voxel_shape/collision/triangle_tree.h"
+#include "methods/voxel_shape/particles/pose.h"
+#include "methods/voxel_shape/particles/shape_particles.h"
+#include "methods/voxel_shape/voxels/voxel_grid.h"
+
+namespace dustbench::voxel_shape {
+
+struct Impact {
+    float restitution = 0.3f;
+    float friction = 0.1f;
+};
+
+class ShapeCollision {
+ public:
+    /// `voxelMetres`: the largest edge in the world that the shape's voxels will have.
+    ShapeCollision(const scene::Scene& scene, float voxelMetres, const Impact& impact);
+
+    /// The first two steps: voxels that touch a solid are switched off, the others on.
+    void switchVoxels(VoxelGrid& grid, const Pose& pose);
+    /// The third: particles have just moved by `stepSeconds` of their velocity. How many have met something.
+    std::size_t stopParticles(ShapeParticles& particles, float stepSeconds) const;
+
+    /// Voxels that are switched off now.
+    [[nodiscard]] std::size_t switchedOff() const { return off_; }
+    [[nodiscard]] MemoryReport memory() const;
+
+ private:
+    struct Box {
+        glm::vec3 least, most;
+        [[nodiscard]] bool meets(const Box& other) const {
+            return glm::all(glm::lessThanEqual(least, other.most)) && glm::all(glm::lessThanEqual(other.least, most));
+        }
+    };
+    /// Of one part of the scene's solids.
+    struct Place {
+        Nearness nearness;
+        glm::mat3 toCells;  ///< world → cells: toCells·p + offset
+        glm::vec3 offset;
+        Box box;  ///< of the cells, in the world
+    };
+    [[nodiscard]] static Place placeOf(Nearness nearness, const glm::mat4& toWorld);
+    [[nodiscard]] bool nearAny(const std::vector<std::uint32_t>& places, const glm::vec3& point) const;
+    [[nodiscard]] std::vector<std::uint32_t> placesMeeting(const Box& box) const;
+
+    Impact impact_;
+    float reachMetres_;
+    TriangleTree tree_;
+    std::vector<Place> places_;
+    std::size_t off_ = 0;
+};
+
+}  // namespace dustbench::voxel_shape

@@ -1,0 +1,110 @@
+#include "methods/voxel_shape/collision/triangle_tree.h"
+
+#include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+
+#include "methods/shared/errors.h"
+
+namespace dustbench::voxel_shape {
+
+struct TriangleTree::Embree {
+    Embree() {
+        // Not `threads=1`, by which Embree would limit the whole program's oneTBB.
+        device = rtcNewDevice("set_affinity=0");
+        if (!device) throw InputError("collision: Embree does not start on this machine");
+        rtcSetDeviceMemoryMonitorFunction(
+            device,
+            [](void* sum, ssize_t change, bool) {
+                *static_cast<std::atomic<std::ptrdiff_t>*>(sum) += change;
+                return true;
+            },
+            &bytes);
+        scene = rtcNewScene(device);
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    }
+    ~Embree() {
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+    }
+    Embree(const Embree&) = delete;
+    Embree& operator=(const Embree&) = delete;
+
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    std::atomic<std::ptrdiff_t> bytes{0};
+};
+
+TriangleTree::TriangleTree() : embree_(std::make_unique<Embree>()) {}
+TriangleTree::~TriangleTree() = default;
+TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
+TriangleTree& TriangleTree::operator=(TriangleTree&&) noexcept = default;
+
+void TriangleTree::add(const scene::Mesh& mesh, const glm::mat4& toWorld) {
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        std::array<glm::vec3, 3> triangle{};
+        for (std::size_t k = 0; k < 3; ++k)
+            triangle[k] = glm::vec3(toWorld * glm::vec4(mesh.positions[mesh.indices[i + k]], 1));
+        corners_.push_back(triangle);
+    }
+}
+
+void TriangleTree::build() {
+    if (corners_.empty()) return;
+    const RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* const positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                    sizeof(glm::vec3), corners_.size() * 3);
+    auto* const indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), corners_.size()));
+    if (!positions || !indices) throw InputError("collision: not enough memory for the triangles of the solids");
+    std::memcpy(positions, corners_.data(), corners_.size() * sizeof corners_.front());
+    for (std::uint32_t i = 0; i < corners_.size() * 3; ++i) indices[i] = i;
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(embree_->scene, geometry);
+    rtcReleaseGeometry(geometry);
+    // One thread builds, so that the tree is the same every time.
+    tbb::task_arena(1).execute([&] { rtcCommitScene(embree_->scene); });
+    if (rtcGetDeviceError(embree_->device) != RTC_ERROR_NONE)
+        throw InputError("collision: Embree cannot build a tree of " + std::to_string(corners_.size()) + " triangles");
+}
+
+std::optional<TriangleTree::Hit> TriangleTree::firstHit(const glm::vec3& from, const glm::vec3& to) const {
+    if (corners_.empty()) return std::nullopt;
+    const glm::vec3 way = to - from;
+    RTCRayHit query{};
+    query.ray.org_x = from.x;
+    query.ray.org_y = from.y;
+    query.ray.org_z = from.z;
+    query.ray.dir_x = way.x;
+    query.ray.dir_y = way.y;
+    query.ray.dir_z = way.z;
+    query.ray.tfar = 1;
+    query.ray.mask = 0xffffffffu;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(embree_->scene, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+
+    // n·(from + s·way − v0) = 0
+    const auto& corners = corners_[query.hit.primID];
+    const glm::dvec3 v0(corners[0]);
+    glm::dvec3 normal = glm::cross(glm::dvec3(corners[1]) - v0, glm::dvec3(corners[2]) - v0);
+    const double length = glm::length(normal);
+    if (!(length > 0)) return std::nullopt;
+    normal /= length;
+    const double towards = glm::dot(normal, glm::dvec3(way)), height = glm::dot(normal, glm::dvec3(from) - v0);
+    if (height < 0) normal = -normal;
+    const double share = towards != 0 ? std::clamp(-height / towards, 0.0, 1.0) : 0.0;
+    return Hit{static_cast<float>(share), glm::vec3(normal)};
+}
+
+std::size_t TriangleTree::bytes() const {
+    return corners_.capacity() * sizeof corners_.front() +
+           static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree_->bytes.load(), 0));
+}
+
+}  // namespace dustbench::voxel_shape

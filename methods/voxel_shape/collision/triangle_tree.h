@@ -1,0 +1,47 @@
+// Triangles in a tree that finds the first one that a segment meets.
+//
+// Units: metres. Frame: world. Owns: the tree (Embree's) and a copy of the triangles. Threads: const members are safe
+// from any. Embree finds the triangle; where it is met is computed here in double precision, because Embree's own
+// arithmetic differs from processor to processor, and the state must not.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "methods/shared/scene/mesh.h"
+
+namespace dustbench::voxel_shape {
+
+class TriangleTree {
+ public:
+    TriangleTree();
+    ~TriangleTree();
+    TriangleTree(TriangleTree&&) noexcept;
+    TriangleTree& operator=(TriangleTree&&) noexcept;
+
+    /// To be followed by `build` once all are there.
+    void add(const scene::Mesh& mesh, const glm::mat4& toWorld);
+    /// Throws InputError where Embree cannot.
+    void build();
+
+    struct Hit {
+        float share;       ///< of the way from `from` to `to`
+        glm::vec3 normal;  ///< unit, towards `from`
+    };
+    [[nodiscard]] std::optional<Hit> firstHit(const glm::vec3& from, const glm::vec3& to) const;
+
+    [[nodiscard]] std::size_t triangles() const { return corners_.size(); }
+    /// Of the triangles, and of Embree's tree as Embree counts it.
+    [[nodiscard]] std::size_t bytes() const;
+
+ private:
+    struct Embree;
+    std::unique_ptr<Embree> embree_;
+    std::vector<std::array<glm::vec3, 3>> corners_;
+};
+
+}  // namespace dustbench::voxel_shape

@@ -1,0 +1,156 @@
+#include "methods/voxel_shape/particles/emission.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "methods/shared/maths/philox.h"
+#include "methods/shared/maths/sampling.h"
+#include "methods/shared/parallel/for_each_block.h"
+
+namespace dustbench::voxel_shape {
+namespace {
+
+constexpr std::size_t voxelsABlock = 4096;
+enum Stream : std::uint32_t { fillStream = 1, placeStream, velocityStream };
+/// Animations begin at any of so many pictures.
+constexpr float firstPictures = 64;
+
+/// Of `lacking`, as many as a share gives; what is left of a whole one is born with that probability.
+std::uint32_t birthsOf(std::uint32_t lacking, float share, float uniform) {
+    return std::min(lacking, static_cast<std::uint32_t>(static_cast<float>(lacking) * share + uniform));
+}
+
+/// The velocity, in the shape's frame, that a voxel's rotation gives a particle that is born at `r` from its centre.
+glm::vec3 rotationAt(const Voxel& voxel, const glm::vec3& r) {
+    const glm::vec3 t = glm::cross(voxel.force, r);
+    switch (voxel.forceKind()) {
+        case Force::linear:
+            return glm::vec3(0);
+        case Force::orbit: {
+            // A circle: as fast as |ω|·|r|, across r and the axis.
+            const float across = glm::length(t);
+            return across > 0 ? t * (glm::length(voxel.force) * glm::length(r) / across) : glm::vec3(0);
+        }
+        case Force::spiral:
+            return t - voxel.forceNumber * glm::cross(voxel.force, t);
+        case Force::helix:
+            return t + voxel.forceNumber * voxel.force;
+    }
+    return glm::vec3(0);
+}
+
+}  // namespace
+
+Emission::Emission(MemoryLedger& ledger, std::uint64_t seed)
+    : seed_(seed),
+      births_(ledger.account("births")),
+      starts_(ledger.account("births")),
+      sums_(ledger.account("births")) {}
+
+Emission::Sums Emission::countLacking(const VoxelGrid& grid) {
+    const std::span<const std::uint32_t> active = grid.active();
+    const std::span<const Voxel> voxels = grid.voxels();
+    births_.resize(active.size());
+    sums_.assign((active.size() + voxelsABlock - 1) / voxelsABlock, {});
+    parallel::forEachBlock(active.size(), voxelsABlock, [&](std::size_t first, std::size_t count) {
+        Sums sums;
+        for (std::size_t k = first; k < first + count; ++k) {
+            const Voxel& voxel = voxels[active[k]];
+            const std::uint32_t most = voxel.isOn() ? voxel.maximumDensity : 0;
+            births_[k] = most > voxel.density ? most - voxel.density : 0;
+            sums.lacking += births_[k];
+            sums.room += voxel.maximumDensity;
+            sums.within += voxel.density;
+        }
+        sums_[first / voxelsABlock] = sums;
+    });
+    Sums all;
+    for (const Sums& sums : sums_) {
+        all.lacking += sums.lacking;
+        all.room += sums.room;
+        all.within += sums.within;
+    }
+    return all;
+}
+
+/// Makes births of what is lacking; the number of them all.
+std::size_t Emission::shareOut(const VoxelGrid& grid, float share, std::uint64_t most) {
+    const std::span<const std::uint32_t> active = grid.active();
+    starts_.assign(sums_.size() + 1, 0);
+    parallel::forEachBlock(active.size(), voxelsABlock, [&](std::size_t first, std::size_t count) {
+        std::size_t sum = 0;
+        if (sums_[first / voxelsABlock].lacking > 0)
+            for (std::size_t k = first; k < first + count; ++k) {
+                if (births_[k] > 0 && share < 1)
+                    births_[k] = birthsOf(births_[k], share, maths::uniform4(seed_, fillStream, active[k], steps_)[0]);
+                sum += births_[k];
+            }
+        starts_[first / voxelsABlock + 1] = sum;
+    });
+    for (std::size_t block = 1; block < starts_.size(); ++block) starts_[block] += starts_[block - 1];
+    return std::min<std::uint64_t>(starts_.back(), most);
+}
+
+void Emission::emit(ShapeParticles& particles, VoxelGrid& grid, const Pose& pose, const Motion& motion,
+                    float stepSeconds) {
+    const Sums sums = countLacking(grid);
+    const std::uint64_t most = sums.room > sums.within ? sums.room - sums.within : 0;
+    const float inTime = motion.fillSeconds > stepSeconds ? stepSeconds / motion.fillSeconds : 1.0f;
+    const float share =
+        sums.lacking > most ? inTime * static_cast<float>(most) / static_cast<float>(sums.lacking) : inTime;
+    const std::size_t born = share > 0 ? shareOut(grid, share, most) : 0;
+    ++steps_;
+    if (born == 0) return;
+
+    const std::span<const std::uint32_t> active = grid.active();
+    const std::span<Voxel> voxels = grid.voxels();
+    const std::size_t before = particles.size();
+    particles.resize(before + born);
+    particles::ParticleStore& store = particles.store;
+    const Lattice& lattice = grid.lattice();
+    parallel::forEachBlock(active.size(), voxelsABlock, [&](std::size_t first, std::size_t count) {
+        std::size_t number = starts_[first / voxelsABlock];
+        if (starts_[first / voxelsABlock + 1] == number) return;
+        for (std::size_t k = first; k < first + count; ++k) {
+            if (births_[k] == 0 || number >= born) continue;
+            Voxel& voxel = voxels[active[k]];
+            const auto births = static_cast<std::uint32_t>(std::min<std::size_t>(births_[k], born - number));
+            voxel.density += births;
+            const glm::vec3 cell(lattice.cell(active[k]));
+            const glm::vec4 colour = voxel.colour.colour();
+            for (std::uint32_t b = 0; b < births; ++b, ++number) {
+                const std::size_t i = before + number;
+                const std::uint64_t serial = nextSerial_ + number;
+                const auto place = maths::uniform4(seed_, placeStream, serial);
+                const auto toss = maths::uniform4(seed_, velocityStream, serial);
+                const glm::vec3 within(place[0], place[1], place[2]);
+                const glm::vec3 world = pose.toWorld(lattice.origin + lattice.edgeMetres * (cell + within));
+                const glm::vec3 turning = rotationAt(voxel, lattice.edgeMetres * pose.scale * (within - 0.5f));
+                const glm::vec3 velocity =
+                    pose.velocityAt(world) + pose.rotation * turning +
+                    motion.birthSpeed * std::cbrt(toss[2]) * maths::sphereDirection(toss[0], toss[1]);
+                store.serial[i] = serial;
+                store.x[i] = world.x;
+                store.y[i] = world.y;
+                store.z[i] = world.z;
+                store.velocityX[i] = velocity.x;
+                store.velocityY[i] = velocity.y;
+                store.velocityZ[i] = velocity.z;
+                store.age[i] = 0;
+                store.lifetime[i] = voxel.lifetimeSeconds;
+                store.radius[i] = voxel.sizeMetres;
+                store.opacity[i] = colour.a;
+                store.red[i] = colour.r;
+                store.green[i] = colour.g;
+                store.blue[i] = colour.b;
+                particles.place[i] = active[k];
+                particles.settlingSeconds[i] = 0;
+                particles.picture[i] = std::floor(firstPictures * place[3]);
+                particles.pictureSpeed[i] = voxel.picturesPerSecond;
+            }
+        }
+    });
+    nextSerial_ += born;
+}
+
+}  // namespace dustbench::voxel_shape

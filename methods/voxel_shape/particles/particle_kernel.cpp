@@ -1,0 +1,233 @@
+#include "methods/voxel_shape/particles/particle_kernel.h"
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+
+#include "methods/shared/particles/chunk.h"
+
+namespace dustbench::voxel_shape {
+namespace {
+
+constexpr std::uint32_t nowhere = 0xffffffffu;
+/// 256³ voxels; that no product overflows lets the compiler gather by 32-bit numbers.
+constexpr std::uint32_t indexBits = 0x00ffffffu;
+static_assert(mostVoxelsASide * mostVoxelsASide * mostVoxelsASide == indexBits + 1);
+constexpr int wordsAVoxel = sizeof(Voxel) / 4;
+
+/// A voxel's fields by their place in it, so that a loop over particles can gather them.
+template <typename T>
+const T* fieldOf(const Voxel* voxels, std::size_t offset) {
+    return reinterpret_cast<const T*>(reinterpret_cast<const std::byte*>(voxels) + offset);
+}
+
+/// What the loops over one run hand on to each other.
+struct Scratch {
+    std::array<std::uint32_t, particles::chunkSize> here;  ///< index of the active voxel, or `nowhere`
+    std::array<float, particles::chunkSize> rx, ry, rz;    ///< from its centre, in voxels
+};
+
+/// The voxel that each particle is in: one multiplication by a matrix and one look into the array.
+void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t count, const Voxel* voxels,
+            const KernelStep& step, Scratch& scratch) {
+    const float* const __restrict x = particles.store.x.data() + first;
+    const float* const __restrict y = particles.store.y.data() + first;
+    const float* const __restrict z = particles.store.z.data() + first;
+    const auto* const __restrict flags = fieldOf<std::uint32_t>(voxels, offsetof(Voxel, flags));
+    std::uint32_t* const __restrict here = scratch.here.data();
+    float *const __restrict rx = scratch.rx.data(), *const __restrict ry = scratch.ry.data(),
+                      *const __restrict rz = scratch.rz.data();
+    const glm::mat3 m = step.toVoxels;
+    const glm::vec3 offset = step.offset, counts(step.counts), most = counts - 1.0f;
+    const int nx = step.counts.x, ny = step.counts.y;
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < count; ++i) {
+        const float gx = m[0][0] * x[i] + m[1][0] * y[i] + m[2][0] * z[i] + offset.x;
+        const float gy = m[0][1] * x[i] + m[1][1] * y[i] + m[2][1] * z[i] + offset.y;
+        const float gz = m[0][2] * x[i] + m[1][2] * y[i] + m[2][2] * z[i] + offset.z;
+        const bool within = (gx >= 0) & (gy >= 0) & (gz >= 0) & (gx < counts.x) & (gy < counts.y) & (gz < counts.z);
+        // Clamped, so that every particle has a cell to look at.
+        const int cx = static_cast<int>(gx > 0 ? (gx < most.x ? gx : most.x) : 0.0f);
+        const int cy = static_cast<int>(gy > 0 ? (gy < most.y ? gy : most.y) : 0.0f);
+        const int cz = static_cast<int>(gz > 0 ? (gz < most.z ? gz : most.z) : 0.0f);
+        const int index = (cz * ny + cy) * nx + cx;
+        const bool on = (flags[index * wordsAVoxel] & (Voxel::active | Voxel::switchedOff)) == Voxel::active;
+        here[i] = (within & on) ? static_cast<std::uint32_t>(index) : nowhere;
+        rx[i] = gx - static_cast<float>(cx) - 0.5f;
+        ry[i] = gy - static_cast<float>(cy) - 0.5f;
+        rz[i] = gz - static_cast<float>(cz) - 0.5f;
+    }
+}
+
+/// Few particles change their voxel in a step: their densities, their time to settle, their age.
+void changePlaces(ShapeParticles& particles, std::size_t first, std::size_t count, std::span<Voxel> voxels,
+                  const Scratch& scratch) {
+    std::uint32_t* const place = particles.place.data() + first;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t now = scratch.here[i], before = place[i];
+        if (now == before) continue;
+        const bool wasIn = (before & ShapeParticles::outside) == 0;
+        if (now == nowhere && !wasIn) continue;
+        if (wasIn) std::atomic_ref(voxels[before].density).fetch_sub(1, std::memory_order_relaxed);
+        particles.store.age[first + i] = 0;
+        if (now == nowhere) {
+            place[i] = before | ShapeParticles::outside;
+        } else {
+            std::atomic_ref(voxels[now].density).fetch_add(1, std::memory_order_relaxed);
+            place[i] = now;
+            particles.settlingSeconds[first + i] = voxels[now].interpolationSeconds;
+        }
+    }
+}
+
+/// Forces as velocities (see Force), then the air and gravity, then the way of a step.
+void move(ShapeParticles& particles, std::size_t first, std::size_t count, const Voxel* voxels, const KernelStep& step,
+          const Scratch& scratch) {
+    float* const __restrict x = particles.store.x.data() + first;
+    float* const __restrict y = particles.store.y.data() + first;
+    float* const __restrict z = particles.store.z.data() + first;
+    float* const __restrict vx = particles.store.velocityX.data() + first;
+    float* const __restrict vy = particles.store.velocityY.data() + first;
+    float* const __restrict vz = particles.store.velocityZ.data() + first;
+    const std::uint32_t* const __restrict place = particles.place.data() + first;
+    const float *const __restrict fromX = scratch.rx.data(), *const __restrict fromY = scratch.ry.data(),
+                            *const __restrict fromZ = scratch.rz.data();
+    const auto* const __restrict force = fieldOf<float>(voxels, offsetof(Voxel, force));
+    const auto* const __restrict number = fieldOf<float>(voxels, offsetof(Voxel, forceNumber));
+    const auto* const __restrict flags = fieldOf<std::uint32_t>(voxels, offsetof(Voxel, flags));
+    const glm::mat3 turn = step.pose.rotation;
+    const glm::vec3 origin = step.pose.position, velocity = step.pose.velocity, spin = step.pose.angularVelocity;
+    const glm::vec3 wind = step.wind, gravity = step.gravityStep;
+    const float dt = step.seconds, metres = step.voxelMetres, growth = step.pose.growth;
+    const float response = step.response, keeps = step.airKeeps;
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < count; ++i) {
+        const int at = static_cast<int>(place[i] & indexBits) * wordsAVoxel;
+        const float inside = (place[i] & ShapeParticles::outside) == 0 ? 1.0f : 0.0f;
+        const std::uint32_t kind = flags[at] >> Voxel::forceShift;
+        const float isLinear = kind == 0 ? inside : 0.0f, isOrbit = kind == 1 ? inside : 0.0f;
+        const float isSpiral = kind == 2 ? inside : 0.0f, isHelix = kind == 3 ? inside : 0.0f;
+        const float isRotation = isSpiral + isHelix;
+
+        const float wx = force[at], wy = force[at + 1], wz = force[at + 2], k = number[at];
+        const float rx = metres * fromX[i], ry = metres * fromY[i], rz = metres * fromZ[i];
+        // t = ω × r, c = ω × t
+        const float tx = wy * rz - wz * ry, ty = wz * rx - wx * rz, tz = wx * ry - wy * rx;
+        const float cx = wy * tz - wz * ty, cy = wz * tx - wx * tz, cz = wx * ty - wy * tx;
+        const float pull = isOrbit * (wx * wx + wy * wy + wz * wz);
+        // acceleration a, and the velocity u that a rotation draws to, in the shape's frame
+        const float ax = isLinear * wx - pull * rx + isRotation * cx;
+        const float ay = isLinear * wy - pull * ry + isRotation * cy;
+        const float az = isLinear * wz - pull * rz + isRotation * cz;
+        // The push lasts a step: its direction is that of the middle, t + ½·dt·c, or every circle would widen.
+        const float along = isHelix * k, outwards = isSpiral * k - 0.5f * dt;
+        const float ux = tx + along * wx - outwards * cx;
+        const float uy = ty + along * wy - outwards * cy;
+        const float uz = tz + along * wz - outwards * cz;
+
+        // The shape's own velocity here, which u is relative to.
+        const float ox = x[i] - origin.x, oy = y[i] - origin.y, oz = z[i] - origin.z;
+        const float sx = velocity.x + spin.y * oz - spin.z * oy + growth * ox;
+        const float sy = velocity.y + spin.z * ox - spin.x * oz + growth * oy;
+        const float sz = velocity.z + spin.x * oy - spin.y * ox + growth * oz;
+        const float drawn = isRotation * response;
+        float nx = vx[i] + dt * (turn[0][0] * ax + turn[1][0] * ay + turn[2][0] * az);
+        float ny = vy[i] + dt * (turn[0][1] * ax + turn[1][1] * ay + turn[2][1] * az);
+        float nz = vz[i] + dt * (turn[0][2] * ax + turn[1][2] * ay + turn[2][2] * az);
+        nx += drawn * (sx + turn[0][0] * ux + turn[1][0] * uy + turn[2][0] * uz - nx);
+        ny += drawn * (sy + turn[0][1] * ux + turn[1][1] * uy + turn[2][1] * uz - ny);
+        nz += drawn * (sz + turn[0][2] * ux + turn[1][2] * uy + turn[2][2] * uz - nz);
+
+        nx = wind.x + keeps * (nx - wind.x) + gravity.x;
+        ny = wind.y + keeps * (ny - wind.y) + gravity.y;
+        nz = wind.z + keeps * (nz - wind.z) + gravity.z;
+        vx[i] = nx;
+        vy[i] = ny;
+        vz[i] = nz;
+        x[i] += dt * nx;
+        y[i] += dt * ny;
+        z[i] += dt * nz;
+    }
+}
+
+/// Linear in time: each step covers the share dt / (time left) of what is left. In a voxel that is the way to its looks
+/// within its interpolation time; outside, the way to the last voxel's fading looks within its lifetime.
+void changeLooks(ShapeParticles& particles, std::size_t first, std::size_t count, const Voxel* voxels, float dt,
+                 std::uint8_t* __restrict dead) {
+    particles::ParticleStore& store = particles.store;
+    float* const __restrict red = store.red.data() + first;
+    float* const __restrict green = store.green.data() + first;
+    float* const __restrict blue = store.blue.data() + first;
+    float* const __restrict opacity = store.opacity.data() + first;
+    float* const __restrict radius = store.radius.data() + first;
+    float* const __restrict age = store.age.data() + first;
+    float* const __restrict lifetime = store.lifetime.data() + first;
+    float* const __restrict settling = particles.settlingSeconds.data() + first;
+    float* const __restrict picture = particles.picture.data() + first;
+    float* const __restrict pictureSpeed = particles.pictureSpeed.data() + first;
+    const std::uint32_t* const __restrict place = particles.place.data() + first;
+    constexpr int words = 4;
+    const auto* const __restrict colours = fieldOf<std::uint32_t>(voxels, offsetof(Voxel, colour));
+    constexpr int toFadingColour = (offsetof(Voxel, fadingColour) - offsetof(Voxel, colour)) / words;
+    const auto* const __restrict sizes = fieldOf<float>(voxels, offsetof(Voxel, sizeMetres));
+    constexpr int toFadingSize = (offsetof(Voxel, fadingSizeMetres) - offsetof(Voxel, sizeMetres)) / words;
+    const auto* const __restrict lifetimes = fieldOf<float>(voxels, offsetof(Voxel, lifetimeSeconds));
+    const auto* const __restrict speeds = fieldOf<float>(voxels, offsetof(Voxel, picturesPerSecond));
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < count; ++i) {
+        const int at = static_cast<int>(place[i] & indexBits) * wordsAVoxel;
+        const int out = static_cast<int>(place[i] >> 31);
+        const bool in = out == 0;
+        const float life = lifetimes[at];
+        const float left = in ? settling[i] : life - age[i];
+        const float share = left > dt ? dt / left : 1.0f;
+
+        const int colourAt = at + out * toFadingColour;
+        const std::uint32_t redGreen = colours[colourAt], blueOpacity = colours[colourAt + 1];
+        constexpr float unit = 1.0f / 65535;
+        const auto channel = [](std::uint32_t value) { return unit * static_cast<float>(static_cast<int>(value)); };
+        red[i] += share * (channel(redGreen & 0xffffu) - red[i]);
+        green[i] += share * (channel(redGreen >> 16) - green[i]);
+        blue[i] += share * (channel(blueOpacity & 0xffffu) - blue[i]);
+        opacity[i] += share * (channel(blueOpacity >> 16) - opacity[i]);
+        radius[i] += share * (sizes[at + out * toFadingSize] - radius[i]);
+        const float speed = pictureSpeed[i] + (in ? share : 0.0f) * (speeds[at] - pictureSpeed[i]);
+        pictureSpeed[i] = speed;
+        picture[i] += dt * speed;
+
+        const float rest = settling[i] - dt;
+        settling[i] = in ? (rest > 0 ? rest : 0.0f) : settling[i];
+        const float older = age[i] + dt;
+        age[i] = in ? 0.0f : older;
+        lifetime[i] = life;
+        dead[i] = static_cast<std::uint8_t>(out & (older >= life ? 1 : 0));
+    }
+}
+
+}  // namespace
+
+KernelStep::KernelStep(const VoxelGrid& grid, const Pose& where, const Motion& motion, float stepSeconds)
+    : counts(grid.lattice().counts),
+      voxelMetres(grid.lattice().edgeMetres * where.scale),
+      pose(where),
+      seconds(stepSeconds),
+      response(1 - std::exp(-motion.responsePerSecond * stepSeconds)),
+      airKeeps(std::exp(-motion.airDragPerSecond * stepSeconds)),
+      wind(motion.wind),
+      gravityStep(motion.gravity * stepSeconds) {
+    toVoxels = glm::transpose(where.rotation) / voxelMetres;
+    offset = -(toVoxels * where.position) - grid.lattice().origin / grid.lattice().edgeMetres;
+}
+
+void updateParticles(ShapeParticles& particles, std::size_t first, std::size_t count, VoxelGrid& grid,
+                     const KernelStep& step, std::uint8_t* dead) {
+    Scratch scratch;
+    const std::span<Voxel> voxels = grid.voxels();
+    lookUp(particles, first, count, voxels.data(), step, scratch);
+    changePlaces(particles, first, count, voxels, scratch);
+    move(particles, first, count, voxels.data(), step, scratch);
+    changeLooks(particles, first, count, voxels.data(), step.seconds, dead);
+}
+
+}  // namespace dustbench::voxel_shape

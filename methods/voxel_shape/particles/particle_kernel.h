@@ -1,0 +1,38 @@
+// One step of a run of particles: look up the voxel, take its force, move, come nearer to how it says they look.
+//
+// Units: m, s. Frame: world. Threads: pure but for the voxels' densities, which are counted atomically: several threads
+// may work on disjoint runs of particles, and the sums do not depend on how many there are.
+// Source: JuckelBeckhaus2007, 4.2, 4.3 and 5.1.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "methods/voxel_shape/particles/motion.h"
+#include "methods/voxel_shape/particles/pose.h"
+#include "methods/voxel_shape/particles/shape_particles.h"
+#include "methods/voxel_shape/voxels/voxel_grid.h"
+
+namespace dustbench::voxel_shape {
+
+/// All that is the same for every particle of a step.
+struct KernelStep {
+    KernelStep(const VoxelGrid& grid, const Pose& pose, const Motion& motion, float stepSeconds);
+
+    glm::mat3 toVoxels;  ///< world → voxels from the least corner: toVoxels·p + offset
+    glm::vec3 offset;
+    glm::ivec3 counts;
+    float voxelMetres;  ///< edge of a voxel in the world
+    Pose pose;
+    float seconds;
+    float response;  ///< share of the way to a rotational force's velocity
+    float airKeeps;  ///< share of the velocity relative to the air that is left
+    glm::vec3 wind;
+    glm::vec3 gravityStep;  ///< velocity that gravity adds
+};
+
+/// Works on particles first .. first + count, at most particles::chunkSize. `dead[i]` becomes 1 where one dies, else 0.
+void updateParticles(ShapeParticles& particles, std::size_t first, std::size_t count, VoxelGrid& grid,
+                     const KernelStep& step, std::uint8_t* dead);
+
+}  // namespace dustbench::voxel_shape

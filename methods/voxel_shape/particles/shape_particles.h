@@ -1,0 +1,29 @@
+// The particles of a shape as a structure of arrays: those of particles/ParticleStore, and what voxels ask for besides.
+//
+// Memory: 76 bytes a particle. Units: m, m/s, s; `radius` is a puff's. Frame: world. Colours: linear RGB, as seen.
+// Owns: its columns, on a ledger. Threads: const access from any; writers on disjoint ranges.
+#pragma once
+
+#include "methods/shared/particles/particle_store.h"
+
+namespace dustbench::voxel_shape {
+
+struct ShapeParticles {
+    /// Set in `place` while a particle is in no active voxel; the rest is then the last one that it was in.
+    static constexpr std::uint32_t outside = 0x80000000u;
+
+    explicit ShapeParticles(MemoryLedger& ledger);
+
+    [[nodiscard]] std::size_t size() const { return store.size(); }
+    void resize(std::size_t count);
+    void move(std::size_t from, std::size_t to);
+    [[nodiscard]] std::uint64_t hash() const;
+
+    particles::ParticleStore store;       ///< `age` counts from when a particle left the shape, and is 0 in it
+    LedgerVector<std::uint32_t> place;    ///< index of its voxel
+    LedgerVector<float> settlingSeconds;  ///< left until it looks as its voxel says
+    LedgerVector<float> picture;          ///< of an animated texture, as many as have been shown
+    LedgerVector<float> pictureSpeed;     ///< pictures a second
+};
+
+}  // namespace dustbench::voxel_shape

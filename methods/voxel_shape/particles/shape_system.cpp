@@ -1,0 +1,64 @@
+#include "methods/voxel_shape/particles/shape_system.h"
+
+#include <array>
+#include <utility>
+
+#include "methods/shared/maths/hash.h"
+#include "methods/shared/parallel/for_each_block.h"
+#include "methods/shared/particles/chunk.h"
+
+namespace dustbench::voxel_shape {
+namespace {
+
+constexpr std::size_t fewChunks = 4;  // below, a second thread does not pay
+
+}  // namespace
+
+ShapeSystem::ShapeSystem(MemoryLedger& ledger, const MarkedVoxels& marked, const Voxel& pattern, std::uint64_t seed)
+    : grid_(ledger, marked, pattern), particles_(ledger), deaths_(ledger), emission_(ledger, seed) {}
+
+ShapeSystem::ShapeSystem(MemoryLedger& ledger, VoxelGrid grid, std::uint64_t seed)
+    : grid_(std::move(grid)), particles_(ledger), deaths_(ledger), emission_(ledger, seed) {}
+
+void ShapeSystem::live(const KernelStep& step) {
+    deaths_.prepare(particles_.size());
+    parallel::forEachBlock(
+        particles_.size(), particles::chunkSize,
+        [&](std::size_t first, std::size_t count) {
+            std::array<std::uint8_t, particles::chunkSize> dead;
+            updateParticles(particles_, first, count, grid_, step, dead.data());
+            deaths_.note(first / particles::chunkSize, dead.data(), count);
+        },
+        fewChunks);
+}
+
+/// The last particles move into the holes (ascending) that lie before them.
+void ShapeSystem::bury(std::span<const std::uint32_t> holes) {
+    std::size_t end = particles_.size();
+    std::size_t lastHole = holes.size();
+    for (std::size_t hole = 0; hole < lastHole; ++hole) {
+        while (lastHole > hole && holes[lastHole - 1] == end - 1) {
+            --lastHole;
+            --end;
+        }
+        if (hole >= lastHole) break;
+        particles_.move(--end, holes[hole]);
+    }
+    particles_.resize(end);
+}
+
+void ShapeSystem::step(const Pose& pose, const Motion& motion, float stepSeconds) {
+    live(KernelStep(grid_, pose, motion, stepSeconds));
+    replace(pose, motion, stepSeconds);
+}
+
+void ShapeSystem::replace(const Pose& pose, const Motion& motion, float stepSeconds) {
+    bury(deaths_.collect());
+    emission_.emit(particles_, grid_, pose, motion, stepSeconds);
+}
+
+std::uint64_t ShapeSystem::stateHash() const {
+    return maths::Hash().add(particles_.hash()).add(grid_.hash()).value();
+}
+
+}  // namespace dustbench::voxel_shape

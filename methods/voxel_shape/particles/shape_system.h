@@ -1,0 +1,43 @@
+// A voxel shape in motion: its grid, its particles, and a step of both.
+//
+// Units: m, s. Frame: world. Owns: voxels and particles, on a ledger. Threads: one caller at a time; uses the current
+// oneTBB arena, and the state is the same at any number of threads.
+// Source: JuckelBeckhaus2007, 4.3 (the update cycle).
+#pragma once
+
+#include "methods/shared/particles/death_list.h"
+#include "methods/voxel_shape/particles/emission.h"
+#include "methods/voxel_shape/particles/particle_kernel.h"
+
+namespace dustbench::voxel_shape {
+
+class ShapeSystem {
+ public:
+    ShapeSystem(MemoryLedger& ledger, const MarkedVoxels& marked, const Voxel& pattern, std::uint64_t seed);
+
+    ShapeSystem(MemoryLedger& ledger, VoxelGrid grid, std::uint64_t seed);
+
+    /// One step: `live`, then `replace`. Between the two, particles may be moved out of solids.
+    void step(const Pose& pose, const Motion& motion, float stepSeconds);
+    /// Every particle looks up its voxel, moves, and changes its looks; who has faded is noted.
+    void live(const KernelStep& step);
+    /// Buries whom `live` has noted, and gives birth.
+    void replace(const Pose& pose, const Motion& motion, float stepSeconds);
+
+    [[nodiscard]] const ShapeParticles& particles() const { return particles_; }
+    [[nodiscard]] ShapeParticles& particles() { return particles_; }
+    [[nodiscard]] const VoxelGrid& grid() const { return grid_; }
+    [[nodiscard]] VoxelGrid& grid() { return grid_; }
+    /// Of particles and voxels.
+    [[nodiscard]] std::uint64_t stateHash() const;
+
+ private:
+    void bury(std::span<const std::uint32_t> holes);
+
+    VoxelGrid grid_;
+    ShapeParticles particles_;
+    particles::DeathList deaths_;
+    Emission emission_;
+};
+
+}  // namespace dustbench::voxel_shape

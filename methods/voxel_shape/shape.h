@@ -1,0 +1,83 @@
+// A shape as its file describes it: data/shapes/car.toml is the manual of its keys.
+//
+// Units: m, s, linear RGB. Frame: the shape's own; places in the frame that it follows.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "methods/voxel_shape/collision/shape_collision.h"
+#include "methods/voxel_shape/particles/motion.h"
+#include "methods/voxel_shape/voxels/voxel_change.h"
+
+namespace dustbench::voxel_shape {
+
+enum class Source { vehicle, mesh, grid, voxels };
+enum class Voxeliser {
+    conservative,  ///< all that the surface touches
+    slices,        ///< the paper's, along z
+    slicesXyz,     ///< the same along x, y and z, which misses no face for being seen edge-on
+};
+enum class Fill { surface, solid };
+/// What a particle is drawn as.
+enum class Render { points, lines, sprites, billboards, textured, animated };
+/// The order in which particles are blended.
+enum class Order {
+    radix,      ///< far to near
+    quicksort,  ///< the same, the paper's way
+    nearest,    ///< the nearest ones far to near, the others before them as they come
+    every,      ///< far to near every few frames, the same order in between
+    none,       ///< as they come
+};
+
+struct Look {
+    Render render = Render::sprites;
+    float pixels = 0;  ///< of points and sprites; 0: as large as the particles are
+    bool additive = false;
+    Order order = Order::radix;
+    std::uint32_t nearest = 2000;  ///< so many
+    std::uint32_t every = 4;       ///< frames
+};
+
+struct TrackKey {
+    double timeSeconds = 0;
+    glm::dvec3 position{0};
+    double heading = 0;
+    double scale = 1;
+};
+
+/// Where the shape is: in the vehicle's frame, or the world's; at rest with one key, else from key to key, again and
+/// again.
+struct Track {
+    bool followsVehicle = true;
+    std::vector<TrackKey> keys;  ///< at least one; times rise from 0
+};
+
+struct Shape {
+    std::string name;  ///< of the file, for messages
+    Source source = Source::vehicle;
+    std::filesystem::path mesh;         ///< or the file of voxels
+    std::filesystem::path savedVoxels;  ///< where the voxels are written once they are made; empty: nowhere
+    glm::vec3 meshColour{0.5f};         ///< where the mesh has none
+    float lightFromAbove = 0;           ///< by how much the underside of a mesh is darker than its top, 0..1
+    glm::vec3 turn{0};                  ///< of the mesh, radians about x, then z, then y
+    float longestSideMetres = 0;        ///< 0: as it is
+    glm::ivec3 gridCells{1};
+    float gridEdgeMetres = 1;  ///< of a voxel
+    int resolution = 50;
+    Voxeliser voxeliser = Voxeliser::conservative;
+    Fill fill = Fill::surface;
+    std::uint32_t particles = 40'000;
+    VoxelChange voxels;  ///< of all, whole but for the colour
+    std::vector<VoxelEdit> edits;
+    Motion motion;
+    bool collides = true;  ///< with the scene's solids
+    Impact impact;
+    float windFactor = 1;  ///< share of the scene's wind
+    Look look;
+    Track track;
+};
+
+}  // namespace dustbench::voxel_shape

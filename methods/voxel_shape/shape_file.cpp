@@ -1,0 +1,251 @@
+#include "methods/voxel_shape/shape_file.h"
+
+#include <algorithm>
+
+#include "methods/shared/errors.h"
+#include "methods/shared/files/toml_reader.h"
+
+namespace dustbench::voxel_shape {
+namespace {
+
+using files::TomlReader;
+
+constexpr double far = 1e4;  ///< metres: the largest coordinate that a file may give
+
+/// The enumerator whose name a key gives; `names` in the order of the enumeration.
+template <typename Enumeration>
+Enumeration choice(TomlReader& table, const char* key, const std::vector<std::string>& names, Enumeration initial) {
+    if (!table.has(key)) return initial;
+    const std::string name = table.choice(key, names);
+    return static_cast<Enumeration>(std::ranges::find(names, name) - names.begin());
+}
+
+float number(TomlReader& table, const char* key, double least, double most, float initial) {
+    return static_cast<float>(table.number(key, least, most, static_cast<double>(initial)));
+}
+
+glm::vec3 vector(TomlReader& table, const char* key, double most, const glm::dvec3& initial) {
+    const glm::dvec3 value = table.vector3(key, initial);
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(value[axis]) > most)
+            throw InputError(table.where(key) + "key '" + key + "': got " + std::to_string(value[axis]) +
+                             ", allowed: " + std::to_string(-most) + ".." + std::to_string(most));
+    return value;
+}
+
+glm::vec3 colour(TomlReader& table, const char* key, const glm::vec3& initial) {
+    const glm::vec3 value = vector(table, key, 1, initial);
+    if (glm::any(glm::lessThan(value, glm::vec3(0))))
+        throw InputError(table.where(key) + "key '" + key + "': expected a linear RGB colour, each 0..1");
+    return value;
+}
+
+VoxelChange::ForceEffect readForce(TomlReader table) {
+    VoxelChange::ForceEffect effect{};
+    effect.kind = choice(table, "kind", {"linear", "orbit", "spiral", "helix"}, Force::linear);
+    if (effect.kind == Force::linear) {
+        effect.vector = vector(table, "acceleration", 1000, glm::dvec3(0));
+    } else {
+        const glm::vec3 axis = vector(table, "axis", 1, {0, 1, 0});
+        if (!(glm::length(axis) > 0)) throw InputError(table.where("axis") + "key 'axis': expected one of some length");
+        effect.vector = glm::normalize(axis) * number(table, "radians_per_second", -60, 60, 2);
+    }
+    if (effect.kind == Force::spiral) effect.number = number(table, "growth_per_radian", -1, 1, 0.02f);
+    if (effect.kind == Force::helix) effect.number = number(table, "metres_per_radian", -10, 10, 0.05f);
+    table.finish();
+    return effect;
+}
+
+VoxelChange readChange(TomlReader& table) {
+    VoxelChange change;
+    const auto read = [&](const char* key, std::optional<float>& value, double least, double most) {
+        if (table.has(key)) value = static_cast<float>(table.number(key, least, most));
+    };
+    if (table.has("active")) change.active = table.boolean("active", true);
+    if (table.has("colour")) change.colour = colour(table, "colour", {});
+    if (table.has("fading_colour")) change.fadingColour = colour(table, "fading_colour", {});
+    read("opacity", change.opacity, 0, 0.999);
+    read("fading_opacity", change.fadingOpacity, 0, 0.999);
+    read("size_voxels", change.sizeVoxels, 0, 100);
+    read("fading_size_voxels", change.fadingSizeVoxels, 0, 100);
+    read("lifetime_seconds", change.lifetimeSeconds, 0, 1000);
+    read("interpolation_seconds", change.interpolationSeconds, 0, 1000);
+    read("pictures_per_second", change.picturesPerSecond, 0, 1000);
+    if (table.has("maximum_density"))
+        change.maximumDensity = static_cast<std::uint32_t>(table.integer("maximum_density", 0, 10'000'000));
+    if (table.has("force")) change.force = readForce(table.table("force"));
+    return change;
+}
+
+VoxelEdit readEdit(TomlReader& table) {
+    VoxelEdit edit;
+    edit.where = table.where();
+    const bool box = table.has("least") || table.has("most"),
+               sphere = table.has("centre") || table.has("radius_metres");
+    if (box == sphere)
+        throw InputError(edit.where + "an edit takes either a box (least, most) or a sphere (centre, radius_metres)");
+    edit.isSphere = sphere;
+    if (sphere) {
+        edit.centre = table.vector3("centre");
+        edit.radiusMetres = static_cast<float>(table.number("radius_metres", 0, far));
+    } else {
+        edit.least = table.vector3("least");
+        edit.most = table.vector3("most");
+        if (glm::any(glm::greaterThan(edit.least, edit.most)))
+            throw InputError(edit.where + "the edit's least corner lies beyond its most");
+    }
+    edit.change = readChange(table);
+    if (edit.change.isEmpty()) throw InputError(edit.where + "the edit changes nothing");
+    if (edit.change.contradictsItself())
+        throw InputError(edit.where +
+                         "the edit contradicts itself: `active = false` takes voxels out of the shape, and "
+                         "no other attribute goes with it");
+    table.finish();
+    return edit;
+}
+
+void readSource(TomlReader& file, const std::filesystem::path& folder, Shape& shape) {
+    if (int{file.has("grid")} + int{file.has("mesh")} + int{file.has("voxels_from")} != 1)
+        throw InputError(file.where("mesh") + "expected either a mesh, a [grid], or voxels_from a file");
+    if (const std::string saved = file.text("save_voxels_as", ""); !saved.empty()) shape.savedVoxels = folder / saved;
+    if (file.has("voxels_from")) {
+        shape.source = Source::voxels;
+        shape.mesh = folder / file.text("voxels_from");
+        return;
+    }
+    if (file.has("grid")) {
+        TomlReader grid = file.table("grid");
+        shape.source = Source::grid;
+        const glm::dvec3 cells = grid.vector3("cells");
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(cells[axis] >= 1 && cells[axis] <= mostVoxelsASide))
+                throw InputError(grid.where("cells") + "key 'cells': got " + std::to_string(cells[axis]) +
+                                 ", allowed: 1.." + std::to_string(mostVoxelsASide));
+            shape.gridCells[axis] = static_cast<int>(cells[axis]);
+        }
+        shape.gridEdgeMetres = static_cast<float>(grid.number("edge_metres", 1e-3, 100));
+        grid.finish();
+        return;
+    }
+    const std::string mesh = file.text("mesh");
+    shape.source = mesh == "vehicle" ? Source::vehicle : Source::mesh;
+    shape.mesh = folder / mesh;
+    const std::string other = file.text("mesh_otherwise", "");
+    if (shape.source == Source::mesh && !other.empty() && !std::filesystem::exists(shape.mesh))
+        shape.mesh = folder / other;
+    shape.turn = glm::radians(vector(file, "turn_degrees", 360, glm::dvec3(0)));
+    shape.lightFromAbove = number(file, "light_from_above", 0, 1, 0);
+    shape.longestSideMetres = number(file, "longest_side_metres", 0, far, 0);
+    shape.resolution = static_cast<int>(file.integer("resolution", 1, mostVoxelsASide, shape.resolution));
+    shape.voxeliser = choice(file, "voxeliser", {"conservative", "slices", "slices_xyz"}, shape.voxeliser);
+    shape.fill = choice(file, "fill", {"surface", "solid"}, shape.fill);
+    if (shape.fill == Fill::solid && shape.voxeliser != Voxeliser::conservative)
+        throw InputError(file.where("fill") + "only the conservative voxeliser's surface is tight enough to be filled");
+}
+
+void readMotion(TomlReader& file, Shape& shape) {
+    if (!file.has("motion")) return;
+    TomlReader table = file.table("motion");
+    Motion& motion = shape.motion;
+    motion.gravity = {0, -number(table, "gravity", -100, 100, 0), 0};
+    shape.windFactor = number(table, "wind_factor", 0, 10, shape.windFactor);
+    motion.airDragPerSecond = number(table, "air_drag_per_second", 0, 100, motion.airDragPerSecond);
+    motion.responsePerSecond = number(table, "response_per_second", 0, 1000, motion.responsePerSecond);
+    motion.birthSpeed = number(table, "birth_speed", 0, 100, motion.birthSpeed);
+    motion.fillSeconds = number(table, "fill_seconds", 0, 100, motion.fillSeconds);
+    table.finish();
+}
+
+void readCollision(TomlReader& file, Shape& shape) {
+    if (!file.has("collision")) return;
+    TomlReader table = file.table("collision");
+    shape.collides = table.boolean("with_solids", shape.collides);
+    shape.impact.restitution = number(table, "restitution", 0, 1, shape.impact.restitution);
+    shape.impact.friction = number(table, "friction", 0, 1, shape.impact.friction);
+    table.finish();
+}
+
+void readLook(TomlReader& file, Shape& shape) {
+    if (!file.has("look")) return;
+    TomlReader table = file.table("look");
+    Look& look = shape.look;
+    look.render =
+        choice(table, "render", {"points", "lines", "sprites", "billboards", "textured", "animated"}, look.render);
+    look.pixels = number(table, "pixels", 0, 255, look.pixels);
+    look.additive = table.boolean("additive", look.additive);
+    look.order = choice(table, "sort", {"radix", "quicksort", "nearest", "every", "none"}, look.order);
+    table.finish();
+}
+
+TrackKey readKey(TomlReader& table, const TrackKey& initial) {
+    TrackKey key = initial;
+    key.position = vector(table, "position", far, initial.position);
+    key.heading = glm::radians(table.number("heading_degrees", -3600, 3600, glm::degrees(initial.heading)));
+    key.scale = table.number("scale", 1e-3, 1e3, initial.scale);
+    return key;
+}
+
+void readTrack(TomlReader& file, Shape& shape) {
+    Track& track = shape.track;
+    track.keys.push_back({});
+    if (!file.has("place")) return;
+    TomlReader table = file.table("place");
+    track.followsVehicle = table.has("follow") ? table.choice("follow", {"vehicle", "world"}) == "vehicle" : true;
+    const TrackKey rest = readKey(table, {});
+    track.keys = {rest};
+    for (TomlReader& keyTable : table.tables("key")) {
+        TrackKey key = readKey(keyTable, rest);
+        key.timeSeconds = keyTable.number("time_seconds", 0, 1e5);
+        const bool first = track.keys.size() == 1 && key.timeSeconds == 0;
+        if (first)
+            track.keys.front() = key;
+        else if (key.timeSeconds > track.keys.back().timeSeconds)
+            track.keys.push_back(key);
+        else
+            throw InputError(keyTable.where("time_seconds") + "key 'time_seconds': expected times that rise from 0");
+        keyTable.finish();
+    }
+    table.finish();
+}
+
+}  // namespace
+
+Shape readShape(const std::filesystem::path& path) {
+    TomlReader file = TomlReader::parseFile(path);
+    Shape shape;
+    shape.name = path.filename().string();
+    (void)file.text("description");
+    readSource(file, path.parent_path(), shape);
+    shape.meshColour = colour(file, "colour", shape.meshColour);
+    shape.particles = static_cast<std::uint32_t>(file.integer("particles", 1, 10'000'000, shape.particles));
+    if (shape.source == Source::voxels && (file.has("voxels") || file.has("particles")))
+        throw InputError(file.where("voxels_from") +
+                         "the file's voxels say all of themselves: no [voxels] and no "
+                         "particles go with it, only edits");
+
+    if (file.has("voxels")) {
+        TomlReader table = file.table("voxels");
+        shape.voxels = readChange(table);
+        if (shape.voxels.active) throw InputError(table.where("active") + "key 'active': belongs into an edit");
+        table.finish();
+    }
+    const auto otherwise = [](std::optional<float>& value, float initial) {
+        if (!value) value = initial;
+    };
+    otherwise(shape.voxels.opacity, 0.5f);
+    otherwise(shape.voxels.fadingOpacity, 0);
+    otherwise(shape.voxels.sizeVoxels, 0.8f);
+    otherwise(shape.voxels.lifetimeSeconds, 1);
+    otherwise(shape.voxels.interpolationSeconds, 0.2f);
+    otherwise(shape.voxels.picturesPerSecond, 0);
+    if (!shape.voxels.fadingSizeVoxels) shape.voxels.fadingSizeVoxels = shape.voxels.sizeVoxels;
+    for (TomlReader& table : file.tables("edit")) shape.edits.push_back(readEdit(table));
+    readMotion(file, shape);
+    readCollision(file, shape);
+    readLook(file, shape);
+    readTrack(file, shape);
+    file.finish();
+    return shape;
+}
+
+}  // namespace dustbench::voxel_shape

@@ -1,0 +1,54 @@
+#include "methods/voxel_shape/voxels/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "methods/shared/errors.h"
+
+namespace dustbench::voxel_shape {
+namespace {
+
+/// The mesh keeps this share of a voxel clear of the lattice's rim, so that rounding puts no corner outside.
+constexpr float rim = 1e-3f;
+
+}  // namespace
+
+void requireSoundMesh(const scene::Mesh& mesh, const char* what) {
+    const std::string name(what);
+    if (mesh.indices.size() < 3) throw InputError(name + ": got a mesh without triangles, expected at least one");
+    for (const std::uint32_t index : mesh.indices)
+        if (index >= mesh.positions.size())
+            throw InputError(name + ": a triangle names vertex " + std::to_string(index) + ", allowed: 0.." +
+                             std::to_string(static_cast<std::int64_t>(mesh.positions.size()) - 1));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            if (!std::isfinite(mesh.positions[i][axis]))
+                throw InputError(name + ": vertex " + std::to_string(i) + " is not a finite point");
+}
+
+Lattice latticeAround(const scene::Mesh& mesh, int resolution) {
+    if (resolution < 1 || resolution > mostVoxelsASide)
+        throw InputError("voxel resolution: got " + std::to_string(resolution) + ", allowed: 1.." +
+                         std::to_string(mostVoxelsASide));
+    requireSoundMesh(mesh, "voxels of a mesh");
+    glm::vec3 least(INFINITY), most(-INFINITY);
+    for (const std::uint32_t index : mesh.indices) {
+        least = glm::min(least, mesh.positions[index]);
+        most = glm::max(most, mesh.positions[index]);
+    }
+    const glm::vec3 extent = most - least;
+    const float longest = std::max({extent.x, extent.y, extent.z});
+    if (!(longest > 0) || !std::isfinite(longest))
+        throw InputError("voxels of a mesh: its longest side is " + std::to_string(longest) +
+                         " m, expected a finite length above 0");
+    Lattice lattice;
+    lattice.edgeMetres = longest / (static_cast<float>(resolution) - 2 * rim);
+    for (int axis = 0; axis < 3; ++axis)
+        lattice.counts[axis] =
+            std::clamp(static_cast<int>(std::ceil(extent[axis] / lattice.edgeMetres + 2 * rim)), 1, resolution);
+    lattice.origin = (least + most) / 2.0f - lattice.edgeMetres / 2 * glm::vec3(lattice.counts);
+    return lattice;
+}
+
+}  // namespace dustbench::voxel_shape

@@ -1,0 +1,52 @@
+// Where the voxels of a shape lie: cubes of one edge in a box, and which of them a point is in.
+//
+// Units: metres. Frame: the shape's own. Threads: const members are safe from any.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "methods/shared/scene/mesh.h"
+
+namespace dustbench::voxel_shape {
+
+inline constexpr int mostVoxelsASide = 256;
+
+struct Lattice {
+    glm::ivec3 counts{1};  ///< voxels along x, y, z
+    glm::vec3 origin{0};   ///< least corner
+    float edgeMetres = 1;  ///< of a voxel
+
+    [[nodiscard]] std::size_t size() const {
+        return static_cast<std::size_t>(counts.x) * static_cast<std::size_t>(counts.y) *
+               static_cast<std::size_t>(counts.z);
+    }
+    /// x runs fastest, z slowest.
+    [[nodiscard]] std::uint32_t index(const glm::ivec3& cell) const {
+        return static_cast<std::uint32_t>((cell.z * counts.y + cell.y) * counts.x + cell.x);
+    }
+    [[nodiscard]] glm::ivec3 cell(std::uint32_t index) const {
+        const int i = static_cast<int>(index);
+        return {i % counts.x, i / counts.x % counts.y, i / counts.x / counts.y};
+    }
+    [[nodiscard]] bool contains(const glm::ivec3& cell) const {
+        return cell.x >= 0 && cell.y >= 0 && cell.z >= 0 && cell.x < counts.x && cell.y < counts.y && cell.z < counts.z;
+    }
+    [[nodiscard]] glm::vec3 centre(const glm::ivec3& cell) const {
+        return origin + edgeMetres * (glm::vec3(cell) + 0.5f);
+    }
+    /// In voxels from the least corner.
+    [[nodiscard]] glm::vec3 toVoxels(const glm::vec3& point) const { return (point - origin) / edgeMetres; }
+    [[nodiscard]] glm::vec3 mostCorner() const { return origin + edgeMetres * glm::vec3(counts); }
+};
+
+/// Throws InputError, naming `what`, where a mesh has no triangles, an index without a vertex, or a corner that is not
+/// finite.
+void requireSoundMesh(const scene::Mesh& mesh, const char* what);
+
+/// The lattice that holds a mesh with `resolution` voxels along its longest side, and as many as it needs along the
+/// others. Throws InputError for a mesh that is not sound, has no extent, or a resolution outside 1..256.
+[[nodiscard]] Lattice latticeAround(const scene::Mesh& mesh, int resolution);
+
+}  // namespace dustbench::voxel_shape

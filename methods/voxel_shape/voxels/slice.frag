@@ -1,0 +1,7 @@
+// The colour that becomes the voxel's.
+in vec3 surfaceColour;
+layout(location = 0) out vec4 colour;
+
+void main() {
+    colour = vec4(surfaceColour, 1.0);
+}

@@ -1,0 +1,41 @@
+// The triangles of a mesh in voxels, sorted into the layers of a lattice that they reach: a layer is then one thread's.
+//
+// Units: voxels from the lattice's least corner. Owns: its lists.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "methods/voxel_shape/voxels/lattice.h"
+
+namespace dustbench::voxel_shape {
+
+struct Triangle {
+    std::array<glm::vec3, 3> corners;
+    std::array<glm::vec3, 3> colours;
+
+    [[nodiscard]] glm::vec3 least() const { return glm::min(glm::min(corners[0], corners[1]), corners[2]); }
+    [[nodiscard]] glm::vec3 most() const { return glm::max(glm::max(corners[0], corners[1]), corners[2]); }
+};
+
+class TriangleBins {
+ public:
+    /// Layers along `axis` (0, 1, 2). `margin` widens each triangle. A mesh without colours is white.
+    TriangleBins(const scene::Mesh& mesh, const Lattice& lattice, int axis, float margin);
+
+    [[nodiscard]] const Triangle& triangle(std::uint32_t number) const { return triangles_[number]; }
+    /// Numbers of the triangles that reach a layer, ascending.
+    [[nodiscard]] std::span<const std::uint32_t> inLayer(std::size_t layer) const {
+        return {numbers_.data() + starts_[layer], starts_[layer + 1] - starts_[layer]};
+    }
+
+ private:
+    std::vector<Triangle> triangles_;
+    std::vector<std::size_t> starts_;
+    std::vector<std::uint32_t> numbers_;
+};
+
+}  // namespace dustbench::voxel_shape

@@ -1,0 +1,50 @@
+// Attributes to set on voxels: all at once where a shape's are first given, or some by an edit of a box or a sphere.
+//
+// Units: metres, seconds, linear RGB; sizes in edges of a voxel, so that they fit any resolution. Frame: the shape's
+// own.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "methods/voxel_shape/voxels/voxel_grid.h"
+
+namespace dustbench::voxel_shape {
+
+/// What is empty is left as it is.
+struct VoxelChange {
+    struct ForceEffect {
+        Force kind;
+        glm::vec3 vector;
+        float number;
+    };
+    std::optional<bool> active;
+    std::optional<glm::vec3> colour, fadingColour;
+    std::optional<float> opacity, fadingOpacity;
+    std::optional<float> sizeVoxels, fadingSizeVoxels;
+    std::optional<float> lifetimeSeconds, interpolationSeconds, picturesPerSecond;
+    std::optional<std::uint32_t> maximumDensity;
+    std::optional<ForceEffect> force;
+
+    void applyTo(Voxel& voxel, float voxelMetres) const;
+    /// Says nothing at all.
+    [[nodiscard]] bool isEmpty() const;
+    /// Gives a voxel that is no part of the shape anything besides: `active = false` and more.
+    [[nodiscard]] bool contradictsItself() const;
+};
+
+/// A change of the active voxels (of all, where it makes them active) whose middle lies in a box or a sphere.
+struct VoxelEdit {
+    std::string where;  ///< for messages: `bunny.toml:31: `
+    bool isSphere = false;
+    glm::vec3 least{0}, most{0};  ///< of a box
+    glm::vec3 centre{0};          ///< of a sphere
+    float radiusMetres = 0;
+    VoxelChange change;
+
+    [[nodiscard]] bool contains(const glm::vec3& point) const;
+    /// Throws InputError where it meets no voxel. The grid's active voxels are listed anew.
+    void applyTo(VoxelGrid& grid) const;
+};
+
+}  // namespace dustbench::voxel_shape
