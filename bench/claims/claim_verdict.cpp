@@ -132,11 +132,13 @@ ClaimVerdict verdictOf(const Claim& claim, const ClaimResult& result) {
 
 /// The range over the cells, and their mean.
 void judgeExact(const Claim& claim, const Samples& samples, bool logarithmic, ClaimResult& result) {
+    std::map<std::string, double> byCell;  // the same in every repetition
+    for (const Sample& sample : samples.list) byCell.try_emplace(sample.cell, sample.value);
     std::vector<double> list;
     std::size_t holds = 0;
-    for (const Sample& sample : samples.list) {
-        list.push_back(sample.value);
-        holds += isTrueAt(claim, sample.value) ? 1 : 0;
+    for (const auto& [cell, value] : byCell) {
+        list.push_back(value);
+        holds += isTrueAt(claim, value) ? 1 : 0;
     }
     const auto [low, high] = std::ranges::minmax(list);
     result.low = low;

@@ -35,7 +35,7 @@ class TemporaryFolder {
 
 HarnessCost measureHarness(ExecutionOptions options) {
     PlannedRun run;
-    run.spec.method = "null";
+    run.spec.method = "null_method";
     run.spec.frames = 60;
     run.spec.parameters = canonicalParameters(findMethod(run.spec.method), {{"preroll", "0"}});
     options.timeoutSeconds = 60;

@@ -1,8 +1,8 @@
-#include "methods/null/null.h"
+#include "methods/null_method/null_method.h"
 
 #include "methods/shared/maths/philox.h"
 
-namespace dustbench::null {
+namespace dustbench::null_method {
 namespace {
 
 constexpr std::uint64_t numbersPerUnit = 1000;
@@ -16,7 +16,7 @@ std::uint32_t fixedWork(std::uint64_t units) {
     return sum;
 }
 
-void Null::update(const Frame&) {
+void NullMethod::update(const Frame&) {
     workDone_ = fixedWork(work_);
 }
 
@@ -29,9 +29,9 @@ MethodInfo describe() {
         .choice("entry", "first", {"first", "second"},
                 "no effect: enters the same method twice, under two names that must then compare as equal");
     info.create = [](const ParameterValues& values) {
-        return std::make_unique<Null>(static_cast<std::uint64_t>(values.integer("work")));
+        return std::make_unique<NullMethod>(static_cast<std::uint64_t>(values.integer("work")));
     };
     return info;
 }
 
-}  // namespace dustbench::null
+}  // namespace dustbench::null_method

@@ -5,14 +5,14 @@
 
 #include "methods/shared/method.h"
 
-namespace dustbench::null {
+namespace dustbench::null_method {
 
 /// Draws 1000 random numbers a unit on one thread and gives their sum, so that no compiler leaves them out.
 [[nodiscard]] std::uint32_t fixedWork(std::uint64_t units);
 
-class Null final : public Method {
+class NullMethod final : public Method {
  public:
-    explicit Null(std::uint64_t work) : work_(work) {}
+    explicit NullMethod(std::uint64_t work) : work_(work) {}
 
     void prepare(const scene::Scene&, gpu::Device&) override {}
     void update(const Frame& frame) override;
@@ -26,4 +26,4 @@ class Null final : public Method {
 /// What the method declares; the registry asks for it.
 [[nodiscard]] MethodInfo describe();
 
-}  // namespace dustbench::null
+}  // namespace dustbench::null_method
