@@ -24,6 +24,7 @@ void grow(std::optional<Box>& bounds, const Box& box) {
 
 void CollectedVolume::puffs(const particles::ParticleStore& puffs) {
     anyPuffs_ = true;
+    particles_ = &puffs;
     puffs_.reserve(puffs_.size() + puffs.size());
     for (std::size_t i = 0; i < puffs.size(); ++i) {
         const CollectedPuff puff{puffs.position(i), puffs.radius[i], puffs.opacity[i]};

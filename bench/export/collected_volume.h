@@ -38,6 +38,8 @@ class CollectedVolume final : public VolumeVisitor {
     void octree(const OctreeVolume& volume) override;
 
     [[nodiscard]] const std::vector<CollectedPuff>& puffs() const { return puffs_; }
+    /// The particles that were handed over last, as their owner keeps them: valid until its next step. Null: none were.
+    [[nodiscard]] const particles::ParticleStore* particles() const { return particles_; }
     [[nodiscard]] const std::vector<CollectedOctree>& octrees() const { return octrees_; }
     /// Nothing was handed over, not even an empty cloud.
     [[nodiscard]] bool isNothing() const { return !anyPuffs_ && octrees_.empty(); }
@@ -49,6 +51,7 @@ class CollectedVolume final : public VolumeVisitor {
 
  private:
     bool anyPuffs_ = false;
+    const particles::ParticleStore* particles_ = nullptr;
     std::vector<CollectedPuff> puffs_;  ///< those with a mass
     std::vector<CollectedOctree> octrees_;
 };

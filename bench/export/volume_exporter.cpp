@@ -120,6 +120,11 @@ void VolumeExporter::write(const ExportedMoment& moment) {
         const std::string name = nameOf(moment.frame, "vtp");
         writeVtp(moment.dust, time, folder_ / name);
         addTo("particles.pvd", Series::Kind::pvd, name, time);
+        if (const auto* own = moment.volume.particles(); own && own != &moment.dust) {
+            const std::string ownName = fmt::format("f{:06}_{}.vtp", moment.frame, moment.method);
+            writeVtp(*own, time, folder_ / ownName);
+            addTo(fmt::format("{}.pvd", moment.method), Series::Kind::pvd, ownName, time);
+        }
     }
     if (settings_.formats == std::vector{VolumeFormat::vdb}) return;
     const std::string name = nameOf(moment.frame, "vtm");

@@ -60,6 +60,11 @@ void writeVtp(const particles::ParticleStore& dust, double timeSeconds, const st
     const auto velocity = interleaved(dust.velocityX, dust.velocityY, dust.velocityZ);
     velocity->SetName("velocity");
     cloud->GetPointData()->AddArray(velocity);
+    if (!dust.uniformColour) {
+        const auto colour = interleaved(dust.red, dust.green, dust.blue);
+        colour->SetName("colour");
+        cloud->GetPointData()->AddArray(colour);
+    }
     stampTime(*cloud, timeSeconds);
 
     WholeFile whole(file);

@@ -1,4 +1,4 @@
-// Writes the dust as points with serial, age, lifetime, radius, opacity and velocity.
+// Writes particles as points with serial, age, lifetime, radius, opacity, velocity and, where each has its own, colour.
 #pragma once
 
 #include <filesystem>

@@ -3,6 +3,7 @@
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkExecutive.h>
 #include <vtkNew.h>
@@ -82,29 +83,44 @@ glm::vec3 tuple(vtkDataArray& array, vtkIdType index) {
     return {values[0], values[1], values[2]};
 }
 
+/// Colours of points or of faces, where there are any: 8 bit, sRGB.
+vtkUnsignedCharArray* coloursOf(vtkDataSetAttributes& attributes) {
+    auto* colours = vtkUnsignedCharArray::SafeDownCast(attributes.GetScalars());
+    return colours && colours->GetNumberOfComponents() >= 3 ? colours : nullptr;
+}
+
+glm::vec3 linearColour(vtkUnsignedCharArray& colours, vtkIdType index) {
+    glm::vec3 colour;
+    for (int k = 0; k < 3; ++k)
+        colour[k] = maths::decodeSrgb(static_cast<float>(colours.GetTypedComponent(index, k)) / 255.0f);
+    return colour;
+}
+
 Mesh convert(vtkPolyData& surface, const glm::vec3& colour) {
     Mesh mesh;
-    const vtkIdType points = surface.GetNumberOfPoints();
     vtkDataArray* normals = surface.GetPointData()->GetNormals();
-    auto* colours = vtkUnsignedCharArray::SafeDownCast(surface.GetPointData()->GetScalars());
-    if (colours && colours->GetNumberOfComponents() < 3) colours = nullptr;
-    for (vtkIdType i = 0; i < points; ++i) {
+    vtkUnsignedCharArray* colours = coloursOf(*surface.GetPointData());
+    vtkUnsignedCharArray* faceColours = colours ? nullptr : coloursOf(*surface.GetCellData());
+    const auto addPoint = [&](vtkIdType i, const glm::vec3& own) {
         mesh.positions.push_back(tuple(*surface.GetPoints()->GetData(), i));
         const glm::vec3 normal = tuple(*normals, i);
         mesh.normals.push_back(glm::length(normal) > 0 ? glm::normalize(normal) : glm::vec3(0, 1, 0));
-        if (colours)
-            mesh.colours.emplace_back(maths::decodeSrgb(static_cast<float>(colours->GetTypedComponent(i, 0)) / 255.0f),
-                                      maths::decodeSrgb(static_cast<float>(colours->GetTypedComponent(i, 1)) / 255.0f),
-                                      maths::decodeSrgb(static_cast<float>(colours->GetTypedComponent(i, 2)) / 255.0f));
-        else
-            mesh.colours.push_back(colour);
-    }
+        mesh.colours.push_back(own);
+    };
+    if (!faceColours)
+        for (vtkIdType i = 0; i < surface.GetNumberOfPoints(); ++i)
+            addPoint(i, colours ? linearColour(*colours, i) : colour);
     vtkCellArray* triangles = surface.GetPolys();
     for (vtkIdType i = 0; i < triangles->GetNumberOfCells(); ++i) {
         vtkIdType count = 0;
         const vtkIdType* corners = nullptr;
         triangles->GetCellAtId(i, count, corners);
-        for (vtkIdType k = 0; k < count; ++k) mesh.indices.push_back(static_cast<std::uint32_t>(corners[k]));
+        for (vtkIdType k = 0; k < count; ++k) {
+            // Corners are not shared where faces have colours of their own.
+            mesh.indices.push_back(
+                static_cast<std::uint32_t>(faceColours ? mesh.positions.size() : static_cast<std::size_t>(corners[k])));
+            if (faceColours) addPoint(corners[k], linearColour(*faceColours, i));
+        }
     }
     return mesh;
 }

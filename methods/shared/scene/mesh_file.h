@@ -10,8 +10,8 @@
 
 namespace dustbench::scene {
 
-/// Polygons become triangles; missing normals are computed, with creases kept above 35 degrees. Vertex colours of a PLY
-/// file (8 bit, sRGB) are used, else `colour`. Throws InputError with the file and the reason.
+/// Polygons become triangles; missing normals are computed, with creases kept above 35 degrees. Colours of vertices or
+/// faces of a PLY file (8 bit, sRGB) are used, else `colour`. Throws InputError with the file and the reason.
 [[nodiscard]] Mesh readMesh(const std::filesystem::path& file, const glm::vec3& colour);
 
 }  // namespace dustbench::scene

@@ -74,6 +74,22 @@ TEST(MeshFile, MakesVertexColoursOfPlyLinear) {
     EXPECT_EQ(mesh.colours[0].b, 0);
 }
 
+TEST(MeshFile, FacesOfPlyKeepColoursOfTheirOwn) {
+    const TestFolder folder;
+    const auto file = folder.write("faces.ply",
+                                   "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                                   "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+                                   "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
+                                   "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 255 0 0\n3 0 2 3 0 0 128\n");
+    const Mesh mesh = readMesh(file, {0, 1, 0});
+    ASSERT_EQ(mesh.indices.size(), 6u);
+    for (std::size_t corner = 0; corner < 6; ++corner) {
+        const glm::vec3& colour = mesh.colours[mesh.indices[corner]];
+        EXPECT_EQ(colour, corner < 3 ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, maths::decodeSrgb(128.0f / 255)));
+    }
+    EXPECT_EQ(mesh.positions[mesh.indices[5]], glm::vec3(0, 1, 0));
+}
+
 TEST(MeshFile, SaysInOneLineWhyAMeshCannotBeRead) {
     const TestFolder folder;
     const auto message = [&](const std::filesystem::path& file) {
