@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -52,10 +53,6 @@ void maximum(std::atomic<float>& most, float value) {
     float seen = most.load(std::memory_order_relaxed);
     while (value > seen && !most.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
     }
-}
-
-glm::ivec3 shapeOf(const SplitLayout& layout) {
-    return {layout.nx, layout.ny, layout.nz};
 }
 
 }  // namespace
@@ -121,31 +118,65 @@ float PoissonLevel::diagonal(int i, int j, int k) const {
     return static_cast<float>(bytes_[(i + j + k) & 1][layout.at(j, k) + static_cast<std::size_t>(i >> 1)]);
 }
 
+void PoissonLevel::readFaces(int axis, int j, int k, FaceRow& row) const {
+    const auto nx = static_cast<std::size_t>(layout.nx);
+    if (finest) {
+        const std::uint8_t* own = conductance_ + cells_.at(-1, j, k);
+        const std::uint8_t* next = own + (axis == 0 ? 1 : axis == 1 ? cells_.row : cells_.slab);
+        loop(nx + 1, [&](std::size_t i) { row[i] += static_cast<float>(own[i] * next[i]); });
+        return;
+    }
+    const std::size_t at = layout.at(j, k);
+    const float* even = faces_[axis].colour[(j + k) & 1] + at;
+    const float* odd = faces_[axis].colour[(1 + j + k) & 1] + at;
+    if (axis == 0) row[0] += odd[-1];
+    loop(nx / 2, [&](std::size_t m) {
+        row[2 * m + 1] += even[m];
+        row[2 * m + 2] += odd[m];
+    });
+    if (nx % 2 != 0) row[nx] += even[nx / 2];
+}
+
 void PoissonLevel::buildFrom(const PoissonLevel& finer) {
-    const glm::ivec3 fine = shapeOf(finer.layout);
-    for (SplitField& faces : faces_)
-        for (float* values : faces.colour) std::memset(values, 0, layout.size() * sizeof(float));
-    for (float* values : sum_.colour) std::memset(values, 0, layout.size() * sizeof(float));
-    // Sums of finer faces that lie in the face behind coarse cell (I, J, K) along an axis; −1: before the first.
-    const auto coarseFace = [&](int axis, glm::ivec3 cell) {
-        glm::ivec3 first = cell * 2, last = min(first + 2, fine);
-        first[axis] = cell[axis] < 0 ? -1 : std::min(cell[axis] * 2 + 1, fine[axis] - 1);
-        last[axis] = first[axis] + 1;
-        float sum = 0;
-        for (int k = first.z; k < last.z; ++k)
-            for (int j = first.y; j < last.y; ++j)
-                for (int i = first.x; i < last.x; ++i) sum += finer.face(axis, i, j, k);
-        return fine[axis] == 1 ? sum : 0.5f * sum;
+    const SplitLayout& fine = finer.layout;
+    const auto nx = static_cast<std::size_t>(layout.nx), fineNx = static_cast<std::size_t>(fine.nx);
+    // Behind coarse cell I lies the face behind finer cell 2I + 1, or behind the last.
+    const auto behind = [](int coarse, int cells) { return std::min(2 * coarse + 1, cells - 1); };
+    const auto scale = [](int cells) { return cells == 1 ? 1.0f : 0.5f; };
+    const auto write = [&](SplitField& faces, int j, int k, const FaceRow& row) {
+        float* even = faces.colour[(j + k) & 1] + layout.at(j, k);
+        float* odd = faces.colour[(1 + j + k) & 1] + layout.at(j, k);
+        for (std::size_t m = 0; m < layout.half; ++m) {
+            even[m] = row[2 * m];
+            odd[m] = 2 * m + 1 < nx ? row[2 * m + 1] : 0.0f;
+        }
+    };
+    // The faces across y or z of two rows of finer cells, two by two along x.
+    const auto across = [&](int axis, int j, int k, int fineJ, int fineK) {
+        FaceRow sums, row;
+        std::fill_n(sums.data(), fineNx + 2, 0.0f);
+        const int other = axis == 1 ? fineK : fineJ, last = axis == 1 ? fine.nz : fine.ny;
+        for (int r = other; r < std::min(other + 2, last); ++r)
+            finer.readFaces(axis, axis == 1 ? fineJ : r, axis == 1 ? r : fineK, sums);
+        const float half = scale(axis == 1 ? fine.ny : fine.nz);
+        sums[fineNx + 1] = 0;
+        loop(nx, [&](std::size_t i) { row[i] = half * (sums[2 * i + 1] + sums[2 * i + 2]); });
+        write(faces_[axis], j, k, row);
     };
     forRows([&](int j, int k) {
-        for (int i = 0; i < layout.nx; ++i)
-            for (int axis = 0; axis < 3; ++axis) {
-                glm::ivec3 cell(i, j, k);
-                faces_[axis].cell(layout, i, j, k) = coarseFace(axis, cell);
-                if (cell[axis] != 0) continue;
-                cell[axis] = -1;
-                faces_[axis].cell(layout, cell.x, cell.y, cell.z) = coarseFace(axis, cell);
-            }
+        FaceRow sums, row;
+        std::fill_n(sums.data(), fineNx + 2, 0.0f);
+        for (int z = 2 * k; z < std::min(2 * k + 2, fine.nz); ++z)
+            for (int y = 2 * j; y < std::min(2 * j + 2, fine.ny); ++y) finer.readFaces(0, y, z, sums);
+        const float half = scale(fine.nx);
+        loop(nx - 1, [&](std::size_t i) { row[i] = half * sums[2 * i + 2]; });
+        row[nx - 1] = half * sums[fineNx];
+        write(faces_[0], j, k, row);
+        faces_[0].cell(layout, -1, j, k) = half * sums[0];
+        across(1, j, k, behind(j, fine.ny), 2 * k);
+        across(2, j, k, 2 * j, behind(k, fine.nz));
+        if (j == 0) across(1, -1, k, -1, 2 * k);
+        if (k == 0) across(2, j, -1, 2 * j, -1);
     });
     forRows([&](int j, int k) {
         for (int colour = 0; colour < 2; ++colour) {
@@ -211,7 +242,9 @@ float PoissonLevel::rowResidual(int colour, int j, int k, float* out) const {
     const Around p = aroundRow(layout, pressure.colour[1 - colour], colour, j, k);
     const float* own = pressure.colour[colour] + at;
     const float* f = rightSide.colour[colour] + at;
-    float most = 0;
+    // As integers, the magnitudes of floats have the same order, and what is not a number is the greatest.
+    std::int32_t most = 0;
+    const auto magnitude = [](float r) { return std::bit_cast<std::int32_t>(r) & 0x7fffffff; };
     if (finest) {
         const std::uint8_t* weights = bytes_[colour] + at;
 #pragma GCC ivdep
@@ -220,7 +253,7 @@ float PoissonLevel::rowResidual(int colour, int j, int k, float* out) const {
             const auto weight = static_cast<float>(weights[m]);
             const float r = weight > 0 ? f[m] - (sum - weight * own[m]) : 0.0f;
             if constexpr (keep) out[m] += r;
-            most = std::max(most, std::fabs(r));
+            most = std::max(most, magnitude(r));
         }
     } else {
         const float* weights = sum_.colour[colour] + at;
@@ -232,10 +265,10 @@ float PoissonLevel::rowResidual(int colour, int j, int k, float* out) const {
                               (w.near[m] * p.near[m] + w.far[m] * p.far[m]);
             const float r = weights[m] > 0 ? f[m] - (sum - weights[m] * own[m]) : 0.0f;
             if constexpr (keep) out[m] += r;
-            most = std::max(most, std::fabs(r));
+            most = std::max(most, magnitude(r));
         }
     }
-    return most;
+    return std::bit_cast<float>(most);
 }
 
 float PoissonLevel::redResidual() const {

@@ -5,6 +5,7 @@
 // Units: h²·∇²q = h·∇·u in metres per second, see projection.h. Threads: rows in blocks.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "methods/shared/fluid/cell_field.h"
@@ -46,6 +47,10 @@ class PoissonLevel {
     SplitField pressure, rightSide;
 
  private:
+    /// Place 0 is for the ghost before the first cell.
+    using FaceRow = std::array<float, 4100>;
+    /// Adds the weights of the faces behind the cells of a row; along x also that before the first.
+    void readFaces(int axis, int j, int k, FaceRow& row) const;
     template <typename Row>
     void forRows(const Row& row) const;
     void sweep(int colour, const SplitField& target, const SplitField& source) const;
