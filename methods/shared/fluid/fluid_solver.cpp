@@ -1,0 +1,264 @@
+#include "methods/shared/fluid/fluid_solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <mutex>
+#include <stdexcept>
+
+#include "methods/shared/available_memory.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/fluid/lanes.h"
+#include "methods/shared/maths/hash.h"
+#include "methods/shared/parallel/for_each_block.h"
+
+namespace dustbench::fluid {
+namespace {
+
+constexpr std::array<std::string_view, lanes> laneNames{"velocity x", "velocity y",  "velocity z",
+                                                        "density",    "temperature", "reaction"};
+
+void requireAtLeastNothing(const char* name, float value) {
+    if (!(value >= 0) || !std::isfinite(value))
+        throw InputError(std::string(name) + ": got " + std::to_string(value) + ", allowed: 0 or more");
+}
+
+const FluidSettings& checked(const FluidSettings& settings) {
+    check(settings.box);
+    const ForceSettings& forces = settings.forces;
+    requireAtLeastNothing("confinement", forces.confinementPerSecond);
+    requireAtLeastNothing("decay of the density", forces.densityDecayPerSecond);
+    requireAtLeastNothing("cooling", forces.coolingPerSecond);
+    requireAtLeastNothing("loss of the reaction", forces.reactionLossPerSecond);
+    requireAtLeastNothing("viscosity", forces.viscosityM2PerSecond);
+    for (int axis = 0; axis < 3; ++axis)
+        if (!std::isfinite(settings.windMetresPerSecond[axis]))
+            throw InputError("wind: got " + std::to_string(settings.windMetresPerSecond[axis]) +
+                             ", allowed: metres per second");
+    if (!(settings.divergencePerStep > 0))
+        throw InputError("divergence: got " + std::to_string(settings.divergencePerStep) + ", allowed: more than 0");
+    if (settings.jacobiSweeps < 0)
+        throw InputError("jacobi sweeps: got " + std::to_string(settings.jacobiSweeps) + ", allowed: 0 or more");
+    // All of it at once, so that nothing is half allocated.
+    const CellLayout layout(settings.box.cells);
+    requireAvailable("grid of the fluid", layout.padded() * (2 * lanes * sizeof(float) + 1));
+    return settings;
+}
+
+}  // namespace
+
+FluidSolver::FluidSolver(const FluidSettings& settings, MemoryLedger& ledger)
+    : settings_(checked(settings)),
+      layout_(settings.box.cells),
+      pressure_(layout_, settings.sides),
+      cells_(layout_, ledger.account("fluid cells"), floatsToLend()),
+      spare_(layout_, ledger.account("fluid cells of the last step"), floatsToLend()),
+      solids_(layout_, settings.sides, ledger.account("fluid solids")),
+      advection_(layout_, ledger.account("fluid advection window")) {
+    for (std::size_t at = 0; at < layout_.padded(); ++at)
+        for (int axis = 0; axis < 3; ++axis) cells_.cell(at)[axis] = settings_.windMetresPerSecond[axis];
+    solids_.set({}, cells_);
+}
+
+std::size_t FluidSolver::floatsToLend() const {
+    return std::max(pressure_.floatsNeeded(), forceFloats(layout_));
+}
+
+void FluidSolver::setSolids(const SolidMask& mask) {
+    solids_.set(mask, cells_);
+    speedsKnown_ = false;
+}
+
+void FluidSolver::fill(GhostUse use) {
+    fillGhosts(cells_, layout_, {settings_.sides, settings_.windMetresPerSecond, settings_.noSlip}, use);
+}
+
+StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> sources, const StageClock& clock) {
+    if (!(stepSeconds > 0) || !std::isfinite(stepSeconds))
+        throw InputError("step: got " + std::to_string(stepSeconds) + " s, allowed: more than 0");
+    if (!speedsKnown_) findGreatestSpeeds();
+    const auto seconds = static_cast<float>(stepSeconds);
+    const auto spacing = static_cast<float>(settings_.box.spacingMetres);
+    StepReport report;
+    {
+        const auto timing = clock.measureDetail("advect");
+        solids_.extendInto(cells_, !settings_.noSlip);
+        fill(GhostUse::lookUp);
+        advection_.advect(cells_, spare_, solids_.conductance(), settings_.advection, seconds / spacing,
+                          greatestSpeeds_.z);
+        cells_.swap(spare_);
+        solids_.restore(cells_);
+    }
+    {
+        const auto timing = clock.measureDetail("forces");
+        addSources(sources, seconds);
+        diffuseVelocity(seconds);
+        if (settings_.forces.confinementPerSecond > 0) fill(GhostUse::lookUp);
+        applyForces(cells_, layout_, solids_.conductance(), settings_.forces, spacing, seconds, borrowed());
+    }
+    {
+        const auto timing = clock.measureDetail("project");
+        report.pressure = project(seconds);
+    }
+    ++steps_;
+    lastStepSeconds_ = stepSeconds;
+    findGreatestSpeeds();
+    report.divergencePerStep = report.pressure.residual * seconds / spacing;
+    report.cellsPerStep = std::max({greatestSpeeds_.x, greatestSpeeds_.y, greatestSpeeds_.z}) * seconds / spacing;
+    return report;
+}
+
+PressureResult FluidSolver::project(float seconds) {
+    fill(GhostUse::faces);
+    pressure_.build(borrowed(), solids_.conductance());
+    gatherDivergence(cells_, layout_, solids_.conductance(), pressure_.finest());
+    const PressureRule rule{settings_.pressure, settings_.jacobiSweeps, settings_.mostCycles,
+                            settings_.divergencePerStep * static_cast<float>(settings_.box.spacingMetres) / seconds};
+    const PressureResult result = pressure_.solve(rule);
+    projection_.subtractGradient(cells_, layout_, solids_, pressure_.finest());
+    return result;
+}
+
+void FluidSolver::addSources(std::span<const FluidSource> sources, float seconds) {
+    const FluidBox& box = settings_.box;
+    for (const FluidSource& source : sources) {
+        if (!(source.radiusMetres > 0))
+            throw InputError("source: got a radius of " + std::to_string(source.radiusMetres) +
+                             " m, allowed: more than 0");
+        const glm::dvec3 centre = (source.centreMetres - box.originMetres) / box.spacingMetres - 0.5;
+        const double reach = 3 * source.radiusMetres / box.spacingMetres;
+        // What lies outside the box has no cells; clamped first, so that far away is no overflow.
+        const auto bound = [&](double cell, int axis) {
+            return static_cast<int>(std::clamp(cell, -1.0, static_cast<double>(box.cells[axis])));
+        };
+        const auto perRadius = static_cast<float>(box.spacingMetres / source.radiusMetres);
+        glm::ivec3 first, last;
+        for (int axis = 0; axis < 3; ++axis) {
+            first[axis] = std::max(0, bound(std::ceil(centre[axis] - reach), axis));
+            last[axis] = std::min(box.cells[axis] - 1, bound(std::floor(centre[axis] + reach), axis));
+        }
+        const float taken = 1 - std::exp(-source.velocityPerSecond * seconds);
+        for (int k = first.z; k <= last.z; ++k)
+            for (int j = first.y; j <= last.y; ++j)
+                for (int i = first.x; i <= last.x; ++i) {
+                    const std::size_t at = layout_.at(i, j, k);
+                    if (solids_.conductance()[at] != 1) continue;
+                    const glm::vec3 d = glm::vec3(glm::dvec3(i, j, k) - centre) * perRadius;
+                    const float strength = std::exp(-0.5f * (d.x * d.x + d.y * d.y + d.z * d.z));
+                    float* record = cells_.cell(at);
+                    record[density] += strength * source.densityPerSecond * seconds;
+                    record[temperature] += strength * source.kelvinPerSecond * seconds;
+                    record[reaction] = std::max(record[reaction], strength * source.reaction);
+                    for (int axis = 0; axis < 3; ++axis)
+                        record[axis] += strength * taken * (source.velocityMetresPerSecond[axis] - record[axis]);
+                }
+    }
+}
+
+void FluidSolver::diffuseVelocity(float seconds) {
+    const auto spacing = static_cast<float>(settings_.box.spacingMetres);
+    const float diffusion = settings_.forces.viscosityM2PerSecond * seconds / (spacing * spacing);
+    if (diffusion == 0) return;
+    const float parts = std::ceil(diffusion * 8);
+    if (parts > 1000)
+        throw InputError(
+            "viscosity: got " + std::to_string(settings_.forces.viscosityM2PerSecond) + " m2/s, allowed: up to " +
+            std::to_string(settings_.forces.viscosityM2PerSecond * 1000 / parts) + " at this step and spacing");
+    for (float part = 0; part < parts; ++part) {
+        fill(GhostUse::lookUp);
+        diffuse(cells_, layout_, solids_.conductance(), diffusion / parts, borrowed());
+    }
+}
+
+void FluidSolver::findGreatestSpeeds() {
+    // Eight records are three vectors; place p of these 48 floats is lane p mod 6.
+    constexpr std::size_t vectors = 3, together = vectors * 16;
+    using Places = std::array<Float16, vectors>;
+    std::mutex mutex;
+    std::array<float, lanes> greatest{};
+    bool lost = false;
+    parallel::forEachBlock(layout_.rows(), 128, [&](std::size_t first, std::size_t count) {
+        Places most{}, zero{};
+        const auto look = [&](const float* values) {
+            for (std::size_t v = 0; v < vectors; ++v) {
+                const auto value = load<Float16>(values + v * 16);
+                most[v] = atLeast(most[v], value < 0 ? -value : value);
+                zero[v] += value * 0.0f;  // not 0 where a number is lost
+            }
+        };
+        const std::size_t floats = static_cast<std::size_t>(layout_.nx) * lanes;
+        for (std::size_t r = first; r < first + count; ++r) {
+            const float* row = cells_.cell(layout_.at(0, layout_.rowJ(r), layout_.rowK(r)));
+            std::size_t f = 0;
+            for (; f + together <= floats; f += together) look(row + f);
+            if (f == floats) continue;
+            std::array<float, together> rest{};
+            std::copy(row + f, row + floats, rest.begin());
+            look(rest.data());
+        }
+        const std::scoped_lock lock(mutex);
+        for (std::size_t p = 0; p < together; ++p) {
+            greatest[p % lanes] = std::max(greatest[p % lanes], most[p / 16][p % 16]);
+            lost |= !(zero[p / 16][p % 16] == 0);
+        }
+    });
+    if (lost) throwLostNumber();
+    for (int axis = 0; axis < 3; ++axis)
+        greatestSpeeds_[axis] =
+            std::max(greatest[static_cast<std::size_t>(axis)], std::fabs(settings_.windMetresPerSecond[axis]));
+    speedsKnown_ = true;
+}
+
+void FluidSolver::throwLostNumber() const {
+    for (int k = 0; k < layout_.nz; ++k)
+        for (int j = 0; j < layout_.ny; ++j)
+            for (int i = 0; i < layout_.nx; ++i)
+                for (std::size_t lane = 0; lane < lanes; ++lane)
+                    if (!std::isfinite(cells_.cell(layout_.at(i, j, k))[lane]))
+                        throw std::runtime_error("fluid: after step " + std::to_string(steps_) + " the " +
+                                                 std::string(laneNames[lane]) + " of cell " + std::to_string(i) + ", " +
+                                                 std::to_string(j) + ", " + std::to_string(k) + " is not a number");
+    throw std::logic_error("fluid: a number was lost and is there again");
+}
+
+void FluidSolver::scroll(glm::ivec3 by) {
+    const std::array<int, 3> size{layout_.nx, layout_.ny, layout_.nz};
+    parallel::forEachBlock(layout_.rows(), 16, [&](std::size_t first, std::size_t count) {
+        for (std::size_t r = first; r < first + count; ++r) {
+            const int j = layout_.rowJ(r), k = layout_.rowK(r);
+            for (int i = 0; i < size[0]; ++i) {
+                float* record = spare_.cell(layout_.at(i, j, k));
+                const glm::ivec3 from = glm::ivec3(i, j, k) + by;
+                const bool inside = from.x >= 0 && from.y >= 0 && from.z >= 0 && from.x < size[0] && from.y < size[1] &&
+                                    from.z < size[2];
+                if (inside) {
+                    std::memcpy(record, cells_.cell(layout_.at(from.x, from.y, from.z)), lanes * sizeof(float));
+                } else {
+                    for (int axis = 0; axis < 3; ++axis) record[axis] = settings_.windMetresPerSecond[axis];
+                    record[density] = record[temperature] = record[reaction] = 0;
+                }
+            }
+        }
+    });
+    cells_.swap(spare_);
+    settings_.box.originMetres += glm::dvec3(by) * settings_.box.spacingMetres;
+    lastStepSeconds_ = 0;  // where its pressure was, the cells are now
+    setSolids({});
+}
+
+float FluidSolver::pressureM2PerS2(int i, int j, int k) const {
+    if (lastStepSeconds_ == 0 || pressure_.finest().pressure.colour[0] == nullptr) return 0;
+    return pressure_.finest().pressure.cell(pressure_.finest().layout, i, j, k) *
+           static_cast<float>(settings_.box.spacingMetres / lastStepSeconds_);
+}
+
+std::uint64_t FluidSolver::stateHash() const {
+    maths::Hash hash;
+    for (std::size_t r = 0; r < layout_.rows(); ++r)
+        hash.add(std::span<const float>(cells_.cell(layout_.at(0, layout_.rowJ(r), layout_.rowK(r))),
+                                        static_cast<std::size_t>(layout_.nx) * lanes));
+    return hash.value();
+}
+
+}  // namespace dustbench::fluid

@@ -1,0 +1,149 @@
+#include "methods/shared/fluid/forces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "methods/shared/fluid/lanes.h"
+#include "methods/shared/parallel/for_each_block.h"
+
+namespace dustbench::fluid {
+namespace {
+
+constexpr std::size_t rowsInABlock = 32;
+constexpr std::size_t mostCells = 4096;
+/// Less is nothing: without this, fading smoke ends in numbers that the processor is slow with.
+constexpr float nothing = 1e-18f;
+
+struct Curl {
+    Curl(const CellLayout& layout, std::span<float> memory)
+        : count(layout.rows() * static_cast<std::size_t>(layout.nx)),
+          x(memory.data()),
+          y(x + count),
+          z(y + count),
+          length(z + count) {}
+    std::size_t count;
+    float *x, *y, *z, *length;
+};
+
+/// Rows of a force in m/s², ready to be added.
+struct ForceRows {
+    std::array<float, mostCells> x, y, z;
+};
+
+/// f = ε·h·(N × ω), N = ∇|ω| / |∇|ω||. Beyond the box |ω| goes on.
+void confinementRow(const Curl& curl, const CellLayout& layout, int j, int k, float strength, ForceRows& force) {
+    const auto nx = static_cast<std::size_t>(layout.nx), slab = nx * static_cast<std::size_t>(layout.ny);
+    const std::size_t at = static_cast<std::size_t>(k) * slab + static_cast<std::size_t>(j) * nx;
+    const float* own = curl.length + at;
+    const float* below = j > 0 ? own - nx : own;
+    const float* above = j + 1 < layout.ny ? own + nx : own;
+    const float* before = k > 0 ? own - slab : own;
+    const float* behind = k + 1 < layout.nz ? own + slab : own;
+    const float *wx = curl.x + at, *wy = curl.y + at, *wz = curl.z + at;
+    const auto cell = [&](std::size_t i, float left, float right) {
+        const float gx = right - left, gy = above[i] - below[i], gz = behind[i] - before[i];
+        const float scale = strength / std::sqrt(gx * gx + gy * gy + gz * gz + 1e-20f);
+        force.x[i] = scale * (gy * wz[i] - gz * wy[i]);
+        force.y[i] = scale * (gz * wx[i] - gx * wz[i]);
+        force.z[i] = scale * (gx * wy[i] - gy * wx[i]);
+    };
+#pragma GCC ivdep
+    for (std::size_t i = 1; i + 1 < nx; ++i) cell(i, own[i - 1], own[i + 1]);
+    cell(0, own[0], own[1]);
+    cell(nx - 1, own[nx - 2], own[nx - 1]);
+}
+
+}  // namespace
+
+std::size_t forceFloats(const CellLayout& layout) {
+    return 4 * layout.rows() * static_cast<std::size_t>(layout.nx);
+}
+
+void gatherCurl(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, float spacingMetres,
+                std::span<float> memory) {
+    const Curl curl(layout, memory);
+    const float perTwoCells = 0.5f / spacingMetres;
+    const auto nx = static_cast<std::size_t>(layout.nx);
+    parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
+        for (std::size_t r = first; r < first + count; ++r) {
+            const std::size_t at = layout.at(0, layout.rowJ(r), layout.rowK(r));
+            const float* own = cells.cell(at);
+            const std::size_t row = layout.row * lanes, slab = layout.slab * lanes;
+            float *x = curl.x + r * nx, *y = curl.y + r * nx, *z = curl.z + r * nx, *length = curl.length + r * nx;
+            for (std::size_t i = 0; i < nx; ++i, own += lanes) {
+                const float fluid = conductance[at + i] == 1 ? perTwoCells : 0.0f;
+                const Float4 alongX = load<Float4>(own + lanes) - load<Float4>(own - lanes);
+                const Float4 alongY = load<Float4>(own + row) - load<Float4>(own - row);
+                const Float4 alongZ = load<Float4>(own + slab) - load<Float4>(own - slab);
+                x[i] = (alongY[2] - alongZ[1]) * fluid;
+                y[i] = (alongZ[0] - alongX[2]) * fluid;
+                z[i] = (alongX[1] - alongY[0]) * fluid;
+            }
+#pragma GCC ivdep
+            for (std::size_t i = 0; i < nx; ++i) length[i] = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+        }
+    });
+}
+
+void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
+                 const ForceSettings& settings, float spacingMetres, float stepSeconds, std::span<float> borrowed) {
+    const Curl curl(layout, borrowed);
+    const bool confined = settings.confinementPerSecond > 0;
+    if (confined) gatherCurl(cells, layout, conductance, spacingMetres, borrowed);
+    const float strength = settings.confinementPerSecond * spacingMetres * stepSeconds;
+    const float keptDensity = std::exp(-settings.densityDecayPerSecond * stepSeconds);
+    const float keptHeat = std::exp(-settings.coolingPerSecond * stepSeconds);
+    const float lost = settings.reactionLossPerSecond * stepSeconds;
+    const float lift = settings.buoyancyPerKelvin * stepSeconds, weight = settings.weightPerDensity * stepSeconds;
+    const auto nx = static_cast<std::size_t>(layout.nx);
+    parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
+        ForceRows force;
+        if (!confined) {
+            std::fill_n(force.x.data(), nx, 0.0f);
+            std::fill_n(force.y.data(), nx, 0.0f);
+            std::fill_n(force.z.data(), nx, 0.0f);
+        }
+        for (std::size_t r = first; r < first + count; ++r) {
+            const int j = layout.rowJ(r), k = layout.rowK(r);
+            const std::size_t at = layout.at(0, j, k);
+            float* record = cells.cell(at);
+            if (confined) confinementRow(curl, layout, j, k, strength, force);
+            const auto real = [](float value) { return std::fabs(value) < nothing ? 0.0f : value; };
+            for (std::size_t i = 0; i < nx; ++i, record += lanes) {
+                if (conductance[at + i] != 1) continue;
+                record[velocityX] += force.x[i];
+                record[velocityY] += force.y[i] + (lift * record[temperature] - weight * record[density]);
+                record[velocityZ] += force.z[i];
+                record[density] = real(record[density] * keptDensity);
+                record[temperature] = real(record[temperature] * keptHeat);
+                record[reaction] = std::max(record[reaction] - lost, 0.0f);
+            }
+        }
+    });
+}
+
+void diffuse(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, float diffusion,
+             std::span<float> borrowed) {
+    const auto nx = static_cast<std::size_t>(layout.nx);
+    const std::size_t row = layout.row * lanes, slab = layout.slab * lanes;
+    const auto forRows = [&](const auto& cell) {
+        parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
+            for (std::size_t r = first; r < first + count; ++r) {
+                const std::size_t at = layout.at(0, layout.rowJ(r), layout.rowK(r));
+                for (std::size_t i = 0; i < nx; ++i)
+                    if (conductance[at + i] == 1) cell(cells.cell(at + i), borrowed.data() + 3 * (r * nx + i));
+            }
+        });
+    };
+    forRows([&](const float* own, float* change) {
+        for (std::size_t lane = 0; lane < 3; ++lane)
+            change[lane] = diffusion * ((own + lanes)[lane] + (own - lanes)[lane] + (own + row)[lane] +
+                                        (own - row)[lane] + (own + slab)[lane] + (own - slab)[lane] - 6 * own[lane]);
+    });
+    forRows([&](float* own, const float* change) {
+        for (std::size_t lane = 0; lane < 3; ++lane) own[lane] += change[lane];
+    });
+}
+
+}  // namespace dustbench::fluid

@@ -1,0 +1,68 @@
+// One grid of the pressure's hierarchy: Σ w·(pₙ − p) = f over the six faces of each cell, and its smoother.
+//
+// The finest grid's weights follow from the cells (1 between cells of fluid, 2 at an open side, 0 at solids and walls),
+// so a byte for their sum is all that it keeps; p is 0 in solids and ghosts. Coarser ones hold a weight for each face.
+// Units: h²·∇²q = h·∇·u in metres per second, see projection.h. Threads: rows in blocks.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "methods/shared/fluid/cell_field.h"
+#include "methods/shared/fluid/split_rows.h"
+
+namespace dustbench::fluid {
+
+class PoissonLevel {
+ public:
+    PoissonLevel(glm::ivec3 cells, bool finest, Arena& arena);
+
+    /// The finest grid, from SolidCells::conductance.
+    void build(const CellLayout& cells, const std::uint8_t* conductance);
+    /// A coarser one: a face conducts what the finer faces in it do, over twice the distance.
+    void buildFrom(const PoissonLevel& finer);
+
+    void clearPressure();
+    void clearRightSide();
+    /// One Gauss-Seidel sweep: red, then black.
+    void smooth();
+    /// One Jacobi sweep, from `pressure` to `other`.
+    void jacobi(const SplitField& other);
+    /// Max |f − Ap| over red cells. After `smooth`, black ones have no residual.
+    [[nodiscard]] float redResidual() const;
+    /// The same, and the sums of residuals over each coarse cell become the coarse right side.
+    float restrictTo(PoissonLevel& coarse) const;
+    /// Max |f − Ap| over all cells.
+    [[nodiscard]] float residual() const;
+    /// Adds the coarse solution, interpolated, to the black cells. The red ones follow with the next sweep.
+    void addToBlack(const PoissonLevel& coarse);
+    /// Brings `pressure` into the order of cells, ghosts mirrored at walls and sign-reversed at open sides.
+    void fillNatural(const std::uint8_t (&openSides)[6]);
+
+    [[nodiscard]] float face(int axis, int i, int j, int k) const;
+    [[nodiscard]] float diagonal(int i, int j, int k) const;
+
+    SplitLayout layout;
+    bool finest;
+    SplitField pressure, rightSide;
+
+ private:
+    /// Place 0 is for the ghost before the first cell.
+    using FaceRow = std::array<float, 4100>;
+    /// Adds the weights of the faces behind the cells of a row; along x also that before the first.
+    void readFaces(int axis, int j, int k, FaceRow& row) const;
+    template <typename Row>
+    void forRows(const Row& row) const;
+    void sweep(int colour, const SplitField& target, const SplitField& source) const;
+    template <bool keep>
+    float rowResidual(int colour, int j, int k, float* out) const;
+
+    SplitField faces_[3]{};     ///< coarse: weight of the face to the next cell along x, y, z
+    SplitField sum_{};          ///< coarse: of the six weights
+    std::uint8_t* bytes_[2]{};  ///< finest: of the six weights
+    const std::uint8_t* conductance_ = nullptr;
+    CellLayout cells_;
+    float* natural_ = nullptr;
+};
+
+}  // namespace dustbench::fluid

@@ -1,0 +1,173 @@
+#include "methods/shared/fluid/projection.h"
+
+#include <algorithm>
+#include <array>
+
+#include "methods/shared/parallel/for_each_block.h"
+
+namespace dustbench::fluid {
+namespace {
+
+constexpr std::size_t mostCells = 4096;
+constexpr std::size_t rowsInABlock = 32;
+
+/// True where all cells of the row and of the four rows beside it are fluid, its own ends aside.
+bool isPlain(const std::uint8_t* own, std::ptrdiff_t row, std::ptrdiff_t slab, int nx) {
+    int other = 0;
+    for (int i = 0; i < nx; ++i)
+        other |= (own[i] ^ 1) | (own[i - row] ^ 1) | (own[i + row] ^ 1) | (own[i - slab] ^ 1) | (own[i + slab] ^ 1);
+    return other == 0;
+}
+
+float divergenceOf(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, std::size_t at) {
+    const auto row = static_cast<std::ptrdiff_t>(layout.row), slab = static_cast<std::ptrdiff_t>(layout.slab);
+    return (faceSpeed(cells, conductance, at, 1, 0) - faceSpeed(cells, conductance, at, -1, 0)) +
+           (faceSpeed(cells, conductance, at, row, 1) - faceSpeed(cells, conductance, at, -row, 1)) +
+           (faceSpeed(cells, conductance, at, slab, 2) - faceSpeed(cells, conductance, at, -slab, 2));
+}
+
+/// Weights and pressures around one cell.
+struct Cell {
+    std::size_t at;
+    int i, j, k;
+};
+
+/// What the two faces of a cell along an axis change by, −h·∇q.
+struct FaceChanges {
+    float before, behind;
+};
+
+FaceChanges changes(const PoissonLevel& level, const std::uint8_t* conductance, const Cell& cell, int axis,
+                    std::ptrdiff_t step) {
+    const auto q = [&](int offset) {
+        return level.pressure.cell(level.layout, cell.i + (axis == 0 ? offset : 0), cell.j + (axis == 1 ? offset : 0),
+                                   cell.k + (axis == 2 ? offset : 0));
+    };
+    const auto weight = [&](std::ptrdiff_t to) {
+        return static_cast<float>(conductance[static_cast<std::ptrdiff_t>(cell.at) + to]);
+    };
+    return {weight(-step) * (q(-1) - q(0)), weight(step) * (q(0) - q(1))};
+}
+
+}  // namespace
+
+float faceSpeed(const CellField& cells, const std::uint8_t* conductance, std::size_t at, std::ptrdiff_t step,
+                std::size_t axis) {
+    const float own = cells.cell(at)[axis];
+    const float other = *(cells.cell(at) + step * static_cast<std::ptrdiff_t>(lanes) + axis);
+    return conductance[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) + step)] == 0 ? other
+                                                                                              : 0.5f * (own + other);
+}
+
+void gatherDivergence(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
+                      PoissonLevel& finest) {
+    const auto row = static_cast<std::ptrdiff_t>(layout.row), slab = static_cast<std::ptrdiff_t>(layout.slab);
+    const auto nx = static_cast<std::size_t>(layout.nx);
+    const SplitLayout& to = finest.layout;
+    parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
+        std::array<float, mostCells + 1> sums;
+        for (std::size_t r = first; r < first + count; ++r) {
+            const int j = layout.rowJ(r), k = layout.rowK(r);
+            const std::size_t at = layout.at(0, j, k);
+            const std::uint8_t* own = conductance + at;
+            const float* x = cells.cell(at);
+            const auto general = [&](std::size_t i) {
+                sums[i] = own[i] == 1 ? divergenceOf(cells, layout, conductance, at + i) : 0.0f;
+            };
+            if (isPlain(own, row, slab, layout.nx)) {
+                const float* below = cells.cell(at - layout.row) + 1;
+                const float* above = cells.cell(at + layout.row) + 1;
+                const float* before = cells.cell(at - layout.slab) + 2;
+                const float* behind = cells.cell(at + layout.slab) + 2;
+                for (std::size_t i = 1; i + 1 < nx; ++i)
+                    sums[i] = 0.5f * ((x[(i + 1) * lanes] - x[(i - 1) * lanes]) +
+                                      (above[i * lanes] - below[i * lanes]) + (behind[i * lanes] - before[i * lanes]));
+                general(0);
+                general(nx - 1);
+            } else {
+                for (std::size_t i = 0; i < nx; ++i) general(i);
+            }
+            sums[nx] = 0;
+            const int colour = (j + k) & 1;
+            float* even = finest.rightSide.colour[colour] + to.at(j, k);
+            float* odd = finest.rightSide.colour[1 - colour] + to.at(j, k);
+            for (std::size_t m = 0; m < to.half; ++m) {
+                even[m] = sums[2 * m];
+                odd[m] = sums[2 * m + 1];
+            }
+        }
+    });
+}
+
+void Projection::subtractGradient(CellField& cells, const CellLayout& layout, const SolidCells& solids,
+                                  const PoissonLevel& finest) {
+    const std::uint8_t* conductance = solids.conductance();
+    const auto row = static_cast<std::ptrdiff_t>(layout.row), slab = static_cast<std::ptrdiff_t>(layout.slab);
+    const std::array<std::ptrdiff_t, 3> steps{1, row, slab};
+    const auto cellAt = [&](std::size_t at) {
+        const std::size_t inSlab = at % layout.slab;
+        return Cell{at, static_cast<int>(inSlab % layout.row) - 1, static_cast<int>(inSlab / layout.row) - 1,
+                    static_cast<int>(at / layout.slab) - 1};
+    };
+    // Beside blocked faces first, while their neighbours still have the speeds of before.
+    const auto beside = solids.besideBlocked();
+    besideBlocked_.resize(beside.size());
+    parallel::forEachBlock(beside.size(), 2048, [&](std::size_t first, std::size_t count) {
+        for (std::size_t b = first; b < first + count; ++b) {
+            const Cell cell = cellAt(beside[b]);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const std::ptrdiff_t step = steps[axis];
+                const FaceChanges change = changes(finest, conductance, cell, static_cast<int>(axis), step);
+                const auto at = static_cast<std::ptrdiff_t>(cell.at);
+                const bool blocked = conductance[at - step] == 0 || conductance[at + step] == 0;
+                const float speeds = blocked ? 0.5f * (faceSpeed(cells, conductance, cell.at, -step, axis) +
+                                                       faceSpeed(cells, conductance, cell.at, step, axis))
+                                             : cells.cell(cell.at)[axis];
+                besideBlocked_[b][static_cast<int>(axis)] = speeds + 0.5f * (change.before + change.behind);
+            }
+        }
+    });
+    const SplitLayout& in = finest.layout;
+    const auto nx = static_cast<std::size_t>(layout.nx);
+    parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
+        std::array<float, mostCells / 2 + 1> x, y, z;
+        for (std::size_t r = first; r < first + count; ++r) {
+            const int j = layout.rowJ(r), k = layout.rowK(r);
+            const std::size_t at = layout.at(0, j, k);
+            float* record = cells.cell(at);
+            const auto general = [&](std::size_t i) {
+                if (conductance[at + i] != 1) return;
+                const Cell cell{at + i, static_cast<int>(i), j, k};
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const FaceChanges change = changes(finest, conductance, cell, static_cast<int>(axis), steps[axis]);
+                    record[i * lanes + axis] += 0.5f * (change.before + change.behind);
+                }
+            };
+            if (!isPlain(conductance + at, row, slab, layout.nx)) {
+                for (std::size_t i = 0; i < nx; ++i) general(i);
+                continue;
+            }
+            for (int colour = 0; colour < 2; ++colour) {
+                const std::size_t odd = static_cast<std::size_t>((colour + j + k) & 1);
+                const float* q = finest.pressure.colour[1 - colour] + in.at(j, k);
+                const float* before = odd != 0 ? q : q - 1;
+                for (std::size_t m = 0; m < in.half; ++m) {
+                    x[m] = 0.5f * (before[m] - before[m + 1]);
+                    y[m] = 0.5f * (q[m - in.row] - q[m + in.row]);
+                    z[m] = 0.5f * (q[m - in.slab] - q[m + in.slab]);
+                }
+                for (std::size_t i = odd != 0 ? 1 : 2, m = odd != 0 ? 0 : 1; i + 1 < nx; i += 2, ++m) {
+                    record[i * lanes] += x[m];
+                    record[i * lanes + 1] += y[m];
+                    record[i * lanes + 2] += z[m];
+                }
+            }
+            general(0);
+            general(nx - 1);
+        }
+    });
+    for (std::size_t b = 0; b < beside.size(); ++b)
+        for (int axis = 0; axis < 3; ++axis) cells.cell(beside[b])[axis] = besideBlocked_[b][axis];
+}
+
+}  // namespace dustbench::fluid
