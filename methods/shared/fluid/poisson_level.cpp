@@ -25,12 +25,8 @@ Around aroundRow(const SplitLayout& layout, const float* other, int colour, int 
         here, odd ? here + 1 : here - 1, here - layout.row, here + layout.row, here - layout.slab, here + layout.slab};
 }
 
-/// Weights of the six faces of a row's cells, in the order of Around.
-struct FaceRows {
-    const float *here, *beside, *below, *above, *near, *far;
-};
-
-FaceRows facesOfRow(const SplitLayout& layout, const SplitField (&faces)[3], int colour, int j, int k) {
+/// Weights of the six faces of a row's cells, in the order of what lies beyond them.
+Around facesOfRow(const SplitLayout& layout, const SplitField (&faces)[3], int colour, int j, int k) {
     const std::size_t at = layout.at(j, k);
     const bool odd = ((colour + j + k) & 1) != 0;
     const float* own = faces[0].colour[colour] + at;
@@ -180,7 +176,7 @@ void PoissonLevel::buildFrom(const PoissonLevel& finer) {
     });
     forRows([&](int j, int k) {
         for (int colour = 0; colour < 2; ++colour) {
-            const FaceRows w = facesOfRow(layout, faces_, colour, j, k);
+            const Around w = facesOfRow(layout, faces_, colour, j, k);
             float* sum = sum_.colour[colour] + layout.at(j, k);
             loop(layout.half, [&](std::size_t m) {
                 sum[m] = (w.here[m] + w.beside[m]) + (w.below[m] + w.above[m]) + (w.near[m] + w.far[m]);
@@ -215,7 +211,7 @@ void PoissonLevel::sweep(int colour, const SplitField& target, const SplitField&
             });
         } else {
             const float* weights = sum_.colour[colour] + at;
-            const FaceRows w = facesOfRow(layout, faces_, colour, j, k);
+            const Around w = facesOfRow(layout, faces_, colour, j, k);
             loop(layout.half, [&](std::size_t m) {
                 const float sum = (w.here[m] * p.here[m] + w.beside[m] * p.beside[m]) +
                                   (w.below[m] * p.below[m] + w.above[m] * p.above[m]) +
@@ -257,7 +253,7 @@ float PoissonLevel::rowResidual(int colour, int j, int k, float* out) const {
         }
     } else {
         const float* weights = sum_.colour[colour] + at;
-        const FaceRows w = facesOfRow(layout, faces_, colour, j, k);
+        const Around w = facesOfRow(layout, faces_, colour, j, k);
 #pragma GCC ivdep
         for (std::size_t m = 0; m < layout.half; ++m) {
             const float sum = (w.here[m] * p.here[m] + w.beside[m] * p.beside[m]) +
