@@ -125,7 +125,8 @@ TEST(Suite, EveryMethodOfTheBuildTakesPartWhereAllAre) {
 
 TEST(Suite, ExceptionsLeaveOutTheCellsThatHaveAllTheirValues) {
     const std::string text =
-        "methods = [\"null_method\"]\ndrives = [\"straight\", \"slalom\"]\n[parameters]\nwork = [0, 1, 2]\nspeed = [5, 10]\n"
+        "methods = [\"null_method\"]\ndrives = [\"straight\", \"slalom\"]\n[parameters]\nwork = [0, 1, 2]\nspeed = [5, "
+        "10]\n"
         "[[except]]\ndrives = [\"slalom\"]\n[except.parameters]\nwork = [1, 2.0]\n[[except]]\n[except.parameters]\n"
         "speed = \"10\"\nwork = 0\n[quick]\ndrives = [\"straight\"]\n";
     const Suite suite = parseSuite(text, "s.toml", false);
@@ -136,7 +137,8 @@ TEST(Suite, ExceptionsLeaveOutTheCellsThatHaveAllTheirValues) {
         EXPECT_FALSE(parameters.at("speed") == "10" && parameters.at("work") == "0");
     }
     EXPECT_EQ(parseSuite(text, "s.toml", true).cells.size(), 6u - 1u);
-    EXPECT_THAT(messageOf("[[except]]\nmethods = [\"null_methd\"]"), AllOf(HasSubstr("s.toml:2"), HasSubstr("'null_method'")));
+    EXPECT_THAT(messageOf("[[except]]\nmethods = [\"null_methd\"]"),
+                AllOf(HasSubstr("s.toml:2"), HasSubstr("'null_method'")));
     EXPECT_THAT(messageOf("\n[[except]]\n[except.parameters]\nwrok = 1"),
                 AllOf(HasSubstr("s.toml:2"), HasSubstr("leaves nothing out")));
     EXPECT_THAT(messageOf("[[except]]\n[except.parameters]\nspeed = 0"), HasSubstr("nothing is left"));

@@ -124,7 +124,7 @@ Device::Device() {
     info_.renderer = text(GL_RENDERER);
     info_.version = text(GL_VERSION);
     listenToDebugOutput();
-    glEnable(GL_PROGRAM_POINT_SIZE);  // shaders say how large points are
+    glEnable(GL_PROGRAM_POINT_SIZE);               // shaders say how large points are
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);  // reversed depth keeps its precision only without the −1..1 remap
 }
 
