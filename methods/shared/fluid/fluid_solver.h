@@ -3,7 +3,7 @@
 // A step carries everything along, adds sources and forces, and makes the flow free of divergence.
 // Units: SI. Frame: world. Owns all fields; memory is on the ledger. Threads: one caller; its loops use the current
 // arena, and no result depends on how many threads there are. Source: Crane2007, 30.2; Senger2009, 4.1. Departs: see
-// reports/decisions/0005-fluid-grid.md.
+// reports/decisions/0006-fluid-grid.md.
 #pragma once
 
 #include <cstdint>
