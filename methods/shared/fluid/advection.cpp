@@ -32,9 +32,9 @@ class Paths {
         const Float4 middle = inside(place - step_ * 0.5f * velocity);
         return inside(place - step_ * velocityAt(middle));
     }
-    [[gnu::always_inline]] Float4 forward(const Float4& place, const Float4& velocity) const {
-        const Float4 middle = inside(place + step_ * 0.5f * velocity);
-        return place + step_ * velocityAt(middle);
+    /// From where a path began, x₋, to where it will end.
+    [[gnu::always_inline]] Float4 mirrored(const Float4& began, const Float4& velocity) const {
+        return began + step_ * 2.0f * velocity;
     }
 
  private:
@@ -69,83 +69,75 @@ struct Advection::Pass {
     const std::uint8_t* fluid;
     AdvectionRule rule;
     float cellsPerSpeed;
+    int reach;  ///< slabs that a look-up along z may touch, on either side
     RecordView field, window;
 };
 
 void Advection::predict(const Pass& pass, int firstSlab, int lastSlab) {
     const bool corrected = pass.rule.scheme == AdvectionScheme::macCormack;
     const Paths paths(pass.field, layout_, pass.cellsPerSpeed);
-    const auto ny = static_cast<std::size_t>(layout_.ny);
-    parallel::forEachBlock(
-        static_cast<std::size_t>(lastSlab - firstSlab) * ny, rowsInABlock, [&](std::size_t first, std::size_t count) {
-            // A row's paths first, then what is found at their ends: many cells at once are then in flight.
-            std::array<Float4, mostCells> places;
-            for (std::size_t r = first; r < first + count; ++r) {
-                const int j = layout_.rowJ(r), k = firstSlab + layout_.rowK(r);
-                const std::size_t at = layout_.at(0, j, k);
-                const std::size_t there =
-                    corrected ? windowSlabs_[static_cast<std::size_t>(k) + 1] + at % layout_.slab : at;
-                const float* own = pass.from.cell(at);
-                const std::uint8_t* fluid = pass.fluid + at;
-                for (int i = 0; i < layout_.nx; ++i)
-                    places[static_cast<std::size_t>(i)] =
-                        paths.back(centre(i, j, k), load<Float4>(own + static_cast<std::size_t>(i) * lanes));
-                float* out = (corrected ? window_.data() : pass.to.data()) + there * lanes;
-                std::uint32_t* node = corrected ? nodes_.data() + there : nullptr;
-                for (int i = 0; i < layout_.nx; ++i, own += lanes, out += lanes) {
-                    if (fluid[i] != 1) {
-                        storeRecord(out, load<Float8>(own));
-                        continue;
-                    }
-                    const Corners corners = paths.around(places[static_cast<std::size_t>(i)]);
-                    storeRecord(out, sample(corners, pass.field.row));
-                    if (node) node[i] = corners.node;
-                }
-            }
-        });
+    const auto nx = static_cast<std::size_t>(layout_.nx), ny = static_cast<std::size_t>(layout_.ny);
+    const auto row = [&](int j, int k, std::array<Float4, mostCells>& places) {
+        const std::size_t at = layout_.at(0, j, k), there = corrected ? inWindow(at) : at;
+        const float* own = pass.from.cell(at);
+        const std::uint8_t* fluid = pass.fluid + at;
+        // The row's paths first, then what is found at their ends: many cells at once are then in flight.
+        for (std::size_t i = 0; i < nx; ++i)
+            places[i] = paths.back(centre(static_cast<int>(i), j, k), load<Float4>(own + i * lanes));
+        float* out = (corrected ? window_.data() : pass.to.data()) + there * lanes;
+        for (std::size_t i = 0; i < nx; ++i)
+            storeRecord(out + i * lanes, fluid[i] == 1 ? sample(paths.around(places[i]), pass.field.row)
+                                                       : load<Float8>(own + i * lanes));
+        if (!corrected) return;
+        float* kept = places_.data() + there * 3;
+        for (std::size_t i = 0; i < nx; ++i) store(kept + i * 3, places[i]);
+    };
+    parallel::forEachBlock(static_cast<std::size_t>(lastSlab - firstSlab) * ny, rowsInABlock,
+                           [&](std::size_t first, std::size_t count) {
+                               std::array<Float4, mostCells> places;
+                               for (std::size_t r = first; r < first + count; ++r)
+                                   row(layout_.rowJ(r), firstSlab + layout_.rowK(r), places);
+                           });
 }
 
 void Advection::correct(const Pass& pass, int firstSlab, int lastSlab) {
     const Paths paths(pass.field, layout_, pass.cellsPerSpeed);
     const Paths guesses(pass.window, layout_, pass.cellsPerSpeed);
-    const auto ny = static_cast<std::size_t>(layout_.ny);
-    // Beyond the outermost centres there is no first guess to look up.
-    const Float4 low{1, 1, 1, 0};
-    const Float4 high{static_cast<float>(layout_.nx), static_cast<float>(layout_.ny), static_cast<float>(layout_.nz),
-                      0};
-    parallel::forEachBlock(
-        static_cast<std::size_t>(lastSlab - firstSlab) * ny, rowsInABlock, [&](std::size_t first, std::size_t count) {
-            std::array<Float4, mostCells> places;
-            for (std::size_t r = first; r < first + count; ++r) {
-                const int j = layout_.rowJ(r), k = firstSlab + layout_.rowK(r);
-                const std::size_t at = layout_.at(0, j, k);
-                const std::size_t there = windowSlabs_[static_cast<std::size_t>(k) + 1] + at % layout_.slab;
-                const float* own = pass.from.cell(at);
-                const float* guess = window_.data() + there * lanes;
-                const std::uint32_t* node = nodes_.data() + there;
-                float* out = pass.to.cell(at);
-                for (int i = 0; i < layout_.nx; ++i)
-                    places[static_cast<std::size_t>(i)] =
-                        paths.forward(centre(i, j, k), load<Float4>(own + static_cast<std::size_t>(i) * lanes));
-                for (int i = 0; i < layout_.nx; ++i, own += lanes, guess += lanes, out += lanes) {
-                    Float8 value = load<Float8>(guess);
-                    const Float4 ahead = places[static_cast<std::size_t>(i)];
-                    const Int4 within = (ahead >= low) & (ahead <= high);
-                    if (pass.fluid[at + static_cast<std::size_t>(i)] == 1 && (within[0] & within[1] & within[2]) != 0) {
-                        // φ = φ̂ + ½(φⁿ − φ̃)
-                        value += 0.5f * (load<Float8>(own) - sample(guesses.around(ahead), pass.window.row));
-                        if (pass.rule.clampToExtrema) {
-                            const float* low000 = pass.from.cell(node[i]);
-                            const Corners corners{low000, low000 + layout_.slab * lanes, {}, 0};
-                            Float8 least, most;
-                            extrema(corners, pass.field.row, least, most);
-                            value = atMost(atLeast(value, least), most);
-                        }
-                    }
-                    storeRecord(out, value);
+    const auto nx = static_cast<std::size_t>(layout_.nx), ny = static_cast<std::size_t>(layout_.ny);
+    const auto row = [&](int j, int k) {
+        const std::size_t at = layout_.at(0, j, k), there = inWindow(at);
+        const float* own = pass.from.cell(at);
+        const float* guess = window_.data() + there * lanes;
+        const float* kept = places_.data() + there * 3;
+        float* out = pass.to.cell(at);
+        const std::uint8_t* fluid = pass.fluid + at;
+        // There is no first guess beyond the outermost centres, nor farther along z than the flow is fast.
+        const int slabs = pass.reach - 1;
+        const Float4 low{1, 1, static_cast<float>(std::max(1, k + 1 - slabs)), 0};
+        const Float4 high{static_cast<float>(layout_.nx), static_cast<float>(layout_.ny),
+                          static_cast<float>(std::min(layout_.nz, k + 1 + slabs)), 0};
+        for (std::size_t i = 0; i < nx; ++i, own += lanes, guess += lanes, kept += 3, out += lanes) {
+            Float8 value = load<Float8>(guess);
+            const Float4 behind = load<Float4>(kept);
+            const Float4 ahead = paths.mirrored(behind, load<Float4>(own));
+            const Int4 within = (ahead >= low) & (ahead <= high) & (behind >= low) & (behind <= high);
+            if (fluid[i] == 1 && (within[0] & within[1] & within[2]) != 0) {
+                // φ = φ̂ + ½(φⁿ − φ̃)
+                value += 0.5f * (load<Float8>(own) - sample(guesses.around(ahead), pass.window.row));
+                if (pass.rule.clampToExtrema) {
+                    Float8 least, most;
+                    extrema(paths.around(behind), pass.field.row, least, most);
+                    value = atMost(atLeast(value, least), most);
                 }
             }
-        });
+            storeRecord(out, value);
+        }
+    };
+    parallel::forEachBlock(static_cast<std::size_t>(lastSlab - firstSlab) * ny, rowsInABlock,
+                           [&](std::size_t first, std::size_t count) {
+                               for (std::size_t r = first; r < first + count; ++r)
+                                   row(layout_.rowJ(r), firstSlab + layout_.rowK(r));
+                           });
 }
 
 void Advection::advect(const CellField& from, CellField& to, const std::uint8_t* fluid, AdvectionRule rule,
@@ -156,8 +148,8 @@ void Advection::advect(const CellField& from, CellField& to, const std::uint8_t*
     const int reach = static_cast<int>(cells) + 2;
     const bool corrected = rule.scheme == AdvectionScheme::macCormack;
     const std::size_t held = std::min(slabs, static_cast<std::size_t>(slabsAtATime + 2 * reach + 1));
-    if (corrected && nodes_.size() < held * layout_.slab) {
-        nodes_.resize(held * layout_.slab);
+    if (corrected && places_.size() < held * layout_.slab * 3) {
+        places_.resize(held * layout_.slab * 3 + CellField::floatsBehind);
         window_.resize(held * layout_.slab * lanes + CellField::floatsBehind);
     }
     fieldSlabs_.resize(slabs);
@@ -172,6 +164,7 @@ void Advection::advect(const CellField& from, CellField& to, const std::uint8_t*
                     fluid,
                     rule,
                     cellsPerSpeed,
+                    reach,
                     {from.data(), rowFloats, fieldSlabs_.data()},
                     {window_.data(), rowFloats, windowSlabs_.data()}};
     if (!corrected) return predict(pass, 0, nz);

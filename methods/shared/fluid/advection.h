@@ -2,8 +2,8 @@
 //
 // Units: metres per second, cells. Threads: rows in blocks; each cell by itself.
 // Source: Stam1999, 2.2 (semi-Lagrangian); Selle2008, Eq. 4 and 3.2 (MacCormack, clamped to the extrema).
-// Departs: where the forward path leaves the box, the first guess stays; with slabs computed in passing, a window of
-// the first guess is held instead of all of it.
+// Departs: the path ahead is the one behind, mirrored: x₊ = x₋ + 2Δt·u(x), of second order as well and without a
+// look-up; where either leaves the box, the first guess stays; a window of slabs is held instead of all first guesses.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct AdvectionRule {
 
 class Advection {
  public:
-    Advection(const CellLayout& layout, MemoryAccount& window) : layout_(layout), window_(window), nodes_(window) {}
+    Advection(const CellLayout& layout, MemoryAccount& window) : layout_(layout), window_(window), places_(window) {}
 
     /// `from`, with ghosts filled, after `cellsPerSpeed` = Δt/h, into `to`. `fluid` is 1 for cells of fluid; what is
     /// not is copied. No speed along z exceeds `mostSpeedZ`.
@@ -31,12 +31,16 @@ class Advection {
 
  private:
     struct Pass;
+    /// Where a cell of the whole field lies in the window.
+    [[nodiscard]] std::size_t inWindow(std::size_t at) const {
+        return windowSlabs_[at / layout_.slab] + at % layout_.slab;
+    }
     void predict(const Pass& pass, int firstSlab, int lastSlab);
     void correct(const Pass& pass, int firstSlab, int lastSlab);
 
     CellLayout layout_;
-    LedgerVector<float> window_;         ///< first guesses of the slabs in work
-    LedgerVector<std::uint32_t> nodes_;  ///< for each of these cells, the corner from which it was looked up
+    LedgerVector<float> window_;  ///< first guesses of the slabs in work
+    LedgerVector<float> places_;  ///< for each of these cells, where its air comes from: x, y, z
     std::vector<std::uint32_t> fieldSlabs_, windowSlabs_;
 };
 

@@ -95,6 +95,8 @@ void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t*
     const float keptDensity = std::exp(-settings.densityDecayPerSecond * stepSeconds);
     const float keptHeat = std::exp(-settings.coolingPerSecond * stepSeconds);
     const float lost = settings.reactionLossPerSecond * stepSeconds;
+    const Float8 kept{1, 1, 1, keptDensity, keptHeat, 1, 0, 0};
+    const Float8 negligible = Float8{} + nothing;
     const float lift = settings.buoyancyPerKelvin * stepSeconds, weight = settings.weightPerDensity * stepSeconds;
     const auto nx = static_cast<std::size_t>(layout.nx);
     parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
@@ -109,15 +111,15 @@ void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t*
             const std::size_t at = layout.at(0, j, k);
             float* record = cells.cell(at);
             if (confined) confinementRow(curl, layout, j, k, strength, force);
-            const auto real = [](float value) { return std::fabs(value) < nothing ? 0.0f : value; };
             for (std::size_t i = 0; i < nx; ++i, record += lanes) {
                 if (conductance[at + i] != 1) continue;
-                record[velocityX] += force.x[i];
-                record[velocityY] += force.y[i] + (lift * record[temperature] - weight * record[density]);
-                record[velocityZ] += force.z[i];
-                record[density] = real(record[density] * keptDensity);
-                record[temperature] = real(record[temperature] * keptHeat);
-                record[reaction] = std::max(record[reaction] - lost, 0.0f);
+                const auto old = load<Float8>(record);
+                const float rise = force.y[i] + (lift * old[temperature] - weight * old[density]);
+                Float8 now = old * kept + Float8{force.x[i], rise, force.z[i], 0, 0, -lost, 0, 0};
+                now = now > negligible || now < -negligible ? now : Float8{};
+                store(record, __builtin_shufflevector(now, now, 0, 1, 2, 3));
+                record[temperature] = now[temperature];
+                record[reaction] = now[reaction] > 0 ? now[reaction] : 0.0f;
             }
         }
     });

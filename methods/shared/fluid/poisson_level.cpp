@@ -7,52 +7,9 @@
 #include <cstring>
 #include <vector>
 
-#include "methods/shared/parallel/for_each_block.h"
+#include "methods/shared/fluid/poisson_rows.h"
 
 namespace dustbench::fluid {
-namespace {
-
-/// Rows around that of one colour: x from the other colour of its own row, y and z from the rows beside it.
-struct Around {
-    const float *here, *beside, *below, *above, *near, *far;
-};
-
-Around aroundRow(const SplitLayout& layout, const float* other, int colour, int j, int k) {
-    const float* here = other + layout.at(j, k);
-    // Cells of this colour begin at i = 0 or at i = 1: their neighbours in x are numbers m − 1 and m, or m and m + 1.
-    const bool odd = ((colour + j + k) & 1) != 0;
-    return {
-        here, odd ? here + 1 : here - 1, here - layout.row, here + layout.row, here - layout.slab, here + layout.slab};
-}
-
-/// Weights of the six faces of a row's cells, in the order of what lies beyond them.
-Around facesOfRow(const SplitLayout& layout, const SplitField (&faces)[3], int colour, int j, int k) {
-    const std::size_t at = layout.at(j, k);
-    const bool odd = ((colour + j + k) & 1) != 0;
-    const float* own = faces[0].colour[colour] + at;
-    const float* other = faces[0].colour[1 - colour] + at;
-    const float* ownY = faces[1].colour[colour] + at;
-    const float* otherY = faces[1].colour[1 - colour] + at;
-    const float* ownZ = faces[2].colour[colour] + at;
-    const float* otherZ = faces[2].colour[1 - colour] + at;
-    // An even cell's next is number m and its last m − 1; an odd cell's last is number m and its next m + 1.
-    return {odd ? other : own, odd ? own : other - 1, otherY - layout.row, ownY, otherZ - layout.slab, ownZ};
-}
-
-template <typename Body>
-[[gnu::always_inline]] inline void loop(std::size_t count, const Body& body) {
-#pragma GCC ivdep
-    for (std::size_t m = 0; m < count; ++m) body(m);
-}
-
-void maximum(std::atomic<float>& most, float value) {
-    float seen = most.load(std::memory_order_relaxed);
-    while (value > seen && !most.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
-    }
-}
-
-}  // namespace
-
 PoissonLevel::PoissonLevel(glm::ivec3 shape, bool isFinest, Arena& arena)
     : layout(shape),
       finest(isFinest),
@@ -71,16 +28,9 @@ PoissonLevel::PoissonLevel(glm::ivec3 shape, bool isFinest, Arena& arena)
     natural_ = arena.take(cells_.padded());
 }
 
-template <typename Row>
-void PoissonLevel::forRows(const Row& row) const {
-    parallel::forEachBlock(layout.rows(), layout.rowsInABlock(), [&](std::size_t first, std::size_t count) {
-        for (std::size_t r = first; r < first + count; ++r) row(layout.rowJ(r), layout.rowK(r));
-    });
-}
-
 void PoissonLevel::build(const CellLayout& cells, const std::uint8_t* conductance) {
     conductance_ = conductance;
-    forRows([&](int j, int k) {
+    forRows(layout, [&](int j, int k) {
         const std::uint8_t* own = conductance + cells.at(0, j, k);
         const auto row = static_cast<std::ptrdiff_t>(cells.row), slab = static_cast<std::ptrdiff_t>(cells.slab);
         std::uint8_t sums[4097];
@@ -114,80 +64,6 @@ float PoissonLevel::diagonal(int i, int j, int k) const {
     return static_cast<float>(bytes_[(i + j + k) & 1][layout.at(j, k) + static_cast<std::size_t>(i >> 1)]);
 }
 
-void PoissonLevel::readFaces(int axis, int j, int k, FaceRow& row) const {
-    const auto nx = static_cast<std::size_t>(layout.nx);
-    if (finest) {
-        const std::uint8_t* own = conductance_ + cells_.at(-1, j, k);
-        const std::uint8_t* next = own + (axis == 0 ? 1 : axis == 1 ? cells_.row : cells_.slab);
-        loop(nx + 1, [&](std::size_t i) { row[i] += static_cast<float>(own[i] * next[i]); });
-        return;
-    }
-    const std::size_t at = layout.at(j, k);
-    const float* even = faces_[axis].colour[(j + k) & 1] + at;
-    const float* odd = faces_[axis].colour[(1 + j + k) & 1] + at;
-    if (axis == 0) row[0] += odd[-1];
-    loop(nx / 2, [&](std::size_t m) {
-        row[2 * m + 1] += even[m];
-        row[2 * m + 2] += odd[m];
-    });
-    if (nx % 2 != 0) row[nx] += even[nx / 2];
-}
-
-void PoissonLevel::buildFrom(const PoissonLevel& finer) {
-    const SplitLayout& fine = finer.layout;
-    const auto nx = static_cast<std::size_t>(layout.nx), fineNx = static_cast<std::size_t>(fine.nx);
-    // Behind coarse cell I lies the face behind finer cell 2I + 1, or behind the last.
-    const auto behind = [](int coarse, int cells) { return std::min(2 * coarse + 1, cells - 1); };
-    const auto scale = [](int cells) { return cells == 1 ? 1.0f : 0.5f; };
-    const auto write = [&](SplitField& faces, int j, int k, const FaceRow& row) {
-        float* even = faces.colour[(j + k) & 1] + layout.at(j, k);
-        float* odd = faces.colour[(1 + j + k) & 1] + layout.at(j, k);
-        for (std::size_t m = 0; m < layout.half; ++m) {
-            even[m] = row[2 * m];
-            odd[m] = 2 * m + 1 < nx ? row[2 * m + 1] : 0.0f;
-        }
-    };
-    // The faces across y or z of two rows of finer cells, two by two along x.
-    const auto across = [&](int axis, int j, int k, int fineJ, int fineK) {
-        FaceRow sums, row;
-        std::fill_n(sums.data(), fineNx + 2, 0.0f);
-        const int other = axis == 1 ? fineK : fineJ, last = axis == 1 ? fine.nz : fine.ny;
-        for (int r = other; r < std::min(other + 2, last); ++r)
-            finer.readFaces(axis, axis == 1 ? fineJ : r, axis == 1 ? r : fineK, sums);
-        const float half = scale(axis == 1 ? fine.ny : fine.nz);
-        sums[fineNx + 1] = 0;
-        loop(nx, [&](std::size_t i) { row[i] = half * (sums[2 * i + 1] + sums[2 * i + 2]); });
-        write(faces_[axis], j, k, row);
-    };
-    forRows([&](int j, int k) {
-        FaceRow sums, row;
-        std::fill_n(sums.data(), fineNx + 2, 0.0f);
-        for (int z = 2 * k; z < std::min(2 * k + 2, fine.nz); ++z)
-            for (int y = 2 * j; y < std::min(2 * j + 2, fine.ny); ++y) finer.readFaces(0, y, z, sums);
-        const float half = scale(fine.nx);
-        loop(nx - 1, [&](std::size_t i) { row[i] = half * sums[2 * i + 2]; });
-        row[nx - 1] = half * sums[fineNx];
-        write(faces_[0], j, k, row);
-        faces_[0].cell(layout, -1, j, k) = half * sums[0];
-        across(1, j, k, behind(j, fine.ny), 2 * k);
-        across(2, j, k, 2 * j, behind(k, fine.nz));
-        if (j == 0) across(1, -1, k, -1, 2 * k);
-        if (k == 0) across(2, j, -1, 2 * j, -1);
-    });
-    forRows([&](int j, int k) {
-        for (int colour = 0; colour < 2; ++colour) {
-            const Around w = facesOfRow(layout, faces_, colour, j, k);
-            float* sum = sum_.colour[colour] + layout.at(j, k);
-            loop(layout.half, [&](std::size_t m) {
-                sum[m] = (w.here[m] + w.beside[m]) + (w.below[m] + w.above[m]) + (w.near[m] + w.far[m]);
-            });
-            // Behind the last cell of an odd row there is none, but its weight is beside it.
-            const bool odd = ((colour + j + k) & 1) != 0;
-            if (odd && layout.nx % 2 != 0) sum[layout.half - 1] = 0;
-        }
-    });
-}
-
 void PoissonLevel::clearPressure() {
     for (float* values : pressure.colour) std::memset(values, 0, layout.size() * sizeof(float));
 }
@@ -196,40 +72,56 @@ void PoissonLevel::clearRightSide() {
     for (float* values : rightSide.colour) std::memset(values, 0, layout.size() * sizeof(float));
 }
 
-void PoissonLevel::sweep(int colour, const SplitField& target, const SplitField& source) const {
-    forRows([&](int j, int k) {
-        const std::size_t at = layout.at(j, k);
-        const Around p = aroundRow(layout, source.colour[1 - colour], colour, j, k);
-        const float* f = rightSide.colour[colour] + at;
-        float* out = target.colour[colour] + at;
-        if (finest) {
-            const std::uint8_t* weights = bytes_[colour] + at;
-            loop(layout.half, [&](std::size_t m) {
-                const float sum = (p.here[m] + p.beside[m]) + (p.below[m] + p.above[m]) + (p.near[m] + p.far[m]);
-                const auto weight = static_cast<float>(weights[m]);
-                out[m] = weight > 0 ? (sum - f[m]) / weight : 0.0f;
-            });
-        } else {
-            const float* weights = sum_.colour[colour] + at;
-            const Around w = facesOfRow(layout, faces_, colour, j, k);
-            loop(layout.half, [&](std::size_t m) {
-                const float sum = (w.here[m] * p.here[m] + w.beside[m] * p.beside[m]) +
-                                  (w.below[m] * p.below[m] + w.above[m] * p.above[m]) +
-                                  (w.near[m] * p.near[m] + w.far[m] * p.far[m]);
-                out[m] = weights[m] > 0 ? (sum - f[m]) / weights[m] : 0.0f;
-            });
+void PoissonLevel::sweepRow(int colour, int j, int k, const SplitField& target, const SplitField& source) const {
+    const std::size_t at = layout.at(j, k);
+    const Around p = aroundRow(layout, source.colour[1 - colour], colour, j, k);
+    const float* f = rightSide.colour[colour] + at;
+    float* out = target.colour[colour] + at;
+    if (finest) {
+        const std::uint8_t* weights = bytes_[colour] + at;
+        loop(layout.half, [&](std::size_t m) {
+            const float sum = (p.here[m] + p.beside[m]) + (p.below[m] + p.above[m]) + (p.near[m] + p.far[m]);
+            const auto weight = static_cast<float>(weights[m]);
+            out[m] = weight > 0 ? (sum - f[m]) / weight : 0.0f;
+        });
+    } else {
+        const float* weights = sum_.colour[colour] + at;
+        const Around w = facesOfRow(layout, faces_, colour, j, k);
+        loop(layout.half, [&](std::size_t m) {
+            const float sum = (w.here[m] * p.here[m] + w.beside[m] * p.beside[m]) +
+                              (w.below[m] * p.below[m] + w.above[m] * p.above[m]) +
+                              (w.near[m] * p.near[m] + w.far[m] * p.far[m]);
+            out[m] = weights[m] > 0 ? (sum - f[m]) / weights[m] : 0.0f;
+        });
+    }
+}
+
+void PoissonLevel::smooth() {
+    const auto sweepSlab = [&](int colour, int k) {
+        for (int j = 0; j < layout.ny; ++j) sweepRow(colour, j, k, pressure, pressure);
+    };
+    // Black follows red a slab behind, while both are in the cache. Blocks meet at slabs whose red cells come first of
+    // all: each black cell then finds its six red neighbours done, and no red one a black that is new.
+    const auto nz = static_cast<std::size_t>(layout.nz);
+    const std::size_t slabs = std::max<std::size_t>(4, 65536 / (layout.cells() / nz));
+    parallel::forEachBlock(nz, slabs, [&](std::size_t first, std::size_t count) {
+        sweepSlab(0, static_cast<int>(first));
+        if (count > 1) sweepSlab(0, static_cast<int>(first + count - 1));
+    });
+    parallel::forEachBlock(nz, slabs, [&](std::size_t first, std::size_t count) {
+        const int begin = static_cast<int>(first), last = static_cast<int>(first + count) - 1;
+        for (int k = begin; k <= last; ++k) {
+            if (k + 1 < last) sweepSlab(0, k + 1);
+            sweepSlab(1, k);
         }
     });
 }
 
-void PoissonLevel::smooth() {
-    sweep(0, pressure, pressure);
-    sweep(1, pressure, pressure);
-}
-
 void PoissonLevel::jacobi(const SplitField& other) {
-    sweep(0, other, pressure);
-    sweep(1, other, pressure);
+    forRows(layout, [&](int j, int k) {
+        sweepRow(0, j, k, other, pressure);
+        sweepRow(1, j, k, other, pressure);
+    });
 }
 
 template <bool keep>
@@ -267,132 +159,18 @@ float PoissonLevel::rowResidual(int colour, int j, int k, float* out) const {
     return std::bit_cast<float>(most);
 }
 
+template float PoissonLevel::rowResidual<true>(int colour, int j, int k, float* out) const;  // poisson_transfer.cpp
+
 float PoissonLevel::redResidual() const {
     std::atomic<float> most{0};
-    forRows([&](int j, int k) { maximum(most, rowResidual<false>(0, j, k, nullptr)); });
+    forRows(layout, [&](int j, int k) { maximum(most, rowResidual<false>(0, j, k, nullptr)); });
     return most;
 }
 
 float PoissonLevel::residual() const {
     std::atomic<float> most{redResidual()};
-    forRows([&](int j, int k) { maximum(most, rowResidual<false>(1, j, k, nullptr)); });
+    forRows(layout, [&](int j, int k) { maximum(most, rowResidual<false>(1, j, k, nullptr)); });
     return most;
-}
-
-float PoissonLevel::restrictTo(PoissonLevel& coarse) const {
-    std::atomic<float> most{0};
-    const SplitLayout& to = coarse.layout;
-    const std::size_t coarseBlock = std::max<std::size_t>(1, layout.rowsInABlock() / 4);
-    parallel::forEachBlock(to.rows(), coarseBlock, [&](std::size_t first, std::size_t count) {
-        float sums[2049];
-        float greatest = 0;
-        for (std::size_t r = first; r < first + count; ++r) {
-            const int J = to.rowJ(r), K = to.rowK(r);
-            std::fill_n(sums, layout.half + 1, 0.0f);
-            // The red cell of fine columns 2I and 2I + 1 is number I of its row, whatever the row.
-            for (int k = 2 * K; k < std::min(2 * K + 2, layout.nz); ++k)
-                for (int j = 2 * J; j < std::min(2 * J + 2, layout.ny); ++j)
-                    greatest = std::max(greatest, rowResidual<true>(0, j, k, sums));
-            const int firstColour = (J + K) & 1;
-            float* even = coarse.rightSide.colour[firstColour] + to.at(J, K);
-            float* odd = coarse.rightSide.colour[1 - firstColour] + to.at(J, K);
-            loop(to.half, [&](std::size_t m) {
-                even[m] = sums[2 * m];
-                odd[m] = sums[2 * m + 1];
-            });
-        }
-        maximum(most, greatest);
-    });
-    return most;
-}
-
-void PoissonLevel::fillNatural(const std::uint8_t (&openSides)[6]) {
-    const int nx = layout.nx, ny = layout.ny, nz = layout.nz;
-    const auto sign = [&](int side) { return openSides[side] != 0 ? -1.0f : 1.0f; };
-    const auto rowOf = [&](int j, int k) { return natural_ + cells_.at(0, j, k); };
-    const auto ends = [&](float* row) {
-        row[-1] = sign(0) * row[0];
-        row[nx] = sign(1) * row[nx - 1];
-    };
-    forRows([&](int j, int k) {
-        const int first = (j + k) & 1;
-        const float* even = pressure.colour[first] + layout.at(j, k);
-        const float* odd = pressure.colour[1 - first] + layout.at(j, k);
-        const float* evenSum = sum_.colour[first] + layout.at(j, k);
-        const float* oddSum = sum_.colour[1 - first] + layout.at(j, k);
-        float* row = rowOf(j, k);
-        float least = 1;
-        for (int i = 0; i + 1 < nx; i += 2) {
-            row[i] = even[i / 2];
-            row[i + 1] = odd[i / 2];
-            least = std::min(least, std::min(evenSum[i / 2], oddSum[i / 2]));
-        }
-        if (nx % 2 != 0) {
-            row[nx - 1] = even[nx / 2];
-            least = std::min(least, evenSum[nx / 2]);
-        }
-        if (least <= 0) {
-            // What is solid all through goes along with the fluid beside it.
-            for (int i = 0; i < nx; ++i) {
-                if (sum_.cell(layout, i, j, k) > 0) continue;
-                float sum = 0, found = 0;
-                const auto add = [&](int x, int y, int z) {
-                    if (x < 0 || y < 0 || z < 0 || x >= nx || y >= ny || z >= nz) return;
-                    if (sum_.cell(layout, x, y, z) <= 0) return;
-                    sum += pressure.cell(layout, x, y, z);
-                    found += 1;
-                };
-                add(i - 1, j, k), add(i + 1, j, k), add(i, j - 1, k);
-                add(i, j + 1, k), add(i, j, k - 1), add(i, j, k + 1);
-                row[i] = found > 0 ? sum / found : 0.0f;
-            }
-        }
-        ends(row);
-    });
-    const auto copy = [&](float* to, const float* from, float factor) {
-        for (int i = -1; i <= nx; ++i) to[i] = factor * from[i];
-    };
-    for (int k = 0; k < nz; ++k) {
-        copy(rowOf(-1, k), rowOf(0, k), sign(2));
-        copy(rowOf(ny, k), rowOf(ny - 1, k), sign(3));
-    }
-    for (int j = -1; j <= ny; ++j) {
-        copy(rowOf(j, -1), rowOf(j, 0), sign(4));
-        copy(rowOf(j, nz), rowOf(j, nz - 1), sign(5));
-    }
-}
-
-void PoissonLevel::addToBlack(const PoissonLevel& coarse) {
-    const CellLayout& from = coarse.cells_;
-    forRows([&](int j, int k) {
-        const int besideJ = (j >> 1) + ((j & 1) != 0 ? 1 : -1), besideK = (k >> 1) + ((k & 1) != 0 ? 1 : -1);
-        const float* a = coarse.natural_ + from.at(-1, j >> 1, k >> 1);
-        const float* b = coarse.natural_ + from.at(-1, besideJ, k >> 1);
-        const float* c = coarse.natural_ + from.at(-1, j >> 1, besideK);
-        const float* d = coarse.natural_ + from.at(-1, besideJ, besideK);
-        float column[2050];
-        loop(static_cast<std::size_t>(from.nx) + 2,
-             [&](std::size_t m) { column[m] = 0.5625f * a[m] + 0.1875f * (b[m] + c[m]) + 0.0625f * d[m]; });
-        // Black cells of columns 2m or 2m + 1: nearer to the coarse cell before, or to that behind.
-        const bool odd = ((1 + j + k) & 1) != 0;
-        const float* own = column + 1;
-        const float* beside = odd ? column + 2 : column;
-        float* p = pressure.colour[1] + layout.at(j, k);
-        const std::size_t count = std::min<std::size_t>(layout.half, static_cast<std::size_t>(from.nx));
-        if (finest) {
-            const std::uint8_t* weights = bytes_[1] + layout.at(j, k);
-            loop(count, [&](std::size_t m) {
-                const float more = 0.75f * own[m] + 0.25f * beside[m];
-                p[m] = weights[m] != 0 ? p[m] + more : p[m];
-            });
-        } else {
-            const float* weights = sum_.colour[1] + layout.at(j, k);
-            loop(count, [&](std::size_t m) {
-                const float more = 0.75f * own[m] + 0.25f * beside[m];
-                p[m] = weights[m] > 0 ? p[m] + more : p[m];
-            });
-        }
-    });
 }
 
 }  // namespace dustbench::fluid

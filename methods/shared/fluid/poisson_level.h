@@ -51,9 +51,7 @@ class PoissonLevel {
     using FaceRow = std::array<float, 4100>;
     /// Adds the weights of the faces behind the cells of a row; along x also that before the first.
     void readFaces(int axis, int j, int k, FaceRow& row) const;
-    template <typename Row>
-    void forRows(const Row& row) const;
-    void sweep(int colour, const SplitField& target, const SplitField& source) const;
+    void sweepRow(int colour, int j, int k, const SplitField& target, const SplitField& source) const;
     template <bool keep>
     float rowResidual(int colour, int j, int k, float* out) const;
 

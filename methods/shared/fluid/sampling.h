@@ -23,7 +23,6 @@ struct RecordView {
 struct Corners {
     const float *low, *high;  ///< the cell at the least corner, and that in the next slab
     Float4 fraction;          ///< of the way to the next cell, 0…1
-    std::uint32_t node;       ///< number of the record at the least corner, in the whole field
 };
 
 /// `place` must lie within `0…last`, the centres of the outermost ghost cells.
@@ -39,7 +38,6 @@ struct Corners {
     corners.low = view.base + (view.slabs[z] + inSlab) * lanes;
     corners.high = view.base + (view.slabs[z + 1] + inSlab) * lanes;
     corners.fraction = place - __builtin_convertvector(whole, Float4);
-    corners.node = static_cast<std::uint32_t>(z * layout.slab + inSlab);
     return corners;
 }
 
