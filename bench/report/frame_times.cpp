@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "bench/report/experiments.h"
@@ -17,8 +18,11 @@ FrameTimes condense(const std::vector<double>& frameMs) {
     if (frameMs.empty()) return times;
     const auto [least, greatest] = std::ranges::minmax(frameMs);
     times.leastMs = least;
-    times.binMs = (greatest - least) / static_cast<double>(histogramBins);
-    times.bins.assign(times.binMs > 0 ? histogramBins : 1, 0);
+    // 2·∛n bins, Rice's rule: enough to see two speeds, few enough not to see each frame.
+    const auto wanted = static_cast<std::size_t>(std::lround(2 * std::cbrt(static_cast<double>(frameMs.size()))));
+    const std::size_t bins = std::clamp(wanted, fewestBins, mostBins);
+    times.binMs = (greatest - least) / static_cast<double>(bins);
+    times.bins.assign(times.binMs > 0 ? bins : 1, 0);
     for (const double ms : frameMs) {
         const auto bin = times.binMs > 0 ? static_cast<std::size_t>((ms - least) / times.binMs) : 0;
         ++times.bins[std::min(bin, times.bins.size() - 1)];

@@ -9,7 +9,7 @@ namespace dustbench::bench {
 
 inline constexpr std::size_t mostRunsWithFrameTimes = 48;
 inline constexpr std::size_t mostTracePoints = 400;
-inline constexpr std::size_t histogramBins = 40;
+inline constexpr std::size_t fewestBins = 8, mostBins = 40;  // of a histogram
 
 /// Of all frames, `label` and ids left to the caller. Bins are equally wide from the least to the greatest.
 [[nodiscard]] FrameTimes condense(const std::vector<double>& frameMs);

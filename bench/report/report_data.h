@@ -91,11 +91,13 @@ struct NotDone {
     std::string runId, status, reason;
 };
 
+/// Of one kind: they differ in their numbers at most.
 struct RunWarnings {
-    std::string warning;
+    std::string warning;  ///< the first
     std::vector<std::string> runs;
 };
 
+/// To be moved, not copied: experiments point into `runs`.
 struct ReportData {
     std::string folder;      ///< its name, for the title
     std::string writtenUtc;  ///< ISO 8601

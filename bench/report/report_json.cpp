@@ -95,7 +95,7 @@ json claimJson(const JudgedClaim& judged, const RunIndex& index) {
             {"paper", paper},
             {"text", claim.text},
             {"suite", claim.suite},
-            {"column", claim.column},
+            {"column", claim.quantity == Quantity::value ? claim.column : ""},
             {"verdict", verdictName(result.verdict)},
             {"measured", number(result.measured)},
             {"low", number(result.low)},

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <regex>
 #include <set>
 
 #include "bench/report/experiments.h"
@@ -82,13 +83,19 @@ void noteBuilds(ReportData& data) {
 }
 
 void noteWhatIsNotDone(ReportData& data) {
-    std::map<std::string, std::vector<std::string>> byWarning;
+    // Those that differ in their numbers alone are of one kind.
+    static const std::regex number("[0-9]+(\\.[0-9]+)?");
+    std::map<std::string, RunWarnings> byKind;
     for (const auto& [id, run] : data.runs) {
         if (run.status != RunStatus::done)
             data.notDone.push_back({id, std::string(statusName(run.status)), run.reason});
-        for (const std::string& warning : run.warnings) byWarning[warning].push_back(id);
+        for (const std::string& warning : run.warnings) {
+            RunWarnings& kind = byKind[std::regex_replace(warning, number, "0")];
+            if (kind.warning.empty()) kind.warning = warning;
+            kind.runs.push_back(id);
+        }
     }
-    for (auto& [warning, runs] : byWarning) data.warnings.push_back({warning, std::move(runs)});
+    for (auto& [kind, warnings] : byKind) data.warnings.push_back(std::move(warnings));
     std::ranges::stable_sort(data.warnings, std::greater(), [](const RunWarnings& entry) { return entry.runs.size(); });
     if (!data.notDone.empty())
         data.problems.push_back(fmt::format("{} of {} runs are not done", data.notDone.size(), data.runs.size()));
@@ -106,6 +113,16 @@ void noteUnknownColumns(ReportData& data) {
             fmt::format("columns that this version does not know, and leaves out: {}", fmt::join(unknown, ", ")));
 }
 
+/// A paper's experiments as the paper lists them, the quick form behind the whole one.
+void inOrderOf(const Paper& paper, std::vector<Experiment>& experiments) {
+    const auto place = [&paper](const Experiment& experiment) {
+        return std::pair(std::ranges::find(paper.suites, experiment.suite) - paper.suites.begin(), experiment.id);
+    };
+    const auto isOurs = [&paper](const Experiment& experiment) { return experiment.paper == paper.id; };
+    const auto rest = std::ranges::stable_partition(experiments, isOurs);
+    std::ranges::sort(experiments.begin(), rest.begin(), {}, place);
+}
+
 void readPapers(const fs::path& folder, ReportData& data) {
     std::set<std::string> ids;
     for (const Experiment& experiment : data.experiments)
@@ -117,6 +134,7 @@ void readPapers(const fs::path& folder, ReportData& data) {
     for (const std::string& id : ids) {
         try {
             data.papers.push_back(loadPaper(id));
+            inOrderOf(data.papers.back(), data.experiments);
             const auto published = readPublished(id);
             for (Experiment& experiment : data.experiments)
                 if (const auto found = published.find(experiment.suite); found != published.end())

@@ -32,7 +32,7 @@ const chartKit = (() => {
                 titleFontSize: 12, titleFontWeight: 500, titlePadding: 8, labelFont: font, titleFont: font,
             },
             title: { color: ink, fontSize: 12.5, fontWeight: 600, font },
-            legend: { labelColor: ink, labelFontSize: 12, labelFont: font, symbolSize: 70, columnPadding: 18, rowPadding: 4 },
+            legend: { labelColor: ink, labelFontSize: 12, labelFont: font, symbolSize: 70, columnPadding: 18, rowPadding: 4, labelLimit: 0 },
             view: { stroke: null },
         };
     };
@@ -123,6 +123,7 @@ const chartKit = (() => {
         const columns = panels === 1 || width < 620 ? 1 : panels === 2 || panels === 4 || width < 900 ? 2 : 3;
         return { columns, each: Math.floor((width - 8 - (columns - 1) * 26) / columns - 62) };
     };
+    const legendColumns = (width, longest) => Math.max(Math.floor(width / (longest * 7.2 + 46)), 1);
     const domainOf = (values, log, zero) => {
         const finite = values.filter(value => Number.isFinite(value) && (!log || value > 0));
         if (!finite.length) return [log ? 1 : 0, 10];
@@ -147,8 +148,7 @@ const chartKit = (() => {
     const costsOf = (report, experiment) => Object.keys(report.columns).filter(name => report.columns[name].cost &&
         experiment.cells.some(cell => valueOf(cell, name)));
     const metricsOf = (report, experiment) => Object.keys(report.columns).filter(name => report.columns[name].metric &&
-        experiment.cells.some(cell => valueOf(cell, name)));
-    const worldsOf = experiment => distinct(inOrder(experiment, experiment.cells).map(cell => worldOf(experiment, cell)));
+        experiment.cells.some(cell => valueOf(cell, 'flip')) && experiment.cells.some(cell => valueOf(cell, name)));
 
     const list = report => {
         const charts = [];
@@ -251,14 +251,15 @@ const chartKit = (() => {
         const spec = fresh(report.specifications.cost);
         setSignals(spec, {
             panelWidth, panelHeight, panelColumns: columns, labelRoom, xTitle: axisTitle(load.name, load.unit), yTitle: axisTitle(info.name, info.unit),
-            xFormat: xs[xs.length - 1] >= 1000 ? '~s' : '~g', yFormat: yDomain[1] >= 10000 ? '~s' : '~g',
+            xFormat: xs[xs.length - 1] >= 100000 ? '~s' : ',~r', yFormat: yDomain[1] >= 100000 ? '~s' : ',~r',
+            legendColumns: legendColumns(chart.width, longest),
         });
         setData(spec, 'panels', shownPanels.map(panel => ({ panel })));
         setData(spec, 'points', seen);
         setData(spec, 'curves', curves);
         setData(spec, 'published', published);
         setData(spec, 'labels', labelled ? endLabels(seen, series, yDomain, yLog, panelHeight) : []);
-        setScale(spec, 'x', xLog ? { type: 'log', domain: domainOf(xs, true) } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
+        setScale(spec, 'x', xLog ? { type: 'log', domain: [xs[0] / 1.12, xs[xs.length - 1] * 1.08] } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
         setScale(spec, 'y', { type: yLog ? 'log' : 'linear', domain: yDomain });
         const names = series.map(({ name }) => name);
         setScale(spec, 'colour', { domain: names, range: styles.map(style => style.colour) });
@@ -284,30 +285,36 @@ const chartKit = (() => {
         const cells = worlds.length > 1 ? all.filter(cell => rest(cell) === world) : all;
         const severalWorlds = distinct(cells.map(cell => worldOf(experiment, cell))).length > 1;
         const severalVariants = distinct(cells.map(cell => variantOf(report, experiment, cell))).length > 1;
-        const rows = [], used = new Set();
-        cells.forEach((cell, place) => {
-            const variant = variantOf(report, experiment, cell);
-            const row = [severalWorlds ? worldOf(experiment, cell) : '', severalVariants || !severalWorlds ? variant : ''].filter(Boolean).join(' · ');
-            const whole = valueOf(cell, 'frame_ms_median')[0];
+        const bars = [], rows = [], used = new Set();
+        let lastWorld = null;
+        for (const cell of cells) {
+            const here = worldOf(experiment, cell);
+            if (severalWorlds && severalVariants && here !== lastWorld) rows.push({ place: rows.length, text: here, header: true, ms: 0, total: '' });
+            lastWorld = here;
+            const text = severalVariants || !severalWorlds ? variantOf(report, experiment, cell) : here;
+            const place = rows.length;
+            let sum = 0;
             stages.forEach((stage, order) => {
                 const value = valueOf(cell, stage + '_ms_median');
                 if (!value) return;
                 used.add(stage);
-                rows.push({
-                    row, place, stage, order, ms: value[0],
-                    tip: { title: row, [stage]: `${fourDigits(value[0])} ms`, frame: `${fourDigits(whole)} ms`, share: `${fourDigits(100 * value[0] / whole)} %` },
-                });
+                sum += value[0];
+                bars.push({ place, stage, order, ms: value[0], whole: valueOf(cell, 'frame_ms_median')[0], text });
             });
-        });
-        if (!rows.length) return { empty: 'The stages of these runs are not recorded.' };
+            rows.push({ place, text, header: false, ms: sum, total: `${fourDigits(sum)} ms` });
+        }
+        if (!bars.length) return { empty: 'The stages of these runs are not recorded.' };
+        for (const bar of bars)
+            bar.tip = { title: bar.text, [bar.stage]: `${fourDigits(bar.ms)} ms`, frame: `${fourDigits(bar.whole)} ms`, share: `${fourDigits(100 * bar.ms / bar.whole)} %` };
         const spec = fresh(report.specifications.stages);
-        const longest = Math.max(...rows.map(row => row.row.length));
-        const labelLimit = Math.min(Math.ceil(longest * 6.4), Math.floor(chart.width * 0.42));
         setSignals(spec, {
-            panelWidth: Math.max(chart.width - labelLimit - 34, 110), rowCount: distinct(rows.map(row => row.row)).length,
-            rowHeight: 22, labelLimit, xTitle: chart.width < 520 ? 'time [ms]' : 'time of the stages, medians [ms]',
+            xTitle: 'medians of the stages [ms]', ink: themes[theme].ink,
+            legendColumns: Math.max(Math.floor(chart.width / 92), 2), greatest: Math.max(...rows.map(row => row.ms)) * (1 + 70 / chart.width),
         });
-        setData(spec, 'stages', rows);
+        spec.width = chart.width - 24;
+        spec.height = rows.length * spec.signals.find(signal => signal.name === 'rowHeight').value;
+        setData(spec, 'rows', rows);
+        setData(spec, 'stages', bars);
         const order = stages.filter(stage => used.has(stage));
         setScale(spec, 'stage', { domain: order, range: order.map(stage => stageColours[theme][stages.indexOf(stage)]) });
         return { spec, notes: [], state: { worlds: worlds.length > 1 ? worlds : [], world } };
@@ -352,7 +359,8 @@ const chartKit = (() => {
         const spec = fresh(report.specifications.quality);
         setSignals(spec, {
             panelWidth, panelHeight: panels.length === 1 ? 300 : 240, panelColumns: columns, xTitle: axisTitle(cost.name, cost.unit),
-            yTitle: axisTitle(info.name, info.unit), xFormat: '~g', yFormat: '~g', frontColour: themes[theme].muted,
+            yTitle: axisTitle(info.name, info.unit), xFormat: ',~r', yFormat: ',~r', frontColour: themes[theme].muted,
+            legendColumns: legendColumns(chart.width, Math.max(...series.map(({ name }) => name.length))),
         });
         setData(spec, 'panels', panels.map(panel => ({ panel })));
         setData(spec, 'points', points);
@@ -399,5 +407,5 @@ const chartKit = (() => {
         const asked = { width: 900, theme: 'light', hidden: new Set(), ...chart };
         return { config: configOf(asked.theme), ...builders[asked.kind](report, asked) };
     };
-    return { list, build, loadsOf, costsOf, metricsOf, worldsOf, methodColour, fourDigits, withUnit, columnOf, variantOf, worldOf, valueOf, themes };
+    return { list, build, loadsOf, costsOf, metricsOf, methodColour, fourDigits, withUnit, columnOf, variantOf, worldOf, valueOf, themes };
 })();
