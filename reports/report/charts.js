@@ -64,7 +64,7 @@ const chartKit = (() => {
         return Array.isArray(value) ? value : [value, value, value];
     };
     const machineLabel = (report, cell) => (report.data.machines.length > 1 ? ` (machine ${cell.machine + 1})` : '');
-    const settingText = (axis, value) => `${axis.name} ${value}${axis.unit ? ' ' + axis.unit : ''}`;
+    const settingText = (axis, value) => `${axis.name} ${value}${axis.unit && axis.unit !== axis.name ? ' ' + axis.unit : ''}`;
     const settingsText = (axes, cell) => axes.filter(axis => cell.settings[axis.name])
         .map(axis => settingText(axis, cell.settings[axis.name])).join(', ');
     const variantOf = (report, experiment, cell, except) => {
@@ -74,15 +74,18 @@ const chartKit = (() => {
     };
     const worldOf = (experiment, cell, except) =>
         settingsText(experiment.axes.filter(axis => axis.world && axis.name !== except), cell);
-    /// In the order of the axes' values, not of their letters.
+    /// By world, method and settings, in the order of the axes' values.
     const inOrder = (experiment, cells) => {
-        const place = cell => experiment.axes.map(axis => axis.values.indexOf(cell.settings[axis.name]));
-        return [...cells].sort((a, b) => {
-            const [first, second] = [place(a), place(b)];
-            const world = experiment.axes.map((axis, index) => index).sort((i, j) => experiment.axes[j].world - experiment.axes[i].world);
-            for (const index of world) if (first[index] !== second[index]) return first[index] - second[index];
-            return a.method < b.method ? -1 : a.method > b.method ? 1 : 0;
-        });
+        const by = axes => (a, b) => {
+            for (const axis of axes) {
+                const apart = axis.values.indexOf(a.settings[axis.name]) - axis.values.indexOf(b.settings[axis.name]);
+                if (apart) return apart;
+            }
+            return 0;
+        };
+        const [world, own] = [true, false].map(is => by(experiment.axes.filter(axis => axis.world === is)));
+        const method = (a, b) => (a.method < b.method ? -1 : a.method > b.method ? 1 : 0);
+        return [...cells].sort((a, b) => world(a, b) || method(a, b) || own(a, b) || a.machine - b.machine);
     };
     const distinct = list => [...new Set(list)];
 

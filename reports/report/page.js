@@ -23,10 +23,11 @@
     const put = (parent, ...children) => parent.append(...children);
     const paragraph = (text, className = '') => element('p', { textContent: text, className });
     const plural = (count, one, many) => `${count} ${count === 1 ? one : many || one + 's'}`;
+    /// A head is [text, class of its column, name of the value where a narrow screen stacks the cells].
     const table = (heads, rows, className = '') => element('div', { className: 'table-scroll' }, [element('table', { className }, [
         element('thead', {}, [element('tr', {}, heads.map(([text, kind]) => element('th', { textContent: text, className: kind || '' })))]),
         element('tbody', {}, rows.map(row => element('tr', {}, row.map((cell, index) => {
-            const td = element('td', { className: heads[index][1] || '', dataset: index ? { name: heads[index][0] } : {} });
+            const td = element('td', { className: heads[index][1] || '', dataset: heads[index][2] ? { name: heads[index][2] } : {} });
             td.append(cell ?? '');
             return td;
         })))),
@@ -149,7 +150,8 @@
         ]);
     };
     const shapeNote = experiment => {
-        if (!experiment.paper) return null;
+        // Our own views of a paper's methods have nothing to be held against.
+        if (!experiment.published.length && !experiment.title.startsWith('Figure')) return null;
         const note = experiment.published.length
             ? 'Grey: what the paper\'s text gives as a number, on the paper\'s machine.'
             : 'Shape only: the paper\'s text gives no numbers that could be drawn here.';
@@ -277,13 +279,13 @@
                 return [
                     element('b', { textContent: claim.id }),
                     element('span', { className: `verdict ${claim.verdict}`, textContent: `${verdictMarks[claim.verdict]} ${claim.verdict}` }),
-                    text, claim.measured === null ? '' : `${number(claim.measured)}${interval}`, expectedOf(claim, number), claimRange(claim), links,
+                    text, claim.measured === null ? '' : `${number(claim.measured)}${interval}`, expectedOf(claim, number), claimRange(claim), links.children.length ? links : '',
                 ];
             });
             put(here, element('article', { className: 'card' }, [
                 element('h3', { textContent: paper.title }),
                 paragraph(`${paper.authors} (${paper.year}), ${paper.venue}`, 'muted'),
-                table([['claim'], ['verdict'], ['what the paper says'], ['measured [interval]', 'number'], ['true if'], [''], ['chart, runs']], rows, 'stacking'),
+                table([['claim'], ['verdict'], ['what the paper says'], ['measured [interval]', 'number', 'measured'], ['true if', '', 'true if'], [''], ['chart, runs']], rows, 'stacking'),
                 paragraph('Confirmed: the whole interval lies within the values in which the claim is true. Refuted: wholly outside. Unresolved: neither, or fewer than ' +
                     '6 repetitions. The interval has 95 %; for what no machine changes (bytes, counts, image metrics) it is the least and the greatest cell.', 'note'),
             ]));
