@@ -61,6 +61,8 @@ void readFrameTimes(const std::filesystem::path& folder, ReportData& data) {
 
     const std::size_t kept = std::min(candidates.size(), mostRunsWithFrameTimes);
     data.runsWithoutFrameTimes = candidates.size() - kept;
+    std::size_t unread = 0;
+    std::string firstFault;
     for (std::size_t index = 0; index < kept; ++index) {
         const Candidate& candidate = candidates[index * candidates.size() / kept];
         const std::filesystem::path file = folder / "runs" / candidate.run->runId / "frames.csv";
@@ -74,9 +76,12 @@ void readFrameTimes(const std::filesystem::path& folder, ReportData& data) {
             times.label = candidate.label;
             data.frameTimes.push_back(std::move(times));
         } catch (const InputError& error) {
-            data.problems.push_back(fmt::format("no frame times of {}: {}", candidate.run->runId, error.what()));
+            if (unread++ == 0) firstFault = error.what();
         }
     }
+    if (unread > 0)
+        data.problems.push_back(
+            fmt::format("frame times of {} runs cannot be read, the first: {}", unread, firstFault));
 }
 
 }  // namespace dustbench::bench

@@ -51,8 +51,7 @@ class Collector {
         const std::string label = variantLabel(experiment, cell);
         const bool wasPictured = run.cells.contains("FILE_image") && !run.cells.at("FILE_image").empty();
         const auto frames = framesIn(folder_ / relative);
-        if (wasPictured && frames.empty())
-            data_.problems.push_back(fmt::format("pictures of {} are missing: {}", run.runId, relative));
+        if (wasPictured && frames.empty() && missing_++ == 0) firstMissing_ = relative;
         const auto reference = run.cells.find("metric_reference");
         const bool isExact = reference == run.cells.end() || reference->second == "exact";
         for (const auto& [frame, has] : frames) {
@@ -67,6 +66,12 @@ class Collector {
             place(set, {label, cell.method, false, start + ".png"});
             if (has.difference) place(set, {label, cell.method, true, start + "_difference.png"});
         }
+    }
+
+    void noteMissing() const {
+        if (missing_ > 0)
+            data_.problems.push_back(
+                fmt::format("the pictures of {} runs are missing, the first in {}", missing_, firstMissing_));
     }
 
  private:
@@ -101,6 +106,8 @@ class Collector {
     const fs::path& folder_;
     std::int64_t bytesLeft_;
     ReportData& data_;
+    std::size_t missing_ = 0;
+    std::string firstMissing_;
 };
 
 }  // namespace
@@ -119,6 +126,7 @@ void collectPictures(const fs::path& folder, std::int64_t mostBytes, ReportData&
     Collector collector(folder, mostBytes, data);
     for (const Experiment& experiment : data.experiments)
         for (const ReportCell& cell : experiment.cells) collector.add(experiment, cell);
+    collector.noteMissing();
 }
 
 }  // namespace dustbench::bench

@@ -259,7 +259,7 @@ const chartKit = (() => {
         });
         setData(spec, 'panels', shownPanels.map(panel => ({ panel })));
         setData(spec, 'points', seen);
-        setData(spec, 'curves', curves);
+        setData(spec, 'curves', curves.filter(row => row.y >= yDomain[0] && row.y <= yDomain[1]));
         setData(spec, 'published', published);
         setData(spec, 'labels', labelled ? endLabels(seen, series, yDomain, yLog, panelHeight) : []);
         setScale(spec, 'x', xLog ? { type: 'log', domain: [xs[0] / 1.12, xs[xs.length - 1] * 1.08] } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
@@ -282,7 +282,8 @@ const chartKit = (() => {
         if (!all.length) return { empty: 'No method that is switched on has these numbers.' };
         const load = loadsOf(experiment)[0];
         // Where there are too many, those that share the rest of the world.
-        const rest = cell => worldOf(experiment, cell, load && load.world ? load.name : '');
+        const along = all.length > mostRows && load && load.world && load.values.length <= 8 ? load.name : '';
+        const rest = cell => worldOf(experiment, cell, along);
         const worlds = all.length > mostRows ? distinct(all.map(rest)) : [];
         const world = worlds.includes(chart.world) ? chart.world : worlds[worlds.length - 1];
         const cells = worlds.length > 1 ? all.filter(cell => rest(cell) === world) : all;

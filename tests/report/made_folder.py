@@ -4,6 +4,7 @@ What is not in a formula here is not in the folder: so a test knows what the pag
 """
 
 import csv
+import functools
 import json
 import os
 import struct
@@ -14,6 +15,7 @@ EVIL = "</script><img src=x onerror=\"document.title='broken'\">&amp;"
 STAGES = "input simulate build sort upload scene draw wait".split()
 
 
+@functools.cache
 def png(width, height, colour):
     """A PNG of one colour with a diagonal, so that a wipe shows."""
     rows = b"".join(b"\0" + b"".join(bytes((255, 255, 255)) if x == y else bytes(colour) for x in range(width))
