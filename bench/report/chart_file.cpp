@@ -56,7 +56,9 @@ std::vector<std::string> chartIds(const ReportData& data) {
                                        [column](const ReportCell& cell) { return cell.values.contains(column); });
         };
         if (!has("frame_ms_median")) continue;
-        ids.push_back(experiment.id);
+        if (std::ranges::any_of(experiment.axes,
+                                [](const ReportAxis& axis) { return axis.name != "seed" && axis.name != "frames"; }))
+            ids.push_back(experiment.id);
         ids.push_back(experiment.id + "-stages");
         if (has("flip")) ids.push_back(experiment.id + "-quality");
     }

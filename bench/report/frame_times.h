@@ -7,7 +7,7 @@
 
 namespace dustbench::bench {
 
-inline constexpr std::size_t mostRunsWithFrameTimes = 48;
+inline constexpr std::size_t mostRunsWithFrameTimes = 64;
 inline constexpr std::size_t mostTracePoints = 400;
 inline constexpr std::size_t fewestBins = 8, mostBins = 40;  // of a histogram
 

@@ -68,6 +68,7 @@ std::filesystem::path writePage(const std::filesystem::path& folder, const Repor
                                          file.string()));
     }
     writeWhole(file, pageOf(data));
+    if (!data.claims.empty()) writeWhole(folder / "claims.csv", claimsCsv(data.claims));
     return file;
 }
 

@@ -13,7 +13,7 @@ namespace dustbench::bench {
 namespace {
 
 /// Of JPEG, out of 100. Traces of compression stay below what a screen shows; numbers come from the EXR files.
-constexpr const char* jpegQuality = "jpeg:88";
+constexpr const char* jpegQuality = "jpeg:80";
 
 InputError unreadable(const std::filesystem::path& file) {
     return InputError("'" + file.string() + "': cannot be read as a picture: " + OIIO::geterror());

@@ -145,9 +145,13 @@ const chartKit = (() => {
         return `${fourDigits(shown(low, unit))} to ${fourDigits(shown(high, unit))}${share}`;
     };
 
-    // Loads that a cost can be drawn against.
-    const loadsOf = experiment => experiment.axes.filter(axis => axis.numeric && axis.values.length > 1 && !['seed', 'frames'].includes(axis.name))
-        .sort((a, b) => (b.name === 'particles') - (a.name === 'particles') || b.world - a.world || b.values.length - a.values.length);
+    // Loads that a cost can be drawn against; where nothing that varies is a number, whatever varies.
+    const loadsOf = experiment => {
+        const all = experiment.axes.filter(axis => !['seed', 'frames'].includes(axis.name));
+        const numbers = all.filter(axis => axis.numeric);
+        return (numbers.length ? numbers : all).sort(byUse);
+    };
+    const byUse = (a, b) => ((b.name === 'particles') - (a.name === 'particles') || b.world - a.world || b.values.length - a.values.length);
     const costsOf = (report, experiment) => Object.keys(report.columns).filter(name => report.columns[name].cost &&
         experiment.cells.some(cell => valueOf(cell, name)));
     const metricsOf = (report, experiment) => Object.keys(report.columns).filter(name => report.columns[name].metric &&
@@ -202,6 +206,7 @@ const chartKit = (() => {
         const load = experiment.axes.find(axis => axis.name === chart.x) || loadsOf(experiment)[0];
         const column = chart.column || 'fps_avg';
         const info = columnOf(report, column);
+        const named = !load.numeric;
         let cells = inOrder(experiment, experiment.cells)
             .filter(cell => cell.settings[load.name] !== undefined && valueOf(cell, column) && !chart.hidden.has(cell.method));
         if (!cells.length) return { empty: 'No method that is switched on has these numbers.' };
@@ -213,26 +218,26 @@ const chartKit = (() => {
         const theSeries = cell => (alone ? worldOf(experiment, cell, load.name) : variantOf(report, experiment, cell, load.name));
         const points = cells.map(cell => {
             const [y, low, high] = valueOf(cell, column).map(value => shown(value, info.unit));
-            const x = Number(cell.settings[load.name]);
+            const x = named ? cell.settings[load.name] : Number(cell.settings[load.name]);
             return {
                 panel: thePanel(cell), series: theSeries(cell), x, y, low, high,
                 tip: {
                     title: theSeries(cell),
-                    [load.name]: `${fourDigits(x)}${load.unit ? ' ' + load.unit : ''}`,
+                    [load.name]: named ? x : `${fourDigits(x)}${load.unit ? ' ' + load.unit : ''}`,
                     [info.name]: withUnit(valueOf(cell, column)[0], info.unit),
                     'from … to': intervalText(cell, valueOf(cell, column), info.unit),
                     runs: String(cell.runs.length),
                 },
             };
         });
-        const xs = distinct(points.map(point => point.x)).sort((a, b) => a - b);
-        const xLog = chart.xLog ?? spans(xs, 15);
+        const xs = distinct(points.map(point => point.x)).sort((a, b) => (named ? load.values.indexOf(a) - load.values.indexOf(b) : a - b));
+        const xLog = !named && (chart.xLog ?? spans(xs, 15));
         const yLog = chart.yLog ?? spans(points.map(point => point.y), 60);
         const seen = points.filter(point => (!xLog || point.x > 0) && (!yLog || point.low > 0));
         if (!seen.length) return { empty: 'No value is above 0, as a logarithmic scale needs it.' };
-        const curves = xs.length > 1 ? fitCurves(report, experiment, load.name, column, theSeries, thePanel, xs[0], xs[xs.length - 1])
+        const curves = !named && xs.length > 1 ? fitCurves(report, experiment, load.name, column, theSeries, thePanel, xs[0], xs[xs.length - 1])
             .filter(row => seen.some(point => point.series === row.series && point.panel === row.panel)) : [];
-        const published = experiment.published.filter(item => item.column === column && (!item.axis || item.axis === load.name))
+        const published = experiment.published.filter(item => item.column === column && (!item.axis || (!named && item.axis === load.name)))
             .map(item => ({
                 x: item.axis ? item.x : null, least: item.least, greatest: item.greatest,
                 tip: { title: 'published', [info.name]: `${fourDigits(item.least)} to ${fourDigits(item.greatest)} ${info.unit}`, of: item.what },
@@ -244,7 +249,7 @@ const chartKit = (() => {
         const { columns, each } = panelsWithin(chart.width, shownPanels.length);
         const single = shownPanels.length === 1;
         const longest = Math.max(...series.map(({ name }) => name.length));
-        const labelled = single && series.length > 1 && series.length <= 7 && chart.width > 520 && longest <= 34;
+        const labelled = single && !named && series.length > 1 && series.length <= 7 && chart.width > 520 && longest <= 34;
         const labelRoom = labelled ? Math.ceil(longest * 6.6 + 12) : 0;
         const panelWidth = Math.max(Math.min(single ? 760 : each, each - labelRoom), 120);
         const panelHeight = single ? 300 : Math.max(170, Math.min(240, Math.round(panelWidth * 0.75)));
@@ -262,14 +267,18 @@ const chartKit = (() => {
         setData(spec, 'curves', curves.filter(row => row.y >= yDomain[0] && row.y <= yDomain[1]));
         setData(spec, 'published', published);
         setData(spec, 'labels', labelled ? endLabels(seen, series, yDomain, yLog, panelHeight) : []);
-        setScale(spec, 'x', xLog ? { type: 'log', domain: [xs[0] / 1.12, xs[xs.length - 1] * 1.08] } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
-        setScale(spec, 'y', { type: yLog ? 'log' : 'linear', domain: yDomain });
         const names = series.map(({ name }) => name);
+        if (named) {
+            setScale(spec, 'x', { type: 'point', domain: xs, padding: 0.5 });
+            delete spec.marks[0].axes[1].format;
+            setSignals(spec, { lineWidth: 0 });
+        } else setScale(spec, 'x', xLog ? { type: 'log', domain: [xs[0] / 1.12, xs[xs.length - 1] * 1.08] } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
+        setScale(spec, 'y', { type: yLog ? 'log' : 'linear', domain: yDomain });
         setScale(spec, 'colour', { domain: names, range: styles.map(style => style.colour) });
         setScale(spec, 'shape', { domain: names, range: styles.map(style => style.shape) });
         setScale(spec, 'dash', { domain: names, range: styles.map(style => style.dash) });
         if (labelled) spec.legends = [];
-        if (xs.length <= 10) spec.marks[0].axes[1].values = xs;
+        if (!named && xs.length <= 10) spec.marks[0].axes[1].values = xs;
         const notes = [];
         if (curves.length) notes.push(`Wide pale lines: the fitted cost a + b·N^k${column === 'fps_avg' ? ' of the frame time, as a rate' : ''}.`);
         return { spec, notes, state: { x: load.name, column, xLog, yLog } };
