@@ -79,7 +79,7 @@ fs::path writeChart(const fs::path& folder, const ReportData& data, const std::s
     WholeFile script(place.string() + ".js"), svg(place.string() + ".svg"), drawn(place), log(place.string() + ".log");
     writeWhole(script.beside(), fmt::format("{}\n{}\nconst reportColumns = {};\nconst reportCharts = {};\n"
                                             "const reportData = {};\n{}",
-                                            vegaScript(), reportFile("charts.js"), reportFile("columns.json"),
+                                            vegaScript(), chartScript(), reportFile("columns.json"),
                                             chartSpecifications(), reportJson(data), reportFile("chart_file.js")));
     call({findProgram("node", "nodejs").string(), script.beside().string(), chart, svg.beside().string()},
          log.beside());

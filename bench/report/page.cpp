@@ -53,9 +53,8 @@ std::string pageOf(const ReportData& data) {
                                             {"charts", chartSpecifications()},
                                             {"data", reportJson(data)},
                                             {"schema", escaped(schemaText())},
-                                            {"chart-script", reportFile("charts.js")},
-                                            {"picture-script", reportFile("pictures.js")},
-                                            {"page-script", reportFile("page.js")}});
+                                            {"chart-script", chartScript()},
+                                            {"page-script", pageScript()}});
 }
 
 std::filesystem::path writePage(const std::filesystem::path& folder, const ReportData& data) {

@@ -67,6 +67,14 @@ std::string chartSpecifications() {
     return all + "}";
 }
 
+std::string chartScript() {
+    return reportFile("chart_style.js") + reportFile("chart_data.js") + reportFile("charts.js");
+}
+
+std::string pageScript() {
+    return reportFile("elements.js") + reportFile("pictures.js") + reportFile("claims.js") + reportFile("page.js");
+}
+
 std::string vegaScript() {
     std::string script = "const vegaParts = {};\n";
     for (const auto& [name, file] : vegaModules) {

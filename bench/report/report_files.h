@@ -16,6 +16,12 @@ namespace dustbench::bench {
 /// `{"cost": {…}, …}`: every specification of `reports/report/charts`, by its name without extension.
 [[nodiscard]] std::string chartSpecifications();
 
+/// What turns the data into specifications, for browsers and for node.
+[[nodiscard]] std::string chartScript();
+
+/// What builds the page; behind chartScript().
+[[nodiscard]] std::string pageScript();
+
 /// Vega as one script, which leaves it behind as `vega`; for browsers and for node. Throws InputError where the package
 /// libjs-vega is not installed.
 [[nodiscard]] std::string vegaScript();

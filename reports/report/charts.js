@@ -4,90 +4,8 @@
 // `report` is {data, columns, specifications}; `chart` is an entry of the list with any of
 // {x, column, metric, against, world, run, xLog, yLog, hidden, width, theme} set over it.
 const chartKit = (() => {
-    // Told apart by people who see few colours (after Okabe and Ito), and against either background by 3 : 1 or more.
-    const methodColours = {
-        light: ['#0072b2', '#c44f00', '#007a5a', '#a3458b', '#8a6a00', '#5a5f66', '#1f4e9c', '#b3273a'],
-        dark: ['#58b0e8', '#ff8f52', '#3ecaa0', '#e394c9', '#e2bd35', '#b9bec5', '#8aa8ff', '#ff7f8d'],
-    };
-    const stages = ['input', 'simulate', 'build', 'sort', 'upload', 'scene', 'draw', 'wait'];
-    const stageColours = {
-        light: ['#5a5f66', '#56b4e9', '#007a5a', '#e2bd35', '#a3458b', '#b6bec7', '#d55e00', '#eda36f'],
-        dark: ['#d5d9de', '#58b0e8', '#2fa986', '#e2bd35', '#d487ba', '#5f6873', '#f07f3c', '#a8643c'],
-    };
-    const themes = {
-        light: { ink: '#1b1f24', muted: '#565e67', grid: '#e4e7ea', paper: '#ffffff' },
-        dark: { ink: '#e8ebee', muted: '#a9b1ba', grid: '#31373e', paper: '#1a1d21' },
-    };
-    const shapes = ['circle', 'square', 'triangle-up', 'diamond', 'cross', 'triangle-down', 'triangle-right', 'triangle-left'];
-    const dashes = [[1, 0], [7, 3], [2, 2], [9, 3, 2, 3], [5, 2], [12, 4], [3, 5], [1, 3]];
-    const font = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";
-
-    const configOf = theme => {
-        const { ink, muted, grid, paper } = themes[theme];
-        return {
-            background: paper,
-            font,
-            axis: {
-                labelColor: muted, titleColor: ink, gridColor: grid, domainColor: muted, tickColor: muted, labelFontSize: 11,
-                titleFontSize: 12, titleFontWeight: 500, titlePadding: 8, labelFont: font, titleFont: font,
-            },
-            title: { color: ink, fontSize: 12.5, fontWeight: 600, font },
-            legend: { labelColor: ink, labelFontSize: 12, labelFont: font, symbolSize: 70, columnPadding: 18, rowPadding: 4, labelLimit: 0 },
-            view: { stroke: null },
-        };
-    };
-
-    // Texts of numbers.
-    const fourDigits = value => {
-        if (value === null || value === undefined || !Number.isFinite(value)) return '–';
-        const size = Math.abs(value);
-        if (size !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(2).replace('e+', 'e').replace('-', '−');
-        const digits = size >= 1000 ? 0 : size >= 100 ? 1 : size >= 10 ? 2 : 3;
-        return String(Number(value.toFixed(size < 1 ? 4 : digits))).replace('-', '−');
-    };
-    const withUnit = (value, unit) => {
-        if (unit === 'bytes') return Number.isFinite(value) ? fourDigits(value / 1e6) + ' MB' : '–';
-        return fourDigits(value) + (unit ? ' ' + unit : '');
-    };
-
-    // What is known of a column, of a cell.
-    const columnOf = (report, name) => report.columns[name] || { name, unit: '', better: '' };
-    const axisTitle = (name, unit) => name + (unit === 'bytes' ? ' [MB]' : unit ? ` [${unit}]` : '');
-    const shown = (value, unit) => (unit === 'bytes' ? value / 1e6 : value);
-    const valueOf = (cell, column) => {
-        if (column === 'memory_bytes') {
-            const [cpu, gpu] = [valueOf(cell, 'cpu_bytes'), valueOf(cell, 'gpu_bytes')];
-            return cpu && gpu ? cpu.map((value, index) => value + gpu[index]) : null;
-        }
-        const value = cell.values[column];
-        if (value === undefined || value === null) return null;
-        return Array.isArray(value) ? value : [value, value, value];
-    };
-    const machineLabel = (report, cell) => (report.data.machines.length > 1 ? ` (machine ${cell.machine + 1})` : '');
-    const settingText = (axis, value) => `${axis.name} ${value}${axis.unit && axis.unit !== axis.name ? ' ' + axis.unit : ''}`;
-    const settingsText = (axes, cell) => axes.filter(axis => cell.settings[axis.name])
-        .map(axis => settingText(axis, cell.settings[axis.name])).join(', ');
-    const variantOf = (report, experiment, cell, except) => {
-        const own = experiment.axes.filter(axis => !axis.world && axis.name !== except);
-        const text = settingsText(own, cell);
-        return cell.method + (text ? ', ' + text : '') + machineLabel(report, cell);
-    };
-    const worldOf = (experiment, cell, except) =>
-        settingsText(experiment.axes.filter(axis => axis.world && axis.name !== except), cell);
-    /// By world, method and settings, in the order of the axes' values.
-    const inOrder = (experiment, cells) => {
-        const by = axes => (a, b) => {
-            for (const axis of axes) {
-                const apart = axis.values.indexOf(a.settings[axis.name]) - axis.values.indexOf(b.settings[axis.name]);
-                if (apart) return apart;
-            }
-            return 0;
-        };
-        const [world, own] = [true, false].map(is => by(experiment.axes.filter(axis => axis.world === is)));
-        const method = (a, b) => (a.method < b.method ? -1 : a.method > b.method ? 1 : 0);
-        return [...cells].sort((a, b) => world(a, b) || method(a, b) || own(a, b) || a.machine - b.machine);
-    };
-    const distinct = list => [...new Set(list)];
+    const { methodColours, stages, stageColours, themes, shapes, dashes, configOf, fourDigits, withUnit, mixed } = chartStyle;
+    const { columnOf, axisTitle, shown, valueOf, variantOf, worldOf, inOrder, distinct, loadsOf, costsOf, metricsOf } = chartData;
 
     // Colours: a method's own, darker (lighter on black) from one of its variants to the next; shapes and dashes as well.
     const methodColour = (report, method, theme) => {
@@ -95,11 +13,6 @@ const chartKit = (() => {
         const all = distinct([...known, ...report.data.experiments.flatMap(item => item.cells.map(cell => cell.method)).sort()]);
         const colours = methodColours[theme];
         return colours[Math.max(all.indexOf(method), 0) % colours.length];
-    };
-    const mixed = (from, to, share) => {
-        const part = (text, at) => parseInt(text.slice(at, at + 2), 16);
-        return '#' + [1, 3, 5].map(at => Math.round(part(from, at) + share * (part(to, at) - part(from, at)))
-            .toString(16).padStart(2, '0')).join('');
     };
     const seriesStyles = (report, series, theme) => {
         const perMethod = {};
@@ -144,18 +57,6 @@ const chartKit = (() => {
         const share = cell.probability >= 0.95 ? `, ${Math.floor(cell.probability * 100)} % interval of the median` : ', least and greatest';
         return `${fourDigits(shown(low, unit))} to ${fourDigits(shown(high, unit))}${share}`;
     };
-
-    // Loads that a cost can be drawn against; where nothing that varies is a number, whatever varies.
-    const loadsOf = experiment => {
-        const all = experiment.axes.filter(axis => !['seed', 'frames'].includes(axis.name));
-        const numbers = all.filter(axis => axis.numeric);
-        return (numbers.length ? numbers : all).sort(byUse);
-    };
-    const byUse = (a, b) => ((b.name === 'particles') - (a.name === 'particles') || b.world - a.world || b.values.length - a.values.length);
-    const costsOf = (report, experiment) => Object.keys(report.columns).filter(name => report.columns[name].cost &&
-        experiment.cells.some(cell => valueOf(cell, name)));
-    const metricsOf = (report, experiment) => Object.keys(report.columns).filter(name => report.columns[name].metric &&
-        experiment.cells.some(cell => valueOf(cell, 'flip')) && experiment.cells.some(cell => valueOf(cell, name)));
 
     const list = report => {
         const charts = [];
@@ -420,5 +321,5 @@ const chartKit = (() => {
         const asked = { width: 900, theme: 'light', hidden: new Set(), ...chart };
         return { config: configOf(asked.theme), ...builders[asked.kind](report, asked) };
     };
-    return { list, build, loadsOf, costsOf, metricsOf, methodColour, fourDigits, withUnit, columnOf, variantOf, worldOf, valueOf, themes };
+    return { list, build, loadsOf, costsOf, metricsOf, methodColour, fourDigits, withUnit, columnOf, variantOf, worldOf };
 })();

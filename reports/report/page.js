@@ -1,4 +1,4 @@
-// Builds the page from the data in it. All texts go in as text, none as markup.
+// Builds the page from the data in it.
 //
 // The data (bench/report/report_json.cpp): folder, written, version; problems; machines, methods and papers; runs, the ids
 // that all others count; experiments with axes, cells, fits and published numbers; claims; frames, the frame times of
@@ -8,30 +8,8 @@
     const report = { data: read('report-data'), columns: read('report-columns'), specifications: read('report-charts') };
     const { data } = report;
 
-    /// element('td', { className: 'number', textContent: '3' }, [children])
-    const element = (tag, properties = {}, children = []) => {
-        const made = document.createElement(tag);
-        for (const [name, value] of Object.entries(properties)) {
-            if (name === 'dataset') Object.assign(made.dataset, value);
-            else if (name === 'attributes') for (const [key, text] of Object.entries(value)) made.setAttribute(key, text);
-            else made[name] = value;
-        }
-        made.append(...children);
-        return made;
-    };
+    const { element, put, paragraph, plural, table } = pageKit;
     const section = name => document.getElementById(name);
-    const put = (parent, ...children) => parent.append(...children);
-    const paragraph = (text, className = '') => element('p', { textContent: text, className });
-    const plural = (count, one, many) => `${count} ${count === 1 ? one : many || one + 's'}`;
-    /// A head is [text, class of its column, name of the value where a narrow screen stacks the cells].
-    const table = (heads, rows, className = '') => element('div', { className: 'table-scroll' }, [element('table', { className }, [
-        element('thead', {}, [element('tr', {}, heads.map(([text, kind]) => element('th', { textContent: text, className: kind || '' })))]),
-        element('tbody', {}, rows.map(row => element('tr', {}, row.map((cell, index) => {
-            const td = element('td', { className: heads[index][1] || '', dataset: heads[index][2] ? { name: heads[index][2] } : {} });
-            td.append(cell ?? '');
-            return td;
-        })))),
-    ])]);
     const runLinks = (indices, text) => {
         const most = 200;
         const list = element('ul', {}, indices.slice(0, most).map(index => element('li', {}, [element('a', {
@@ -230,62 +208,16 @@
         put(here, element('article', { className: 'card' }, [pictureViewer.build(report, id => shortTitle(experimentOf(id)))]));
     };
 
-    /// Where the measured interval lies to the values in which the claim is true, as a small picture.
-    const claimRange = claim => {
-        if (claim.measured === null || (claim.least === null && claim.greatest === null)) return '';
-        const marks = [claim.measured, claim.low, claim.high, claim.least, claim.greatest].filter(value => value !== null);
-        let [low, high] = [Math.min(...marks), Math.max(...marks)];
-        const log = low > 0 && high / low > 4;
-        const bend = value => (log ? Math.log(value) : value);
-        [low, high] = [bend(low), bend(high)];
-        const room = (high - low) * 0.12 || 1;
-        const at = value => 150 * (bend(value) - low + room) / (high - low + 2 * room);
-        const shape = (tag, attributes) => {
-            const made = document.createElementNS('http://www.w3.org/2000/svg', tag);
-            for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-            return made;
-        };
-        const svg = shape('svg', { viewBox: '0 0 150 22', class: 'claim-range', role: 'img' });
-        const [from, to] = [claim.least === null ? 0 : at(claim.least), claim.greatest === null ? 150 : at(claim.greatest)];
-        put(svg, shape('title', {}), shape('rect', { x: from, y: 2, width: Math.max(to - from, 1), height: 18, fill: 'var(--good)', 'fill-opacity': 0.2 }));
-        svg.firstChild.textContent = `green: ${claim.expected}; measured ${chartKit.fourDigits(claim.measured)}`;
-        for (const bound of [claim.least, claim.greatest])
-            if (bound !== null) put(svg, shape('line', { x1: at(bound), x2: at(bound), y1: 2, y2: 20, stroke: 'var(--good)', 'stroke-width': 1.5 }));
-        if (claim.low !== null) put(svg, shape('line', { x1: at(claim.low), x2: at(claim.high), y1: 11, y2: 11, stroke: 'var(--ink)', 'stroke-width': 2 }));
-        put(svg, shape('circle', { cx: at(claim.measured), cy: 11, r: 4, fill: 'var(--ink)' }));
-        return svg;
-    };
-    const expectedOf = ({ least, greatest, expected }, number) => {
-        if (least !== null && greatest !== null) return `${number(least)} to ${number(greatest)}`;
-        return least !== null ? `${number(least)} or more` : greatest !== null ? `${number(greatest)} or less` : expected;
-    };
-    const verdictMarks = { confirmed: '✓', refuted: '✗', unresolved: '?', 'not-tested': '–' };
     const addClaims = () => {
         const here = section('claims');
         if (!data.claims.length) put(here, paragraph('No experiment of a paper is in this folder, so there is no claim to test.', 'muted'));
         for (const paper of data.papers) {
             const claims = data.claims.filter(claim => claim.paper === paper.id);
             if (!claims.length) continue;
-            const rows = claims.map(claim => {
-                const experiment = data.experiments.find(item => item.suite === claim.suite);
-                const isBytes = claim.column && chartKit.columnOf(report, claim.column).unit === 'bytes';
-                const number = value => (isBytes ? chartKit.withUnit(value, 'bytes') : chartKit.fourDigits(value));
-                const interval = claim.low === null ? '' : ` [${number(claim.low)}, ${number(claim.high)}]`;
-                const text = element('div', {}, [claim.text]);
-                if (claim.note) put(text, element('div', { className: 'muted', textContent: claim.note }));
-                const links = element('div');
-                if (experiment) put(links, element('a', { href: `#experiment-${experiment.id}`, textContent: shortTitle(experiment) }));
-                if (claim.runs.length) put(links, runLinks(claim.runs, plural(claim.runs.length, 'run')));
-                return [
-                    element('b', { textContent: claim.id }),
-                    element('span', { className: `verdict ${claim.verdict}`, textContent: `${verdictMarks[claim.verdict]} ${claim.verdict}` }),
-                    text, claim.measured === null ? '' : `${number(claim.measured)}${interval}`, expectedOf(claim, number), claimRange(claim), links.children.length ? links : '',
-                ];
-            });
             put(here, element('article', { className: 'card' }, [
                 element('h3', { textContent: paper.title }),
                 paragraph(`${paper.authors} (${paper.year}), ${paper.venue}`, 'muted'),
-                table([['claim'], ['verdict'], ['what the paper says'], ['measured [interval]', 'number', 'measured'], ['true if', '', 'true if'], [''], ['chart, runs']], rows, 'stacking'),
+                table(claimTable.heads, claims.map(claim => claimTable.row(report, claim, shortTitle, runLinks)), 'stacking'),
                 paragraph('Confirmed: the whole interval lies within the values in which the claim is true. Refuted: wholly outside. Unresolved: neither, or fewer than ' +
                     '6 repetitions. The interval has 95 %; for what no machine changes (bytes, counts, image metrics) it is the least and the greatest cell.', 'note'),
             ]));
