@@ -160,7 +160,7 @@ const chartKit = (() => {
         const spec = fresh(report.specifications.cost);
         setSignals(spec, {
             panelWidth, panelHeight, panelColumns: columns, labelRoom, xTitle: axisTitle(load.name, load.unit), yTitle: axisTitle(info.name, info.unit),
-            xFormat: xs[xs.length - 1] >= 100000 ? '~s' : ',~r', yFormat: yDomain[1] >= 100000 ? '~s' : ',~r',
+            xFormat: xs[xs.length - 1] >= 100000 ? '.4~s' : ',.6~r', yFormat: yDomain[1] >= 100000 ? '.4~s' : ',.6~r',
             legendColumns: legendColumns(chart.width, longest),
         });
         setData(spec, 'panels', shownPanels.map(panel => ({ panel })));
@@ -181,6 +181,7 @@ const chartKit = (() => {
         if (labelled) spec.legends = [];
         if (!named && xs.length <= 10) spec.marks[0].axes[1].values = xs;
         const notes = [];
+        for (const of of new Set(published.map(item => item.tip.of))) notes.push(`Grey: what the paper's text gives as a number. ${of}.`);
         if (curves.length) notes.push(`Wide pale lines: the fitted cost a + b·N^k${column === 'fps_avg' ? ' of the frame time, as a rate' : ''}.`);
         return { spec, notes, state: { x: load.name, column, xLog, yLog } };
     };
@@ -273,7 +274,7 @@ const chartKit = (() => {
         const spec = fresh(report.specifications.quality);
         setSignals(spec, {
             panelWidth, panelHeight: panels.length === 1 ? 300 : 240, panelColumns: columns, xTitle: axisTitle(cost.name, cost.unit),
-            yTitle: axisTitle(info.name, info.unit), xFormat: ',~r', yFormat: ',~r', frontColour: themes[theme].muted,
+            yTitle: axisTitle(info.name, info.unit), xFormat: ',.6~r', yFormat: ',.6~r', frontColour: themes[theme].muted,
             legendColumns: legendColumns(chart.width, Math.max(...series.map(({ name }) => name.length))),
         });
         setData(spec, 'panels', panels.map(panel => ({ panel })));

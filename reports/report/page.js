@@ -129,11 +129,8 @@
     };
     const shapeNote = experiment => {
         // Our own views of a paper's methods have nothing to be held against.
-        if (!experiment.published.length && !experiment.title.startsWith('Figure')) return null;
-        const note = experiment.published.length
-            ? 'Grey: what the paper\'s text gives as a number, on the paper\'s machine.'
-            : 'Shape only: the paper\'s text gives no numbers that could be drawn here.';
-        return paragraph(note, 'note shape-note');
+        if (experiment.published.length || !experiment.title.startsWith('Figure')) return null;
+        return paragraph('Shape only: the paper\'s text gives no numbers that could be drawn here.', 'note shape-note');
     };
 
     const addPerformance = () => {

@@ -51,8 +51,31 @@ def stages_of(method, settings, repetition):
     return {stage: ms * scatter for stage, ms in times.items()}
 
 
+def write_run(folder, row, settings, warnings=()):
+    place = os.path.join(folder, "runs", row["run_id"])
+    os.makedirs(place)
+    with open(os.path.join(place, "run.json"), "w", encoding="utf-8") as stream:
+        json.dump({"run_id": row["run_id"], "status": row["status"], "reason": row["reason"], "method": row["method"],
+                   "parameters": settings, "state_hash": "", "method_hash": None, "summary": row, "warnings": warnings,
+                   "provenance": {"cpu": "made up " + EVIL, "cores": 2, "governor": "", "gl_renderer": "none",
+                                  "build_type": "Release", "inputs": []}}, stream)
+    return place
+
+
+def write_others(folder):
+    """Runs of no suite, one of them failed, with a column of the future and loads that are easily rounded."""
+    for particles in (25, 125, 333):
+        ms = 5 + particles / 100
+        write_run(folder, {"run_id": f"odd-{particles}", "status": "done", "reason": "", "method": "billboard", "scene": EVIL,
+                           "repetition": 1, "frames": 3, "fps_avg": 1000 / ms, "frame_ms_median": ms, "draw_ms_median": ms,
+                           "moon_phase": 3}, {"particles": particles})
+    write_run(folder, {"run_id": "odd-500", "status": "failed", "reason": "it said " + EVIL, "method": "billboard",
+                       "scene": EVIL, "repetition": 1}, {"particles": 500})
+
+
 def write(program, folder, suites):
     """The folder with summary.csv; gives the rows of it."""
+    write_others(folder)
     rows = []
     for suite in suites:
         for run_id, method, settings, repetition in planned(program, suite, folder):
@@ -73,16 +96,12 @@ def write(program, folder, suites):
                            components=2, cutoff=0.02, self_similarity=0.1, quads_per_pixel=0.3, metric_reference="exact",
                            FILE_image=f"runs/{run_id}/images/f000000.png")
             rows.append(row | {"p." + name: value for name, value in settings.items()})
-            place = os.path.join(folder, "runs", run_id)
-            os.makedirs(os.path.join(place, "images") if flaws else place)
-            with open(os.path.join(place, "run.json"), "w", encoding="utf-8") as stream:
-                json.dump({"run_id": run_id, "status": "done", "reason": "", "method": method, "parameters": settings,
-                           "state_hash": "", "method_hash": None, "summary": row, "warnings": [EVIL + " 7 ms"],
-                           "provenance": {"cpu": "made up " + EVIL, "cores": 2, "governor": "", "gl_renderer": "none",
-                                          "build_type": "Release", "inputs": []}}, stream)
+            place = write_run(folder, row, settings, [f"{EVIL} {frame} ms"])
             with open(os.path.join(place, "frames.csv"), "w", encoding="utf-8") as stream:
                 stream.write("frame,time_s,frame_ms\n")
                 stream.writelines(f"{i},{i / 60},{frame * (1 + 0.02 * (i % 3))}\n" for i in range(30))
+            if flaws:
+                os.makedirs(os.path.join(place, "images"))
             for number in (0, 15) if flaws else ():
                 for ending, colour in (("", (200, 180, 140)), ("_reference", (90, 140, 200)), ("_difference", (20, 0, 40))):
                     with open(os.path.join(place, "images", f"f{number:06}{ending}.png"), "wb") as stream:

@@ -110,7 +110,7 @@ class ReportPage(unittest.TestCase):
     def test_every_chart_has_marks(self):
         marks = self.marks()
         expected = {f"chart-{suite}-quick{part}" for suite in SUITES for part in ("", "-stages")}
-        self.assertEqual(set(marks), expected | {"chart-carr2006-flaws-quick-quality", "chart-frames"})
+        self.assertEqual(set(marks), expected | {"chart-carr2006-flaws-quick-quality", "chart-frames", "chart-other", "chart-other-stages"})
         self.assertTrue(all(count > 3 for count in marks.values()), marks)
 
     def test_a_method_switched_off_leaves_every_chart(self):
@@ -145,6 +145,20 @@ class ReportPage(unittest.TestCase):
         self.assertTrue(any("GPU memory" in text and "[MB]" in text for text in labels(chart)))
         choose("chart-carr2006-flaws-quick-quality", "metric", "psnr_db")
         self.assertIn("PSNR [dB]", labels("chart-carr2006-flaws-quick-quality"))
+
+    def test_axes_say_the_very_numbers(self):
+        self.settled()
+        labels = self.browser.evaluate("[...document.querySelectorAll('#chart-other .role-axis-label text')].map(text => text.textContent)")
+        for particles in ("25", "125", "333"):
+            self.assertIn(particles, labels)
+
+    def test_says_what_is_missing_and_what_failed(self):
+        said = self.browser.evaluate("document.querySelector('.problems').textContent")
+        for part in ("1 of ", "not done", "moon_phase", "frame times of 3 runs cannot be read"):
+            self.assertIn(part, said)
+        self.assertIn("it said " + made_folder.EVIL, self.browser.evaluate("document.getElementById('not-done').textContent"))
+        self.assertIn(made_folder.EVIL, self.browser.evaluate("document.getElementById('warnings').textContent"))
+        self.assertEqual(self.browser.evaluate("document.querySelectorAll('#warnings tbody tr').length"), 1)
 
     def test_a_point_says_its_numbers(self):
         self.settled()
