@@ -33,8 +33,8 @@ const claimTable = (() => {
     };
     const verdictMarks = { confirmed: '✓', refuted: '✗', unresolved: '?', 'not-tested': '–' };
 
-    /// `titleOf` an experiment, `runLinks` to runs by their indices.
-    const row = (report, claim, titleOf, runLinks) => {
+    /// `runLinks`: makes links to runs by their indices.
+    const row = (report, claim, runLinks) => {
         const experiment = report.data.experiments.find(item => item.suite === claim.suite);
         const isBytes = claim.column && chartKit.columnOf(report, claim.column).unit === 'bytes';
         const number = value => (isBytes ? chartKit.withUnit(value, 'bytes') : chartKit.fourDigits(value));
@@ -42,7 +42,7 @@ const claimTable = (() => {
         const text = element('div', {}, [claim.text]);
         if (claim.note) put(text, element('div', { className: 'muted', textContent: claim.note }));
         const links = element('div');
-        if (experiment) put(links, element('a', { href: `#experiment-${experiment.id}`, textContent: titleOf(experiment) }));
+        if (experiment) put(links, element('a', { href: `#experiment-${experiment.id}`, textContent: experiment.suite }));
         if (claim.runs.length) put(links, runLinks(claim.runs, plural(claim.runs.length, 'run')));
         return [
             element('b', { textContent: claim.id }),

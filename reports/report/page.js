@@ -213,8 +213,8 @@
             if (!claims.length) continue;
             put(here, element('article', { className: 'card' }, [
                 element('h3', { textContent: paper.title }),
-                paragraph(`${paper.authors} (${paper.year}), ${paper.venue}`, 'muted'),
-                table(claimTable.heads, claims.map(claim => claimTable.row(report, claim, shortTitle, runLinks)), 'stacking'),
+                paragraph([`${paper.authors} (${paper.year})`, paper.venue].filter(Boolean).join(', '), 'muted'),
+                table(claimTable.heads, claims.map(claim => claimTable.row(report, claim, runLinks)), 'stacking'),
                 paragraph('Confirmed: the whole interval lies within the values in which the claim is true. Refuted: wholly outside. Unresolved: neither, or fewer than ' +
                     '6 repetitions. The interval has 95 %; for what no machine changes (bytes, counts, image metrics) it is the least and the greatest cell.', 'note'),
             ]));
@@ -259,7 +259,7 @@
         const machine = data.machines[0];
         const date = new Date(data.written);
         section('lead').textContent = [
-            machine ? `${machine.cpu || 'unknown CPU'}, ${plural(Number(machine.cores), 'core')}, drawn by ${machine.gl_renderer || 'an unknown renderer'}` : '',
+            data.machines.length > 1 ? `${data.machines.length} machines, listed at the end` : machine ? `${machine.cpu || 'unknown CPU'}, ${plural(Number(machine.cores), 'core')}, drawn by ${machine.gl_renderer || 'an unknown renderer'}` : '',
             `written ${date.toISOString().slice(0, 16).replace('T', ' ')} UTC by dustbench ${data.version}`,
         ].filter(Boolean).join('; ') + '.';
         const facts = [[String(done), done === 1 ? 'run done' : 'runs done'], [String(data.experiments.length), data.experiments.length === 1 ? 'experiment' : 'experiments']];
