@@ -12,6 +12,7 @@
 #include "bench/suite/suite.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/maths/philox.h"
+#include "source_folder.h"
 
 namespace dustbench::bench {
 namespace {
