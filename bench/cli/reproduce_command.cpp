@@ -1,4 +1,4 @@
-// `dustbench reproduce`: runs the suites of a paper and prints what came out.
+// `dustbench reproduce`: runs the suites of a paper, prints what came out, and writes its page.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +12,8 @@
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/suite_report.h"
+#include "bench/report/page.h"
+#include "bench/report/report_reader.h"
 #include "bench/suite/paper.h"
 #include "bench/suite/suite.h"
 #include "methods/shared/errors.h"
@@ -62,6 +64,8 @@ int reproduce(const ReproduceOptions& options) {
         std::cout << "\n" << claimsReport(claims);
         for (const char* file : {"summary.csv", "experiments.csv", "claims.csv"})
             if (std::filesystem::exists(results.path() / file)) std::cout << (results.path() / file).string() << "\n";
+        const bench::ReportData report = bench::readReport(results.path(), bench::defaultPictureBytes);
+        std::cout << bench::writePage(results.path(), report).string() << "  (open it in a browser)\n";
     }
     return code;
 }

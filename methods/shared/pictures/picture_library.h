@@ -38,6 +38,9 @@ class PictureLibrary {
     /// Straight alpha where there are four channels, else three; sRGB.
     [[nodiscard]] virtual std::string writePng(const std::filesystem::path& file, int width, int height, int channels,
                                                std::span<const std::uint8_t> bytes) const = 0;
+    /// RGB, sRGB; quality of 100 at most. The file's bytes, not a file.
+    [[nodiscard]] virtual std::string encodeJpeg(int width, int height, std::span<const std::uint8_t> rgb, int quality,
+                                                 std::vector<std::uint8_t>& jpeg) const = 0;
     /// RGBA, linear, premultiplied.
     [[nodiscard]] virtual std::string writeExr(const std::filesystem::path& file, int width, int height,
                                                std::span<const float> values) const = 0;

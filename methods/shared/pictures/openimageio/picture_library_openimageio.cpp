@@ -1,4 +1,5 @@
 // The pictures' library by OpenImageIO: the one file that includes it.
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
@@ -60,6 +61,18 @@ class OpenImageIo final : public PictureLibrary {
         spec.attribute("oiio:ColorSpace", "sRGB");
         spec.attribute("oiio:UnassociatedAlpha", 1);
         return write(file, "png", spec, bytes.data());
+    }
+
+    std::string encodeJpeg(int width, int height, std::span<const std::uint8_t> rgb, int quality,
+                           std::vector<std::uint8_t>& jpeg) const override {
+        OIIO::Filesystem::IOVecOutput sink(jpeg);
+        const auto output = OIIO::ImageOutput::create("jpeg", &sink);
+        if (!output) return oneLine(OIIO::geterror());
+        OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+        spec.attribute("Compression", "jpeg:" + std::to_string(quality));
+        if (!output->open("jpeg", spec) || !output->write_image(spec.format, rgb.data()) || !output->close())
+            return oneLine(output->geterror());
+        return "";
     }
 
     std::string writeExr(const std::filesystem::path& file, int width, int height,
