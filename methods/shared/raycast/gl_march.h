@@ -1,0 +1,42 @@
+// Ray casting on the GPU: a pass over the pixels that may see the grid.
+//
+// Owns: the grid on the GPU. Threads: the OpenGL thread's.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "methods/shared/gpu/layer.h"
+#include "methods/shared/gpu/program.h"
+#include "methods/shared/gpu/texture.h"
+#include "methods/shared/gpu/vertex_array.h"
+#include "methods/shared/raycast/brick_map.h"
+#include "methods/shared/raycast/pixel_rays.h"
+#include "methods/shared/raycast/raycast_settings.h"
+
+namespace dustbench::raycast {
+
+class GlMarch {
+ public:
+    GlMarch(gpu::Device& device, const RaycastSettings& settings);
+
+    void upload(const ShownGrid& grid, const BrickMap& bricks);
+    /// `reflected`: linear RGB that a thick cloud reflects.
+    void draw(const PixelRays& rays, const PixelRectangle& pixels, const glm::vec3& reflected, const gpu::Layer& layer);
+
+    [[nodiscard]] std::size_t gpuBytes() const;
+
+ private:
+    [[nodiscard]] gpu::Program& program();
+
+    gpu::Device& device_;
+    RaycastSettings settings_;
+    gpu::Texture density_, reaction_, bricks_, fire_;
+    glm::ivec3 cells_{0}, least_{0}, most_{0};
+    float extinctionPerCell_ = 0;
+    bool burning_ = false;
+    gpu::VertexArray vertices_;
+    std::optional<gpu::Program> smokeAlone_, withFire_;  ///< made when first wanted
+};
+
+}  // namespace dustbench::raycast
