@@ -49,6 +49,8 @@ GridFluidSettings settingsOf(const ParameterValues& values) {
     solver.forces = setup.forces;
     solver.noSlip = setup.noSlip;
     solver.advection.scheme = values.choiceAs<fluid::AdvectionScheme>("advection");
+    solver.advection.limit = values.choiceAs<fluid::Limit>("limit");
+    solver.keepsDensity = setup.keepsDensity;
     solver.pressure = values.choiceAs<fluid::PressureMethod>("pressure");
     solver.jacobiSweeps = static_cast<int>(values.integer("sweeps"));
     solver.divergencePerStep = static_cast<float>(values.real("tolerance"));
@@ -81,6 +83,9 @@ MethodInfo describe() {
               "edge of a cell; -1: the length of the fluid's box by its cells along x")
         .choice("advection", "maccormack", {"semi_lagrangian", "maccormack"},
                 "look back along the flow, or correct that by its own error as well")
+        .choice("limit", "revert", {"clamp", "revert", "none"},
+                "what is done where that correction overshoots: the paper's clamp to the cells around, or back to the "
+                "uncorrected value")
         .choice("pressure", "multigrid", {"jacobi", "multigrid"},
                 "the paper's sweeps, or cycles over coarser and coarser grids until the tolerance is met")
         .integer("sweeps", 40, 0, 100'000, "", "of pressure=jacobi")

@@ -47,6 +47,7 @@ void readFlow(TomlReader table, FluidSetup& setup) {
     forces.reactionLossPerSecond = number(table, "burning_per_second", 0, 1e3, forces.reactionLossPerSecond);
     forces.viscosityM2PerSecond = number(table, "diffusion_m2_per_second", 0, 1e3, forces.viscosityM2PerSecond);
     setup.noSlip = table.boolean("no_slip", false);
+    setup.keepsDensity = table.boolean("keeps_density", false);
     table.finish();
 }
 

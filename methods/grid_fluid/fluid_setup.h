@@ -53,6 +53,7 @@ struct FluidSetup {
     double belowMetres = 0;      ///< how far the box reaches below the vehicle on ground that is not level
     fluid::ForceSettings forces;
     bool noSlip = false;
+    bool keepsDensity = false;
     std::vector<SourceSetup> sources;
     FluidLook look;
 };

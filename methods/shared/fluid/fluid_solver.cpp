@@ -9,6 +9,7 @@
 
 #include "methods/shared/available_memory.h"
 #include "methods/shared/errors.h"
+#include "methods/shared/fluid/density_balance.h"
 #include "methods/shared/fluid/lanes.h"
 #include "methods/shared/maths/hash.h"
 #include "methods/shared/parallel/for_each_block.h"
@@ -83,12 +84,7 @@ StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> so
     StepReport report;
     {
         const auto timing = clock.measureDetail("advect");
-        solids_.extendInto(cells_, !settings_.noSlip);
-        fill(GhostUse::lookUp);
-        advection_.advect(cells_, spare_, solids_.conductance(), settings_.advection, seconds / spacing,
-                          greatestSpeeds_.z);
-        cells_.swap(spare_);
-        solids_.restore(cells_);
+        advect(seconds);
     }
     {
         const auto timing = clock.measureDetail("forces");
@@ -107,6 +103,20 @@ StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> so
     report.divergencePerStep = report.pressure.residual * seconds / spacing;
     report.cellsPerStep = std::max({greatestSpeeds_.x, greatestSpeeds_.y, greatestSpeeds_.z}) * seconds / spacing;
     return report;
+}
+
+void FluidSolver::advect(float seconds) {
+    const float cellsPerSpeed = seconds / static_cast<float>(settings_.box.spacingMetres);
+    const bool keeps = settings_.keepsDensity;
+    const double due =
+        keeps ? densityTotal(cells_, layout_) - densityLeaving(cells_, layout_, solids_.conductance(), cellsPerSpeed)
+              : 0;
+    solids_.extendInto(cells_, !settings_.noSlip);
+    fill(GhostUse::lookUp);
+    advection_.advect(cells_, spare_, solids_.conductance(), settings_.advection, cellsPerSpeed, greatestSpeeds_.z);
+    cells_.swap(spare_);
+    solids_.restore(cells_);
+    if (keeps) scaleDensity(cells_, layout_, due);
 }
 
 PressureResult FluidSolver::project(float seconds) {

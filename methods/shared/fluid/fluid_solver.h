@@ -31,6 +31,8 @@ struct FluidSettings {
     glm::vec3 windMetresPerSecond{0};  ///< blows in where a side is an inflow, and everywhere at first
     bool noSlip = false;               ///< solids and walls hold the air; else it glides along them
     AdvectionRule advection;
+    /// Takes off, everywhere in proportion, what advection makes of nothing, or gives back what it loses.
+    bool keepsDensity = false;
     ForceSettings forces;
     PressureMethod pressure = PressureMethod::multigrid;
     int jacobiSweeps = 20;
@@ -78,6 +80,7 @@ class FluidSolver {
     void checkSettings() const;
     void addSources(std::span<const FluidSource> sources, float stepSeconds);
     void diffuseVelocity(float stepSeconds);
+    void advect(float stepSeconds);
     PressureResult project(float stepSeconds);
     void findGreatestSpeeds();
     [[noreturn]] void throwLostNumber() const;
