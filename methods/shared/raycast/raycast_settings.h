@@ -9,6 +9,11 @@
 
 namespace dustbench::raycast {
 
+enum class Backend {
+    automatic,  ///< the CPU where OpenGL is software, else OpenGL
+    cpu,
+    gl,
+};
 /// Between the middles of cells; beyond the outermost ones the values stay.
 enum class Filter {
     linear,
@@ -16,6 +21,7 @@ enum class Filter {
 };
 
 struct RaycastSettings {
+    Backend backend = Backend::automatic;
     Filter filter = Filter::linear;
     double stepCells = 0.5;
     bool jitter = true;             ///< shifts each pixel's steps by a fixed share of one: noise instead of bands

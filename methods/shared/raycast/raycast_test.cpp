@@ -38,17 +38,23 @@ class Canvas : public draw::TestCanvas {
     scene::Lights lights;
 };
 
-RaycastSettings settingsOf() {
+class GridRaycastOn : public ::testing::TestWithParam<Backend> {};
+INSTANTIATE_TEST_SUITE_P(Backends, GridRaycastOn, ::testing::Values(Backend::cpu, Backend::gl),
+                         [](const auto& test) { return test.param == Backend::cpu ? "Cpu" : "Gl"; });
+
+/// Rays never end early.
+RaycastSettings settingsOf(Backend backend) {
     RaycastSettings settings;
+    settings.backend = backend;
     settings.stopAlpha = 1;
     return settings;
 }
 
-TEST(GridRaycast, OfAHomogeneousBoxIsTheAnalyticImage) {
+TEST_P(GridRaycastOn, ShowsAHomogeneousBoxAsTheAnalyticImage) {
     Canvas canvas;
     const TestGrid box({12, 7, 9}, 0.5, {-3, -2, -2}, [](const glm::dvec3&) { return 0.8; });
     const glm::dvec3 most = box.originMetres + box.spacingMetres * glm::dvec3(box.cells);
-    RaycastSettings settings = settingsOf();
+    RaycastSettings settings = settingsOf(GetParam());
     settings.extinctionPerMetre = 0.6;
     const auto red = static_cast<double>(cloudColour(settings.smokeColour, canvas.lights).r);
     struct Look {
