@@ -47,20 +47,16 @@ template <typename Value>
 }
 
 #ifdef __AVX512F__
-/// Cells [base, base + (4, 4, 3)).
+/// 4×4×3 cells from one on.
 class CellWindow {
  public:
     static constexpr bool useful = true;
 
-    [[gnu::always_inline]] CellWindow(const PaddedCells& cells, const glm::ivec3& base) {
-        const float* const from = cells.origin() + base.x + base.y * cells.row() + base.z * cells.slab();
-        for (int k = 0; k < 3; ++k) {
-            const float* const slab = from + k * cells.slab();
-            slabs_[k] = joined(slab, slab + cells.row(), slab + 2 * cells.row(), slab + 3 * cells.row());
-        }
+    [[gnu::always_inline]] CellWindow(const float* from, std::ptrdiff_t row, std::ptrdiff_t slab) {
+        for (int k = 0; k < 3; ++k, from += slab) slabs_[k] = joined(from, from + row, from + 2 * row, from + 3 * row);
     }
 
-    /// Places from the base on: less than (3, 3, 2).
+    /// Places from the first cell's middle on: less than (3, 3, 2).
     [[gnu::always_inline]] [[nodiscard]] Floats sample(const Places& at) const {
         const Ints i = wholePart(at.x), j = wholePart(at.y), k = wholePart(at.z);
         const Places share{at.x - toFloats(i), at.y - toFloats(j), at.z - toFloats(k)};
@@ -73,7 +69,6 @@ class CellWindow {
     }
 
  private:
-    using Four = float __attribute__((vector_size(16)));
     [[gnu::always_inline]] static Four four(const float* from) {
         Four values;
         std::memcpy(&values, from, sizeof values);
@@ -92,7 +87,7 @@ class CellWindow {
 class CellWindow {
  public:
     static constexpr bool useful = false;
-    CellWindow(const PaddedCells&, const glm::ivec3&) {}
+    CellWindow(const float*, std::ptrdiff_t, std::ptrdiff_t) {}
     [[nodiscard]] static Floats sample(const Places&) { return Floats{}; }
 };
 #endif

@@ -38,13 +38,14 @@ Floats sampleCubic(const PaddedCells& cells, const Places& at) {
 }
 
 /// Whether one of the bricks that a box of cells meets is occupied.
-bool anyOccupied(const BrickMap& bricks, const glm::vec3& low, const glm::vec3& high) {
+bool anyOccupied(const BrickMap& bricks, const Four& low, const Four& high) {
     constexpr float perCell = 1.0f / BrickMap::edge;
-    const glm::ivec3 first = glm::clamp(glm::ivec3(low * perCell), glm::ivec3(0), bricks.bricks() - 1);
-    const glm::ivec3 last = glm::clamp(glm::ivec3(high * perCell), glm::ivec3(0), bricks.bricks() - 1);
-    for (int z = first.z; z <= last.z; ++z)
-        for (int y = first.y; y <= last.y; ++y)
-            for (int x = first.x; x <= last.x; ++x)
+    const FourInts none{}, end{bricks.bricks().x - 1, bricks.bricks().y - 1, bricks.bricks().z - 1, 0};
+    const FourInts first = atLeast(atMost(__builtin_convertvector(low * perCell, FourInts), end), none);
+    const FourInts last = atLeast(atMost(__builtin_convertvector(high * perCell, FourInts), end), none);
+    for (int z = first[2]; z <= last[2]; ++z)
+        for (int y = first[1]; y <= last[1]; ++y)
+            for (int x = first[0]; x <= last[0]; ++x)
                 if (bricks.at(x, y, z)) return true;
     return false;
 }
@@ -75,7 +76,13 @@ template <bool burning, bool cubic>
 class PacketMarch {
  public:
     PacketMarch(const Volume& volume, const RayPacket& rays, const Floats& jitter, const Floats& sceneDistance)
-        : volume_(volume), rays_(rays), step_(volume.stepCells), shift_(jitter * volume.stepCells) {
+        : volume_(volume),
+          rays_(rays),
+          row_(volume.density.row()),
+          slab_(volume.density.slab()),
+          step_(volume.stepCells),
+          opaque_(volume.opaqueDepth / volume.extinctionPerCell),
+          shift_(jitter * volume.stepCells) {
         const glm::vec3 cells(volume.density.cells());
         const Stretches box = rays.within(glm::vec3(0), cells);
         Stretches filled = box;
@@ -85,76 +92,85 @@ class PacketMarch {
         // What misses has no length.
         from_ = box.from;
         end_ = hits ? atMost(box.to, sceneDistance) : from_;
-        lastFrom_ = most(from_);
-        firstEnd_ = least(end_);
         first_ = least(hits ? filled.from : all(std::numeric_limits<float>::max()));
         last_ = most(hits ? filled.to : all(0));
+        lastBase_ = Four{cells.x, cells.y, cells.z, 1} - 1;
     }
 
     [[gnu::always_inline]] void march() {
+        const float lastFrom = most(from_), firstEnd = least(end_);
         for (int k = static_cast<int>(std::floor(first_ / step_)) - 1; step_ * static_cast<float>(k) < last_;
              k += stepsPerChunk) {
             const float begin = step_ * static_cast<float>(k), end = begin + step_ * (stepsPerChunk + 1);
-            if (volume_.bricks) {
-                glm::vec3 low, high;
-                rays_.bounds(std::max(begin, first_), std::min(end, last_), low, high);
-                if (!anyOccupied(*volume_.bricks, low, high)) continue;
-            }
-            const bool uncut = lastFrom_ <= begin && end <= firstEnd_;
-            for (int i = 0; i < stepsPerChunk; ++i) step(step_ * static_cast<float>(k + i), uncut);
-            if (least(depth_) > volume_.opaqueDepth) break;
+            const float nearest = std::max(begin, first_), farthest = std::min(end, last_);
+            if (volume_.bricks &&
+                !anyOccupied(*volume_.bricks, rays_.low(nearest, farthest), rays_.high(nearest, farthest)))
+                continue;
+            if (lastFrom <= begin && end <= firstEnd)
+                for (int i = 0; i < stepsPerChunk; ++i) step<false>(step_ * static_cast<float>(k + i));
+            else
+                for (int i = 0; i < stepsPerChunk; ++i) step<true>(step_ * static_cast<float>(k + i));
+            if (least(depth_) > opaque_) break;
         }
     }
 
-    [[nodiscard]] Floats alpha() const { return 1 - expMinus(depth_); }
+    [[nodiscard]] Floats alpha() const { return 1 - expMinus(depth_ * volume_.extinctionPerCell); }
     [[nodiscard]] const Floats& colour(int channel) const { return colour_[channel]; }
 
  private:
-    /// The step of each ray that begins at `begin` and its jitter.
-    [[gnu::always_inline]] void step(float begin, bool uncut) {
-        const Floats from = atLeast(begin + shift_, from_), to = atMost(begin + shift_ + step_, end_);
-        const Floats middle = 0.5f * (from + to);
-        const Floats length = depth_ > volume_.opaqueDepth ? all(0) : atLeast(to - from, all(0));
+    /// The step of each ray that begins at `begin` and its jitter; `cut` where not all are whole.
+    template <bool cut>
+    [[gnu::always_inline]] void step(float begin) {
+        Floats middle = begin + 0.5f * step_ + shift_, length = all(step_);
+        if constexpr (cut) {
+            const Floats from = atLeast(begin + shift_, from_), to = atMost(begin + shift_ + step_, end_);
+            middle = 0.5f * (from + to);
+            length = atLeast(to - from, all(0));
+        }
+        length = depth_ > opaque_ ? all(0) : length;
         if constexpr (cubic) {
-            const Places at = places(middle, glm::vec3(0.5f));
+            const Places at = places(middle, Four{});
             gather(length, sampleCubic(volume_.density, at), [&] { return sampleCubic(volume_.reaction, at); });
             return;
         }
         // The middles of steps that are cut may lie anywhere in them.
-        glm::vec3 low, high;
-        rays_.bounds(begin + (uncut ? 0.5f : 0.0f) * step_, begin + (uncut ? 1.5f : 2.0f) * step_, low, high);
-        const glm::ivec3 cells = volume_.density.cells();
-        const glm::ivec3 base = glm::clamp(glm::ivec3(glm::floor(low - 0.5f)), glm::ivec3(-1), cells - 1);
-        const glm::vec3 reach = glm::min(high, glm::vec3(cells)) - 0.5f - glm::vec3(base);
-        constexpr float rounding = 1e-3f;
-        if (CellWindow::useful && reach.x < 3 - rounding && reach.y < 3 - rounding && reach.z < 2 - rounding) {
-            const Places at = places(middle, glm::vec3(base) + 0.5f);
-            gather(length, CellWindow(volume_.density, base).sample(at),
-                   [&] { return CellWindow(volume_.reaction, base).sample(at); });
+        const float nearest = begin + (cut ? 0.0f : 0.5f) * step_, farthest = begin + (cut ? 2.0f : 1.5f) * step_;
+        const Four low = rays_.low(nearest, farthest) - 0.5f, high = rays_.high(nearest, farthest) - 0.5f;
+        constexpr Four outside{-1, -1, -1, 0};
+        const FourInts base = __builtin_convertvector(atMost(atLeast(low, outside), lastBase_) - outside, FourInts) +
+                              FourInts{-1, -1, -1, 0};
+        const Four whole = __builtin_convertvector(base, Four);
+        const FourInts beyond = atMost(high, lastBase_ + 0.5f) - whole > Four{2.999f, 2.999f, 1.999f, 1e30f};
+        if (CellWindow::useful && (beyond[0] | beyond[1] | beyond[2]) == 0) {
+            const Places at = places(middle, whole);
+            const std::ptrdiff_t from = base[0] + base[1] * row_ + base[2] * slab_;
+            gather(length, CellWindow(volume_.density.origin() + from, row_, slab_).sample(at),
+                   [&] { return CellWindow(volume_.reaction.origin() + from, row_, slab_).sample(at); });
         } else {
-            const Places at = places(middle, glm::vec3(0.5f));
+            const Places at = places(middle, Four{});
             gather(length, sampleAnywhere(volume_.density, at), [&] { return sampleAnywhere(volume_.reaction, at); });
         }
     }
 
-    [[gnu::always_inline]] [[nodiscard]] Places places(const Floats& distance, const glm::vec3& origin) const {
-        return {rays_.eye.x - origin.x + distance * rays_.along[0], rays_.eye.y - origin.y + distance * rays_.along[1],
-                rays_.eye.z - origin.z + distance * rays_.along[2]};
+    /// From the middle of a cell on.
+    [[gnu::always_inline]] [[nodiscard]] Places places(const Floats& distance, const Four& cell) const {
+        const Four eye = rays_.eye - 0.5f - cell;
+        return {eye[0] + distance * rays_.along[0], eye[1] + distance * rays_.along[1],
+                eye[2] + distance * rays_.along[2]};
     }
 
     /// D ← D + σ·Δ,   C ← C + (T before − T after)·(reflected + emission)
     template <typename Reaction>
     [[gnu::always_inline]] void gather(const Floats& length, const Floats& density, const Reaction& reaction) {
-        const Floats depth = length * density * volume_.extinctionPerCell;
         if constexpr (burning) {
             const Burning look = burningAt(reaction());
-            depth_ += depth * look.extinction;
-            const Floats left = expMinus(depth_), share = transmittance_ - left;
+            depth_ += length * density * look.extinction;
+            const Floats left = expMinus(depth_ * volume_.extinctionPerCell), share = transmittance_ - left;
             for (int channel = 0; channel < 3; ++channel)
                 colour_[channel] += share * (volume_.reflected[channel] + look.emission[channel]);
             transmittance_ = left;
         } else {
-            depth_ += depth;
+            depth_ += length * density;
         }
     }
 
@@ -178,11 +194,13 @@ class PacketMarch {
 
     const Volume& volume_;
     const RayPacket& rays_;
+    std::ptrdiff_t row_, slab_;
     float step_;
+    float opaque_;  ///< as `depth_` counts: without the extinction of a density of 1
     Floats shift_;
-    Floats from_, end_;          ///< of each ray, within the grid and before the scene
-    float lastFrom_, firstEnd_;  ///< between them no ray is cut
-    float first_, last_;         ///< between them is all there may be to see
+    Floats from_, end_;   ///< of each ray, within the grid and before the scene
+    float first_, last_;  ///< between them is all there may be to see
+    Four lastBase_;
     Floats depth_{};
     Floats transmittance_ = all(1);
     Floats colour_[3]{};

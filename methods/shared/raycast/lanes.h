@@ -8,11 +8,16 @@ namespace dustbench::raycast {
 inline constexpr int laneCount = 16;
 using Floats = float __attribute__((vector_size(64)));
 using Ints = int __attribute__((vector_size(64)));
+/// x, y, z, and what does no harm.
+using Four = float __attribute__((vector_size(16)));
+using FourInts = int __attribute__((vector_size(16)));
 
-[[gnu::always_inline]] inline Floats atMost(const Floats& a, const Floats& b) {
+template <typename Vector>
+[[gnu::always_inline]] inline Vector atMost(const Vector& a, const Vector& b) {
     return a < b ? a : b;
 }
-[[gnu::always_inline]] inline Floats atLeast(const Floats& a, const Floats& b) {
+template <typename Vector>
+[[gnu::always_inline]] inline Vector atLeast(const Vector& a, const Vector& b) {
     return a > b ? a : b;
 }
 [[gnu::always_inline]] inline Floats all(float value) {

@@ -3,7 +3,6 @@
 // Units: cells; places count from the grid's least corner. Private to the march on the CPU.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,7 +18,7 @@ struct Stretches {
 
 struct RayPacket {
     /// Pixels (x, y) to (x + 3, y + 3).
-    RayPacket(const PixelRays& rays, int x, int y) : eye(rays.eye) {
+    RayPacket(const PixelRays& rays, int x, int y) : eye{rays.eye.x, rays.eye.y, rays.eye.z, 0} {
         Floats column, row;
         for (int lane = 0; lane < laneCount; ++lane) {
             column[lane] = static_cast<float>(x + lane % 4) + 0.5f;
@@ -53,18 +52,18 @@ struct RayPacket {
         return parts;
     }
 
-    /// The box that holds all rays between two distances.
-    void bounds(float from, float to, glm::vec3& low, glm::vec3& high) const {
-        for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = eye[axis] + std::min(from * slowest[axis], to * slowest[axis]);
-            high[axis] = eye[axis] + std::max(from * fastest[axis], to * fastest[axis]);
-        }
+    /// The corners of the box that holds all rays between two distances.
+    [[gnu::always_inline]] [[nodiscard]] Four low(float from, float to) const {
+        return eye + atMost(from * slowest, to * slowest);
+    }
+    [[gnu::always_inline]] [[nodiscard]] Four high(float from, float to) const {
+        return eye + atLeast(from * fastest, to * fastest);
     }
 
-    glm::vec3 eye;
-    Floats along[3];             ///< unit directions
-    glm::vec3 slowest, fastest;  ///< least and greatest of them, by axis
-    Floats stretch;              ///< of a ray of length 1 along the camera's axis
+    Four eye;
+    Floats along[3];            ///< unit directions
+    Four slowest{}, fastest{};  ///< least and greatest of them, by axis
+    Floats stretch;             ///< of a ray of length 1 along the camera's axis
     Floats jitter;
 };
 
