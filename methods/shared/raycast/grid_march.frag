@@ -88,6 +88,28 @@ vec2 within(vec3 low, vec3 high, vec3 perRay) {
     return vec2(max(max(enters.x, enters.y), max(enters.z, 0.0)), min(min(leaves.x, leaves.y), leaves.z));
 }
 
+#ifdef SKIP
+// How far a ray goes through bricks without anything in them, `length` at the most.
+float clearAhead(vec3 start, vec3 ray, float length) {
+    vec3 perRay = 1.0 / ray;
+    ivec3 brickCount = textureSize(bricks, 0);
+    ivec3 brick = clamp(ivec3(start / BRICK), ivec3(0), brickCount - 1);
+    ivec3 toward = ivec3(sign(ray));
+    vec3 perBrick = BRICK * abs(perRay);
+    vec3 exits = (vec3(brick + max(toward, 0)) * BRICK - start) * perRay;
+    float ahead = 0.0;
+    while (texelFetch(bricks, brick, 0).r == 0.0) {
+        ahead = min(min(exits.x, exits.y), exits.z);
+        bvec3 through = lessThanEqual(exits, vec3(ahead));
+        exits += mix(vec3(0), perBrick, through);
+        brick += ivec3(through) * toward;
+        if (ahead >= length || any(lessThan(brick, ivec3(0))) || any(greaterThanEqual(brick, brickCount)))
+            return length;
+    }
+    return max(ahead, 0.0);
+}
+#endif
+
 void main() {
     colour = vec4(0);
     vec3 ray = rayCorner + gl_FragCoord.x * rayRight + gl_FragCoord.y * rayUp;
@@ -101,6 +123,10 @@ void main() {
 #ifdef SKIP
     vec2 filled = within(least, most, perRay);
     float enter = filled.x, last = min(filled.y, end);
+    if (enter >= last) return;
+    enter += clearAhead(eye + enter * ray, ray, last - enter);
+    if (enter >= last) return;
+    last -= clearAhead(eye + last * ray, -ray, last - enter);
 #else
     float enter = box.x, last = end;
 #endif
@@ -109,44 +135,13 @@ void main() {
     float shift = jitter() * stepLength;
     float k = floor((enter - shift) / stepLength) + 1.0;  // the step from `from` ends at `next`, or at the end
     float next = k * stepLength + shift, from = max(next - stepLength, box.x);
-#ifdef SKIP
-    ivec3 brickCount = textureSize(bricks, 0);
-    ivec3 brick = clamp(ivec3((eye + enter * ray) / BRICK), ivec3(0), brickCount - 1);
-    ivec3 toward = ivec3(sign(ray));
-    vec3 perBrick = BRICK * abs(perRay);
-    vec3 exits = (vec3(brick + max(toward, 0)) * BRICK - eye) * perRay;
-    for (;;) {
-        float leave = min(min(exits.x, exits.y), exits.z);
-        if (texelFetch(bricks, brick, 0).r > 0.0) {
-            for (;;) {  // the steps whose middle lies in this brick
-                float to = min(next, end), middle = 0.5 * (from + to);
-                if (middle >= leave || from >= end) break;
-                march(eye + middle * ray, to - from);
-                from = to;
-                k += 1.0;
-                next = k * stepLength + shift;
-                if (depth > opaqueDepth) break;
-            }
-        } else if (0.5 * (from + min(next, end)) < leave) {
-            k += max(ceil((leave - next) / stepLength + 0.5), 1.0);
-            next = k * stepLength + shift;
-            from = next - stepLength;
-        }
-        if (leave >= last || depth > opaqueDepth) break;
-        bvec3 through = lessThanEqual(exits, vec3(leave));
-        exits += mix(vec3(0), perBrick, through);
-        brick += ivec3(through) * toward;
-        if (any(lessThan(brick, ivec3(0))) || any(greaterThanEqual(brick, brickCount))) break;
-    }
-#else
-    while (from < end && depth <= opaqueDepth) {
+    while (from < last && depth <= opaqueDepth) {
         float to = min(next, end);
         march(eye + 0.5 * (from + to) * ray, to - from);
         from = to;
         k += 1.0;
         next = k * stepLength + shift;
     }
-#endif
     float alpha = 1.0 - exp(-depth);
 #ifdef FIRE
     colour = vec4(shown, alpha);
