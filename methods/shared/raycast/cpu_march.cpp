@@ -64,15 +64,16 @@ Floats sceneDistance(const PixelRays& rays, const SceneDepths& depths, int x, in
 /// What a march goes through and looks for.
 struct Volume {
     const PaddedCells& density;
-    const PaddedCells& reaction;  ///< where it burns
+    const PaddedCells* reaction;  ///< null: nothing burns
     const BrickMap* bricks;       ///< null: nothing is skipped
+    const LightVolume* light;     ///< null: no shadow
     std::span<const glm::vec4> fire;
-    glm::vec3 reflected;
+    Reflected reflected;
     float stepCells, extinctionPerCell, opaqueDepth;
 };
 
 /// One packet's way through a volume.
-template <bool burning, bool cubic>
+template <bool coloured, bool cubic>
 class PacketMarch {
  public:
     PacketMarch(const Volume& volume, const RayPacket& rays, const Floats& jitter, const Floats& sceneDistance)
@@ -130,7 +131,8 @@ class PacketMarch {
         length = depth_ > opaque_ ? all(0) : length;
         if constexpr (cubic) {
             const Places at = places(middle, Four{});
-            gather(length, sampleCubic(volume_.density, at), [&] { return sampleCubic(volume_.reaction, at); });
+            gather(middle, length, sampleCubic(volume_.density, at),
+                   [&] { return sampleCubic(*volume_.reaction, at); });
             return;
         }
         // The middles of steps that are cut may lie anywhere in them.
@@ -144,11 +146,12 @@ class PacketMarch {
         if (CellWindow::useful && (beyond[0] | beyond[1] | beyond[2]) == 0) {
             const Places at = places(middle, whole);
             const std::ptrdiff_t from = base[0] + base[1] * row_ + base[2] * slab_;
-            gather(length, CellWindow(volume_.density.origin() + from, row_, slab_).sample(at),
-                   [&] { return CellWindow(volume_.reaction.origin() + from, row_, slab_).sample(at); });
+            gather(middle, length, CellWindow(volume_.density.origin() + from, row_, slab_).sample(at),
+                   [&] { return CellWindow(volume_.reaction->origin() + from, row_, slab_).sample(at); });
         } else {
             const Places at = places(middle, Four{});
-            gather(length, sampleAnywhere(volume_.density, at), [&] { return sampleAnywhere(volume_.reaction, at); });
+            gather(middle, length, sampleAnywhere(volume_.density, at),
+                   [&] { return sampleAnywhere(*volume_.reaction, at); });
         }
     }
 
@@ -161,17 +164,32 @@ class PacketMarch {
 
     /// D ← D + σ·Δ,   C ← C + (T before − T after)·(reflected + emission)
     template <typename Reaction>
-    [[gnu::always_inline]] void gather(const Floats& length, const Floats& density, const Reaction& reaction) {
-        if constexpr (burning) {
-            const Burning look = burningAt(reaction());
-            depth_ += length * density * look.extinction;
-            const Floats left = expMinus(depth_ * volume_.extinctionPerCell), share = transmittance_ - left;
+    [[gnu::always_inline]] void gather(const Floats& middle, const Floats& length, const Floats& density,
+                                       const Reaction& reaction) {
+        Floats step = length * density;
+        if constexpr (coloured) {
+            if (most(step) <= 0) return;
+            Floats source[3];
+            const Floats light = volume_.light ? lightAt(middle) : all(1);
             for (int channel = 0; channel < 3; ++channel)
-                colour_[channel] += share * (volume_.reflected[channel] + look.emission[channel]);
+                source[channel] = volume_.reflected.ambient[channel] + volume_.reflected.sun[channel] * light;
+            if (volume_.reaction) {
+                const Burning look = burningAt(reaction());
+                step *= look.extinction;
+                for (int channel = 0; channel < 3; ++channel) source[channel] += look.emission[channel];
+            }
+            const Floats left = expMinus((depth_ + step) * volume_.extinctionPerCell), share = transmittance_ - left;
+            for (int channel = 0; channel < 3; ++channel) colour_[channel] += share * source[channel];
             transmittance_ = left;
-        } else {
-            depth_ += length * density;
         }
+        depth_ += step;
+    }
+
+    [[nodiscard]] Floats lightAt(const Floats& distance) const {
+        const Places at = places(distance, Four{-0.5f, -0.5f, -0.5f, 0});
+        const float perTexel = 1 / static_cast<float>(volume_.light->texelCells());
+        return sampleAnywhere(volume_.light->padded(),
+                              {at.x * perTexel - 0.5f, at.y * perTexel - 0.5f, at.z * perTexel - 0.5f});
     }
 
     struct Burning {
@@ -206,7 +224,7 @@ class PacketMarch {
     Floats colour_[3]{};
 };
 
-template <bool burning, bool cubic>
+template <bool coloured, bool cubic>
 void marchAll(const Volume& volume, const PixelRays& rays, const SceneDepths& depths, bool jitter,
               const PacketPicture& picture) {
     parallel::forEachBlock(picture.packets(), packetsPerBlock, [&](std::size_t first, std::size_t count) {
@@ -215,11 +233,11 @@ void marchAll(const Volume& volume, const PixelRays& rays, const SceneDepths& de
             const int x = picture.rectangle.left + PacketPicture::edge * static_cast<int>(p % across);
             const int y = picture.rectangle.bottom + PacketPicture::edge * static_cast<int>(p / across);
             const RayPacket packet(rays, x, y);
-            PacketMarch<burning, cubic> march(volume, packet, jitter ? packet.jitter : Floats{},
-                                              sceneDistance(rays, depths, x, y, packet.stretch));
+            PacketMarch<coloured, cubic> march(volume, packet, jitter ? packet.jitter : Floats{},
+                                               sceneDistance(rays, depths, x, y, packet.stretch));
             march.march();
             float* to = picture.values.data() + p * PacketPicture::pixels * static_cast<std::size_t>(picture.channels);
-            if constexpr (burning)
+            if constexpr (coloured)
                 for (int channel = 0; channel < 3; ++channel, to += laneCount)
                     std::memcpy(to, &march.colour(channel), sizeof(Floats));
             const Floats alpha = march.alpha();
@@ -236,27 +254,29 @@ CpuMarch::CpuMarch(const RaycastSettings& settings, MemoryLedger& ledger)
       density_(ledger.account("ray cast density")),
       reaction_(ledger.account("ray cast reaction")) {}
 
-void CpuMarch::upload(const ShownGrid& grid, const BrickMap& bricks) {
+void CpuMarch::upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light) {
     density_.set(grid.cells, grid.density);
     burning_ = !grid.reaction.empty();
     if (burning_) reaction_.set(grid.cells, grid.reaction);
     extinctionPerCell_ = static_cast<float>(settings_.extinctionPerMetre * grid.spacingMetres);
     bricks_ = &bricks;
+    light_ = light;
 }
 
-void CpuMarch::march(const PixelRays& rays, const SceneDepths& depths, const glm::vec3& reflected,
+void CpuMarch::march(const PixelRays& rays, const SceneDepths& depths, const Reflected& reflected,
                      const PacketPicture& picture) const {
     const Volume volume{density_,
-                        reaction_,
+                        burning_ ? &reaction_ : nullptr,
                         settings_.skipEmpty ? bricks_ : nullptr,
+                        light_,
                         fire_,
                         reflected,
                         static_cast<float>(settings_.stepCells),
                         extinctionPerCell_,
                         opaqueDepth(settings_)};
     const bool cubic = settings_.filter == Filter::cubic;
-    const auto all = burning_ ? (cubic ? marchAll<true, true> : marchAll<true, false>)
-                              : (cubic ? marchAll<false, true> : marchAll<false, false>);
+    const auto all = channels() == 4 ? (cubic ? marchAll<true, true> : marchAll<true, false>)
+                                     : (cubic ? marchAll<false, true> : marchAll<false, false>);
     all(volume, rays, depths, settings_.jitter, picture);
 }
 

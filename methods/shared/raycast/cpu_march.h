@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "methods/shared/raycast/brick_map.h"
+#include "methods/shared/raycast/light_volume.h"
 #include "methods/shared/raycast/padded_cells.h"
 #include "methods/shared/raycast/pixel_rays.h"
 #include "methods/shared/raycast/raycast_settings.h"
@@ -42,13 +43,13 @@ class CpuMarch {
  public:
     CpuMarch(const RaycastSettings& settings, MemoryLedger& ledger);
 
-    /// `bricks` must outlive the marches through this grid.
-    void upload(const ShownGrid& grid, const BrickMap& bricks);
+    /// `bricks`, and `light` where the cloud casts a shadow on itself, must outlive the marches through this grid.
+    void upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light);
 
-    /// 1 for smoke alone, whose colour is the same everywhere, or 4.
-    [[nodiscard]] int channels() const { return burning_ ? 4 : 1; }
+    /// 1 for smoke whose colour is the same everywhere, or 4.
+    [[nodiscard]] int channels() const { return burning_ || light_ ? 4 : 1; }
     /// `picture.channels` must be `channels()`.
-    void march(const PixelRays& rays, const SceneDepths& depths, const glm::vec3& reflected,
+    void march(const PixelRays& rays, const SceneDepths& depths, const Reflected& reflected,
                const PacketPicture& picture) const;
 
  private:
@@ -56,6 +57,7 @@ class CpuMarch {
     std::vector<glm::vec4> fire_;
     PaddedCells density_, reaction_;
     const BrickMap* bricks_ = nullptr;
+    const LightVolume* light_ = nullptr;
     float extinctionPerCell_ = 0;
     bool burning_ = false;
 };

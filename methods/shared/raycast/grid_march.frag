@@ -14,6 +14,16 @@ layout(binding = 2) uniform sampler3D bricks;  // 0: nothing in it
 layout(binding = 3) uniform sampler3D reaction;
 layout(binding = 4) uniform sampler2D fire;  // emission and extinction factor by reaction
 #endif
+#ifdef SHADOW
+layout(binding = 5) uniform sampler3D light;  // how much of the sun's comes through
+uniform vec3 lightCells;                      // that it reaches over
+uniform vec3 reflectedSky, reflectedSun;
+#else
+uniform vec3 reflected;  // what a thick cloud reflects
+#endif
+#if defined(FIRE) || defined(SHADOW)
+#define COLOURED
+#endif
 
 // Lengths are in cells, places from the grid's least corner.
 uniform vec3 cells, eye;
@@ -24,7 +34,6 @@ uniform vec3 rayCorner, rayRight, rayUp;  // the ray through the picture's corne
 uniform float nearDistance, stepLength;
 uniform float extinction;   // of a density of 1, per cell
 uniform float opaqueDepth;  // where a ray may end
-uniform vec3 reflected;     // what a thick cloud reflects
 
 layout(location = 0) out vec4 colour;
 
@@ -64,21 +73,29 @@ float jitter() {
 }
 
 float depth = 0.0;
-#ifdef FIRE
+#ifdef COLOURED
 float transmittance = 1.0;
 vec3 shown = vec3(0);
 #endif
 
 void march(vec3 at, float reach) {
+    float step = sampled(density, at) * extinction * reach;
+#ifdef COLOURED
+#ifdef SHADOW
+    vec3 source = reflectedSky + reflectedSun * texture(light, at / lightCells).r;
+#else
+    vec3 source = reflected;
+#endif
 #ifdef FIRE
     vec4 burning = texture(fire, vec2((sampled(reaction, at) * (FIRE_TEXELS - 1.0) + 0.5) / FIRE_TEXELS, 0.5));
-    depth += sampled(density, at) * burning.a * extinction * reach;
-    float left = exp(-depth);
-    shown += (transmittance - left) * (reflected + burning.rgb);
-    transmittance = left;
-#else
-    depth += sampled(density, at) * extinction * reach;
+    step *= burning.a;
+    source += burning.rgb;
 #endif
+    float left = exp(-depth - step);
+    shown += (transmittance - left) * source;
+    transmittance = left;
+#endif
+    depth += step;
 }
 
 // Where the ray from the eye is between two corners: x to y.
@@ -143,7 +160,7 @@ void main() {
         next = k * stepLength + shift;
     }
     float alpha = 1.0 - exp(-depth);
-#ifdef FIRE
+#ifdef COLOURED
     colour = vec4(shown, alpha);
 #else
     colour = vec4(reflected * alpha, alpha);

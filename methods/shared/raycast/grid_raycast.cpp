@@ -12,14 +12,16 @@ bool isSoftware(const gpu::Device& device) {
 
 }  // namespace
 
-glm::vec3 cloudColour(const glm::vec3& albedo, const scene::Lights& lights) {
-    return albedo / (1.0f - albedo / 2.0f) * (lights.ambient + lights.sun / 4.0f);
+Reflected cloudColour(const glm::vec3& albedo, const scene::Lights& lights) {
+    const glm::vec3 often = albedo / (1.0f - albedo / 2.0f);
+    return {often * lights.ambient, often * (lights.sun / 4.0f)};
 }
 
 GridRaycast::GridRaycast(gpu::Device& device, const RaycastSettings& settings, const scene::Lights& lights,
                          MemoryLedger& ledger)
     : settings_(settings), reflected_(cloudColour(settings.smokeColour, lights)), bricks_(ledger) {
     check(settings);
+    if (settings.shadowCells > 0) light_.emplace(settings, lights.toSun, ledger);
     if (settings.backend == Backend::cpu || (settings.backend == Backend::automatic && isSoftware(device))) {
         cpu_.emplace(settings, ledger);
         composite_.emplace(device);
@@ -34,10 +36,12 @@ void GridRaycast::upload(const ShownGrid& grid) {
     bricks_.set(grid, settings_.filter == Filter::cubic ? 2 : 1);
     grid_ = {grid.cells, grid.spacingMetres, grid.originMetres, {}, {}};
     if (bricks_.empty()) return;
+    if (light_) light_->set(grid);
+    const LightVolume* const light = light_ ? &*light_ : nullptr;
     if (cpu_)
-        cpu_->upload(grid, bricks_);
+        cpu_->upload(grid, bricks_, light);
     else
-        gl_->upload(grid, bricks_);
+        gl_->upload(grid, bricks_, light);
     drawable_ = true;
 }
 
@@ -55,7 +59,7 @@ void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer) {
     const std::vector<float> depths = layer.sceneDepth().readFloats();
     const PacketPicture picture = composite_->map(pixels, cpu_->channels());
     cpu_->march(rays, {depths, layer.width(), layer.height()}, reflected_, picture);
-    composite_->draw(reflected_, layer);
+    composite_->draw(reflected_.all(), layer);
 }
 
 std::size_t GridRaycast::gpuBytes() const {

@@ -18,7 +18,7 @@
 namespace dustbench::raycast {
 
 /// What a thick cloud of this albedo reflects; the same for all methods (scene::dustColour).
-[[nodiscard]] glm::vec3 cloudColour(const glm::vec3& albedo, const scene::Lights& lights);
+[[nodiscard]] Reflected cloudColour(const glm::vec3& albedo, const scene::Lights& lights);
 
 class GridRaycast {
  public:
@@ -41,8 +41,9 @@ class GridRaycast {
 
  private:
     RaycastSettings settings_;
-    glm::vec3 reflected_;
+    Reflected reflected_;
     BrickMap bricks_;
+    std::optional<LightVolume> light_;
     std::optional<GlMarch> gl_;
     std::optional<CpuMarch> cpu_;
     std::optional<PacketComposite> composite_;
