@@ -23,7 +23,7 @@ void fit(gpu::Texture& texture, gpu::Device& device, const char* label, gpu::For
 GlMarch::GlMarch(gpu::Device& device, const RaycastSettings& settings)
     : device_(device), settings_(settings), vertices_(device) {}
 
-void GlMarch::upload(const ShownGrid& grid, const BrickMap& bricks) {
+void GlMarch::upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light) {
     cells_ = grid.cells;
     extinctionPerCell_ = static_cast<float>(settings_.extinctionPerMetre * grid.spacingMetres);
     least_ = bricks.least();
@@ -34,6 +34,11 @@ void GlMarch::upload(const ShownGrid& grid, const BrickMap& bricks) {
     if (settings_.skipEmpty) {
         fit(bricks_, device_, "ray cast bricks", gpu::Format::r8, bricks.bricks(), gpu::Filter::nearest);
         bricks_.write(bricks.occupied());
+    }
+    if (light) {
+        fit(light_, device_, "ray cast light", gpu::Format::r32F, light->texels(), gpu::Filter::linear);
+        light_.write(light->values());
+        lightCells_ = light->texels() * light->texelCells();
     }
     if (!burning_) return;
     fit(reaction_, device_, "ray cast reaction", gpu::Format::r32F, cells_, gpu::Filter::linear);
@@ -53,6 +58,7 @@ gpu::Program& GlMarch::program() {
             definitions["FIRE"] = "";
             definitions["FIRE_TEXELS"] = std::to_string(TransferFunction::texels);
         }
+        if (settings_.shadowCells > 0) definitions["SHADOW"] = "";
         if (settings_.jitter) definitions["JITTER"] = "";
         if (settings_.filter == Filter::cubic) definitions["CUBIC"] = "";
         if (settings_.skipEmpty) {
@@ -67,7 +73,7 @@ gpu::Program& GlMarch::program() {
     return *made;
 }
 
-void GlMarch::draw(const PixelRays& rays, const PixelRectangle& pixels, const glm::vec3& reflected,
+void GlMarch::draw(const PixelRays& rays, const PixelRectangle& pixels, const Reflected& reflected,
                    const gpu::Layer& layer) {
     gpu::Program& program = this->program();
     program.set("cells", glm::vec3(cells_));
@@ -83,7 +89,13 @@ void GlMarch::draw(const PixelRays& rays, const PixelRectangle& pixels, const gl
     program.set("stepLength", static_cast<float>(settings_.stepCells));
     program.set("extinction", extinctionPerCell_);
     program.set("opaqueDepth", opaqueDepth(settings_));
-    program.set("reflected", reflected);
+    if (settings_.shadowCells > 0) {
+        program.set("reflectedSky", reflected.ambient);
+        program.set("reflectedSun", reflected.sun);
+        program.set("lightCells", glm::vec3(lightCells_));
+    } else {
+        program.set("reflected", reflected.all());
+    }
     program.set("rectangle", pixels.inClipSpace(layer.width(), layer.height()));
 
     gpu::DrawState state;
@@ -96,11 +108,12 @@ void GlMarch::draw(const PixelRays& rays, const PixelRectangle& pixels, const gl
         reaction_.bind(3);
         fire_.bind(4);
     }
+    if (settings_.shadowCells > 0) light_.bind(5);
     gpu::draw(program, vertices_, state, gpu::Primitives::triangleStrip, 4);
 }
 
 std::size_t GlMarch::gpuBytes() const {
-    return density_.bytes() + reaction_.bytes() + bricks_.bytes() + fire_.bytes();
+    return density_.bytes() + reaction_.bytes() + bricks_.bytes() + fire_.bytes() + light_.bytes();
 }
 
 }  // namespace dustbench::raycast

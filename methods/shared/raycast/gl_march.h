@@ -11,6 +11,7 @@
 #include "methods/shared/gpu/texture.h"
 #include "methods/shared/gpu/vertex_array.h"
 #include "methods/shared/raycast/brick_map.h"
+#include "methods/shared/raycast/light_volume.h"
 #include "methods/shared/raycast/pixel_rays.h"
 #include "methods/shared/raycast/raycast_settings.h"
 
@@ -20,9 +21,9 @@ class GlMarch {
  public:
     GlMarch(gpu::Device& device, const RaycastSettings& settings);
 
-    void upload(const ShownGrid& grid, const BrickMap& bricks);
-    /// `reflected`: linear RGB that a thick cloud reflects.
-    void draw(const PixelRays& rays, const PixelRectangle& pixels, const glm::vec3& reflected, const gpu::Layer& layer);
+    /// `light`: null where the cloud casts no shadow on itself.
+    void upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light);
+    void draw(const PixelRays& rays, const PixelRectangle& pixels, const Reflected& reflected, const gpu::Layer& layer);
 
     [[nodiscard]] std::size_t gpuBytes() const;
 
@@ -31,8 +32,8 @@ class GlMarch {
 
     gpu::Device& device_;
     RaycastSettings settings_;
-    gpu::Texture density_, reaction_, bricks_, fire_;
-    glm::ivec3 cells_{0}, least_{0}, most_{0};
+    gpu::Texture density_, reaction_, bricks_, fire_, light_;
+    glm::ivec3 cells_{0}, least_{0}, most_{0}, lightCells_{0};
     float extinctionPerCell_ = 0;
     bool burning_ = false;
     gpu::VertexArray vertices_;

@@ -14,6 +14,16 @@ layout(binding = 2) uniform sampler3D bricks;  // 0: nothing in it
 layout(binding = 3) uniform sampler3D reaction;
 layout(binding = 4) uniform sampler2D fire;  // emission and extinction factor by reaction
 #endif
+#ifdef SHADOW
+layout(binding = 5) uniform sampler3D light;  // how much of the sun's comes through
+uniform vec3 lightCells;                      // that it reaches over
+uniform vec3 reflectedSky, reflectedSun;
+#else
+uniform vec3 reflected;  // what a thick cloud reflects
+#endif
+#if defined(FIRE) || defined(SHADOW)
+#define COLOURED
+#endif
 
 // Lengths are in cells, places from the grid's least corner.
 uniform vec3 cells, eye;
@@ -24,7 +34,6 @@ uniform vec3 rayCorner, rayRight, rayUp;  // the ray through the picture's corne
 uniform float nearDistance, stepLength;
 uniform float extinction;   // of a density of 1, per cell
 uniform float opaqueDepth;  // where a ray may end
-uniform vec3 reflected;     // what a thick cloud reflects
 
 layout(location = 0) out vec4 colour;
 
@@ -64,21 +73,29 @@ float jitter() {
 }
 
 float depth = 0.0;
-#ifdef FIRE
+#ifdef COLOURED
 float transmittance = 1.0;
 vec3 shown = vec3(0);
 #endif
 
 void march(vec3 at, float reach) {
+    float step = sampled(density, at) * extinction * reach;
+#ifdef COLOURED
+#ifdef SHADOW
+    vec3 source = reflectedSky + reflectedSun * texture(light, at / lightCells).r;
+#else
+    vec3 source = reflected;
+#endif
 #ifdef FIRE
     vec4 burning = texture(fire, vec2((sampled(reaction, at) * (FIRE_TEXELS - 1.0) + 0.5) / FIRE_TEXELS, 0.5));
-    depth += sampled(density, at) * burning.a * extinction * reach;
-    float left = exp(-depth);
-    shown += (transmittance - left) * (reflected + burning.rgb);
-    transmittance = left;
-#else
-    depth += sampled(density, at) * extinction * reach;
+    step *= burning.a;
+    source += burning.rgb;
 #endif
+    float left = exp(-depth - step);
+    shown += (transmittance - left) * source;
+    transmittance = left;
+#endif
+    depth += step;
 }
 
 // Where the ray from the eye is between two corners: x to y.
@@ -87,6 +104,28 @@ vec2 within(vec3 low, vec3 high, vec3 perRay) {
     vec3 enters = min(atLow, atHigh), leaves = max(atLow, atHigh);
     return vec2(max(max(enters.x, enters.y), max(enters.z, 0.0)), min(min(leaves.x, leaves.y), leaves.z));
 }
+
+#ifdef SKIP
+// How far a ray goes through bricks without anything in them, `length` at the most.
+float clearAhead(vec3 start, vec3 ray, float length) {
+    vec3 perRay = 1.0 / ray;
+    ivec3 brickCount = textureSize(bricks, 0);
+    ivec3 brick = clamp(ivec3(start / BRICK), ivec3(0), brickCount - 1);
+    ivec3 toward = ivec3(sign(ray));
+    vec3 perBrick = BRICK * abs(perRay);
+    vec3 exits = (vec3(brick + max(toward, 0)) * BRICK - start) * perRay;
+    float ahead = 0.0;
+    while (texelFetch(bricks, brick, 0).r == 0.0) {
+        ahead = min(min(exits.x, exits.y), exits.z);
+        bvec3 through = lessThanEqual(exits, vec3(ahead));
+        exits += mix(vec3(0), perBrick, through);
+        brick += ivec3(through) * toward;
+        if (ahead >= length || any(lessThan(brick, ivec3(0))) || any(greaterThanEqual(brick, brickCount)))
+            return length;
+    }
+    return max(ahead, 0.0);
+}
+#endif
 
 void main() {
     colour = vec4(0);
@@ -101,6 +140,10 @@ void main() {
 #ifdef SKIP
     vec2 filled = within(least, most, perRay);
     float enter = filled.x, last = min(filled.y, end);
+    if (enter >= last) return;
+    enter += clearAhead(eye + enter * ray, ray, last - enter);
+    if (enter >= last) return;
+    last -= clearAhead(eye + last * ray, -ray, last - enter);
 #else
     float enter = box.x, last = end;
 #endif
@@ -109,46 +152,15 @@ void main() {
     float shift = jitter() * stepLength;
     float k = floor((enter - shift) / stepLength) + 1.0;  // the step from `from` ends at `next`, or at the end
     float next = k * stepLength + shift, from = max(next - stepLength, box.x);
-#ifdef SKIP
-    ivec3 brickCount = textureSize(bricks, 0);
-    ivec3 brick = clamp(ivec3((eye + enter * ray) / BRICK), ivec3(0), brickCount - 1);
-    ivec3 toward = ivec3(sign(ray));
-    vec3 perBrick = BRICK * abs(perRay);
-    vec3 exits = (vec3(brick + max(toward, 0)) * BRICK - eye) * perRay;
-    for (;;) {
-        float leave = min(min(exits.x, exits.y), exits.z);
-        if (texelFetch(bricks, brick, 0).r > 0.0) {
-            for (;;) {  // the steps whose middle lies in this brick
-                float to = min(next, end), middle = 0.5 * (from + to);
-                if (middle >= leave || from >= end) break;
-                march(eye + middle * ray, to - from);
-                from = to;
-                k += 1.0;
-                next = k * stepLength + shift;
-                if (depth > opaqueDepth) break;
-            }
-        } else if (0.5 * (from + min(next, end)) < leave) {
-            k += max(ceil((leave - next) / stepLength + 0.5), 1.0);
-            next = k * stepLength + shift;
-            from = next - stepLength;
-        }
-        if (leave >= last || depth > opaqueDepth) break;
-        bvec3 through = lessThanEqual(exits, vec3(leave));
-        exits += mix(vec3(0), perBrick, through);
-        brick += ivec3(through) * toward;
-        if (any(lessThan(brick, ivec3(0))) || any(greaterThanEqual(brick, brickCount))) break;
-    }
-#else
-    while (from < end && depth <= opaqueDepth) {
+    while (from < last && depth <= opaqueDepth) {
         float to = min(next, end);
         march(eye + 0.5 * (from + to) * ray, to - from);
         from = to;
         k += 1.0;
         next = k * stepLength + shift;
     }
-#endif
     float alpha = 1.0 - exp(-depth);
-#ifdef FIRE
+#ifdef COLOURED
     colour = vec4(shown, alpha);
 #else
     colour = vec4(reflected * alpha, alpha);

@@ -5,17 +5,20 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "methods/shared/memory_ledger.h"
 #include "methods/shared/raycast/brick_map.h"
+#include "methods/shared/raycast/cpu_march.h"
 #include "methods/shared/raycast/gl_march.h"
+#include "methods/shared/raycast/packet_composite.h"
 #include "methods/shared/raycast/raycast_settings.h"
 #include "methods/shared/scene/lights.h"
 
 namespace dustbench::raycast {
 
 /// What a thick cloud of this albedo reflects; the same for all methods (scene::dustColour).
-[[nodiscard]] glm::vec3 cloudColour(const glm::vec3& albedo, const scene::Lights& lights);
+[[nodiscard]] Reflected cloudColour(const glm::vec3& albedo, const scene::Lights& lights);
 
 class GridRaycast {
  public:
@@ -30,15 +33,20 @@ class GridRaycast {
     /// Draws what was uploaded last, as often as wanted.
     void draw(const scene::View& view, const gpu::Layer& layer);
 
-    [[nodiscard]] std::size_t gpuBytes() const { return gl_.gpuBytes(); }
+    /// `cpu` or `gl`.
+    [[nodiscard]] Backend backend() const { return cpu_ ? Backend::cpu : Backend::gl; }
+    [[nodiscard]] std::size_t gpuBytes() const;
     /// Rays that the last draw cast.
     [[nodiscard]] std::int64_t primitives() const { return rays_; }
 
  private:
     RaycastSettings settings_;
-    glm::vec3 reflected_;
+    Reflected reflected_;
     BrickMap bricks_;
-    GlMarch gl_;
+    std::optional<LightVolume> light_;
+    std::optional<GlMarch> gl_;
+    std::optional<CpuMarch> cpu_;
+    std::optional<PacketComposite> composite_;
     ShownGrid grid_;  ///< its place and size; it looks at no values
     bool drawable_ = false;
     std::int64_t rays_ = 0;

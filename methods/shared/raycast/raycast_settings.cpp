@@ -19,6 +19,7 @@ void checkRange(const char* name, double got, double least, double most) {
 void check(const RaycastSettings& settings) {
     checkRange("step in cells", settings.stepCells, 0.01, 8);
     checkRange("alpha to stop at", settings.stopAlpha, 0, 1);
+    checkRange("cells of a shadow", settings.shadowCells, 0, 64);
     checkRange("extinction per metre", settings.extinctionPerMetre, 0, 1e6);
     for (int channel = 0; channel < 3; ++channel)
         checkRange("smoke colour", static_cast<double>(settings.smokeColour[channel]), 0, 1);

@@ -9,6 +9,11 @@
 
 namespace dustbench::raycast {
 
+enum class Backend {
+    automatic,  ///< the CPU where OpenGL is software, else OpenGL
+    cpu,
+    gl,
+};
 /// Between the middles of cells; beyond the outermost ones the values stay.
 enum class Filter {
     linear,
@@ -16,12 +21,14 @@ enum class Filter {
 };
 
 struct RaycastSettings {
+    Backend backend = Backend::automatic;
     Filter filter = Filter::linear;
     double stepCells = 0.5;
-    bool jitter = true;             ///< shifts each pixel's steps by a fixed share of one: noise instead of bands
-    double stopAlpha = 0.99;        ///< a ray ends where more than this is covered; 1: never
-    bool skipEmpty = true;          ///< leave out bricks of cells without density
-    double extinctionPerMetre = 1;  ///< of a density of 1
+    bool jitter = true;       ///< shifts each pixel's steps by a fixed share of one: noise instead of bands
+    double stopAlpha = 0.99;  ///< a ray ends where more than this is covered; 1: never
+    bool skipEmpty = true;    ///< leave out bricks of cells without density
+    int shadowCells = 0;      ///< the sun's light falls off within the cloud, found in blocks of so many cells; 0: not
+    double extinctionPerMetre = 1;               ///< of a density of 1
     glm::vec3 smokeColour{0.64f, 0.54f, 0.42f};  ///< albedo
     TransferFunction fire;
 };
