@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "bench/claims/claim_ledger.h"
+#include "bench/claims/published_numbers.h"
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
@@ -51,7 +52,10 @@ int reproduce(const ReproduceOptions& options) {
             code = std::max(code, suiteCode);
             std::cout << "\n" << suiteReport(suite, results.runs()) << std::flush;
         }
-        const auto claims = bench::judgeClaims(paper.id, files::CsvTable::parseFile(results.path() / "summary.csv"));
+        const auto summary = files::CsvTable::parseFile(results.path() / "summary.csv");
+        if (const std::string numbers = publishedReport(bench::tabulatePublished(paper.id, summary)); !numbers.empty())
+            std::cout << "\n" << numbers;
+        const auto claims = bench::judgeClaims(paper.id, summary);
         bench::writeWhole(results.path() / "claims.csv", bench::claimsCsv(claims));
         std::cout << "\n" << claimsReport(claims);
         for (const char* file : {"summary.csv", "claims.csv"}) std::cout << (results.path() / file).string() << "\n";

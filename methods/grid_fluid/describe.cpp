@@ -59,11 +59,14 @@ GridFluidSettings settingsOf(const ParameterValues& values) {
     settings.seed = static_cast<std::uint64_t>(values.integer("fluid_seed"));
 
     raycast::RaycastSettings& picture = settings.picture;
+    picture.backend = values.choiceAs<raycast::Backend>("backend");
     picture.filter = values.choiceAs<raycast::Filter>("filter");
     picture.stepCells = values.real("step_cells");
     picture.jitter = values.boolean("jitter");
     picture.stopAlpha = values.real("stop_alpha");
     picture.skipEmpty = values.boolean("skip_empty");
+    const auto shadow = static_cast<int>(values.integer("shadow_cells"));
+    picture.shadowCells = shadow >= 0 ? shadow : setup.look.shadowCells;
     picture.extinctionPerMetre = setup.look.extinctionPerMetre;
     if (!setup.look.fire.empty()) picture.fire = raycast::loadTransferFunction(setup.look.fire);
     return settings;
@@ -97,11 +100,16 @@ MethodInfo describe() {
         .real("decay", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the density lost; -1: as the file says")
         .real("diffusion", asTheFileSays, asTheFileSays, 1000, "m2/s", "viscosity; -1: as the file says")
         .integer("frames_per_step", 1, 1, 600, "frames", "the fluid takes one long step in so many frames")
+        .choice("backend", "auto", {"auto", "cpu", "gl"}, "who casts the rays; auto: the CPU where OpenGL is software")
         .choice("filter", "linear", {"linear", "cubic"}, "how cells are interpolated")
         .real("step_cells", 0.5, 0.01, 8, "cells", "length of a ray's steps")
         .boolean("jitter", true, "shift each pixel's steps by a share of one: noise instead of bands")
         .real("stop_alpha", 0.99, 0, 1, "", "a ray ends where more than this is covered; 1: never")
         .boolean("skip_empty", true, "leave out blocks of cells without density")
+        .integer(
+            "shadow_cells", -1, -1, 16, "cells",
+            "the sun's light falls off within the cloud, found in blocks of so many cells; 0: not; -1: as the file "
+            "says")
         .integer("fluid_seed", 1, 0, 1'000'000'000, "", "seed of the fluid's own random numbers");
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<GridFluid>(settingsOf(values));

@@ -53,6 +53,7 @@ void readFlow(TomlReader table, FluidSetup& setup) {
 
 void readLook(TomlReader table, const std::filesystem::path& folder, FluidLook& look) {
     look.extinctionPerMetre = table.number("extinction_per_metre", 0, 1e6, look.extinctionPerMetre);
+    look.shadowCells = static_cast<int>(table.integer("shadow_cells", 0, 16, 0));
     if (table.has("albedo")) look.albedo = within(table, "albedo", 0, 1, {});
     if (const std::string fire = table.text("fire", ""); !fire.empty()) look.fire = folder / fire;
     table.finish();

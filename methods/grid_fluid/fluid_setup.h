@@ -41,6 +41,7 @@ struct SourceSetup {
 struct FluidLook {
     double extinctionPerMetre = 1;    ///< of a density of 1
     std::optional<glm::vec3> albedo;  ///< none: the scene's dust
+    int shadowCells = 0;              ///< blocks of the light volume; 0: the sun shines through
     std::filesystem::path fire;       ///< transfer function of the reaction; empty: nothing burns
 };
 
