@@ -14,7 +14,7 @@ namespace dustbench::raycast {
 
 class BrickMap {
  public:
-    static constexpr int edge = 8;
+    static constexpr int edge = 4;
 
     explicit BrickMap(MemoryLedger& ledger);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t packetsPerBlock = 64;
 /// Steps that are skipped, or not, together.
-constexpr int stepsPerChunk = 8;
+constexpr int stepsPerChunk = 4;
 
 /// Eight linear samples make a cubic B-spline's 64: along each axis the two outer pairs of weights are put together.
 /// Source: Sigg2005.

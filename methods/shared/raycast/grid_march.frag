@@ -6,61 +6,17 @@
 // cut to what lies within the grid and before the scene, and each is sampled in its middle.
 // Source: Senger2009, ch. 4. Departs: entry, length and their cuts are computed for each pixel instead of drawn first.
 layout(binding = 0) uniform sampler2D sceneDepth;
-layout(binding = 1) uniform sampler3D density;
 #ifdef SKIP
 layout(binding = 2) uniform sampler3D bricks;  // 0: nothing in it
-#endif
-#ifdef FIRE
-layout(binding = 3) uniform sampler3D reaction;
-layout(binding = 4) uniform sampler2D fire;  // emission and extinction factor by reaction
-#endif
-#ifdef SHADOW
-layout(binding = 5) uniform sampler3D light;  // how much of the sun's comes through
-uniform vec3 lightCells;                      // that it reaches over
-uniform vec3 reflectedSky, reflectedSun;
-#else
-uniform vec3 reflected;  // what a thick cloud reflects
-#endif
-#if defined(FIRE) || defined(SHADOW)
-#define COLOURED
+uniform vec3 least, most;                      // [least, most) holds all there is
 #endif
 
-// Lengths are in cells, places from the grid's least corner.
-uniform vec3 cells, eye;
-#ifdef SKIP
-uniform vec3 least, most;  // [least, most) holds all there is
-#endif
+uniform vec3 eye;
 uniform vec3 rayCorner, rayRight, rayUp;  // the ray through the picture's corner, and what one pixel adds
 uniform float nearDistance, stepLength;
-uniform float extinction;   // of a density of 1, per cell
 uniform float opaqueDepth;  // where a ray may end
 
 layout(location = 0) out vec4 colour;
-
-#ifdef CUBIC
-// Eight linear samples make a cubic B-spline's 64: along each axis the two outer pairs of weights are put together.
-// Source: Sigg2005.
-float sampled(sampler3D field, vec3 at) {
-    vec3 place = at - 0.5, share = fract(place), low = place - share;
-    vec3 rest = 1.0 - share;
-    vec3 w0 = rest * rest * rest / 6.0;
-    vec3 w1 = 2.0 / 3.0 - 0.5 * share * share * (2.0 - share);
-    vec3 w3 = share * share * share / 6.0;
-    vec3 w2 = 1.0 - w0 - w1 - w3;
-    vec3 g0 = w0 + w1, g1 = w2 + w3;
-    vec3 h0 = (low - 0.5 + w1 / g0) / cells, h1 = (low + 1.5 + w3 / g1) / cells;
-    vec4 front = vec4(texture(field, vec3(h0.x, h0.y, h0.z)).r, texture(field, vec3(h1.x, h0.y, h0.z)).r,
-                      texture(field, vec3(h0.x, h1.y, h0.z)).r, texture(field, vec3(h1.x, h1.y, h0.z)).r);
-    vec4 back = vec4(texture(field, vec3(h0.x, h0.y, h1.z)).r, texture(field, vec3(h1.x, h0.y, h1.z)).r,
-                     texture(field, vec3(h0.x, h1.y, h1.z)).r, texture(field, vec3(h1.x, h1.y, h1.z)).r);
-    vec4 all = g0.z * front + g1.z * back;
-    return g0.y * (g0.x * all.x + g1.x * all.y) + g1.y * (g0.x * all.z + g1.x * all.w);
-}
-#else
-float sampled(sampler3D field, vec3 at) {
-    return texture(field, at / cells).r;
-}
-#endif
 
 // pixel_rays.h says what it is.
 float jitter() {
@@ -79,23 +35,14 @@ vec3 shown = vec3(0);
 #endif
 
 void march(vec3 at, float reach) {
-    float step = sampled(density, at) * extinction * reach;
+    vec3 source;
+    float next = depth + extinctionAt(at, source) * reach;
 #ifdef COLOURED
-#ifdef SHADOW
-    vec3 source = reflectedSky + reflectedSun * texture(light, at / lightCells).r;
-#else
-    vec3 source = reflected;
-#endif
-#ifdef FIRE
-    vec4 burning = texture(fire, vec2((sampled(reaction, at) * (FIRE_TEXELS - 1.0) + 0.5) / FIRE_TEXELS, 0.5));
-    step *= burning.a;
-    source += burning.rgb;
-#endif
-    float left = exp(-depth - step);
+    float left = exp(-next);
     shown += (transmittance - left) * source;
     transmittance = left;
 #endif
-    depth += step;
+    depth = next;
 }
 
 // Where the ray from the eye is between two corners: x to y.

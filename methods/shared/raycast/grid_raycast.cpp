@@ -22,7 +22,9 @@ GridRaycast::GridRaycast(gpu::Device& device, const RaycastSettings& settings, c
     : settings_(settings), reflected_(cloudColour(settings.smokeColour, lights)), bricks_(ledger) {
     check(settings);
     if (settings.shadowCells > 0) light_.emplace(settings, lights.toSun, ledger);
-    if (settings.backend == Backend::cpu || (settings.backend == Backend::automatic && isSoftware(device))) {
+    if (settings.renderer == Renderer::slices) {
+        slices_.emplace(device, settings);
+    } else if (settings.backend == Backend::cpu || (settings.backend == Backend::automatic && isSoftware(device))) {
         cpu_.emplace(settings, ledger);
         composite_.emplace(device);
     } else {
@@ -38,20 +40,23 @@ void GridRaycast::upload(const ShownGrid& grid) {
     if (bricks_.empty()) return;
     if (light_) light_->set(grid);
     const LightVolume* const light = light_ ? &*light_ : nullptr;
-    if (cpu_)
-        cpu_->upload(grid, bricks_, light);
-    else
-        gl_->upload(grid, bricks_, light);
+    if (cpu_) cpu_->upload(grid, bricks_, light);
+    if (gl_) gl_->upload(grid, bricks_, light);
+    if (slices_) slices_->upload(grid, bricks_, light);
     drawable_ = true;
 }
 
 void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer) {
-    rays_ = 0;
+    primitives_ = 0;
     if (!drawable_) return;
+    const PixelRays rays(grid_, view);
+    if (slices_) {
+        primitives_ = slices_->draw(rays, view, reflected_, layer);
+        return;
+    }
     const PixelRectangle pixels = pixelsOf(grid_, bricks_.least(), bricks_.most(), view);
     if (pixels.empty()) return;
-    rays_ = static_cast<std::int64_t>(pixels.width()) * pixels.height();
-    const PixelRays rays(grid_, view);
+    primitives_ = static_cast<std::int64_t>(pixels.width()) * pixels.height();
     if (gl_) {
         gl_->draw(rays, pixels, reflected_, layer);
         return;
@@ -63,7 +68,8 @@ void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer) {
 }
 
 std::size_t GridRaycast::gpuBytes() const {
-    return (gl_ ? gl_->gpuBytes() : 0) + (composite_ ? composite_->gpuBytes() : 0);
+    return (gl_ ? gl_->gpuBytes() : 0) + (slices_ ? slices_->gpuBytes() : 0) +
+           (composite_ ? composite_->gpuBytes() : 0);
 }
 
 }  // namespace dustbench::raycast

@@ -11,6 +11,7 @@
 #include "methods/shared/raycast/brick_map.h"
 #include "methods/shared/raycast/cpu_march.h"
 #include "methods/shared/raycast/gl_march.h"
+#include "methods/shared/raycast/gl_slices.h"
 #include "methods/shared/raycast/packet_composite.h"
 #include "methods/shared/raycast/raycast_settings.h"
 #include "methods/shared/scene/lights.h"
@@ -36,20 +37,21 @@ class GridRaycast {
     /// `cpu` or `gl`.
     [[nodiscard]] Backend backend() const { return cpu_ ? Backend::cpu : Backend::gl; }
     [[nodiscard]] std::size_t gpuBytes() const;
-    /// Rays that the last draw cast.
-    [[nodiscard]] std::int64_t primitives() const { return rays_; }
+    /// Rays that the last draw cast, or planes that it blended.
+    [[nodiscard]] std::int64_t primitives() const { return primitives_; }
 
  private:
     RaycastSettings settings_;
     Reflected reflected_;
     BrickMap bricks_;
     std::optional<LightVolume> light_;
-    std::optional<GlMarch> gl_;
+    std::optional<GlMarch> gl_;  ///< one of these three
+    std::optional<GlSlices> slices_;
     std::optional<CpuMarch> cpu_;
     std::optional<PacketComposite> composite_;
     ShownGrid grid_;  ///< its place and size; it looks at no values
     bool drawable_ = false;
-    std::int64_t rays_ = 0;
+    std::int64_t primitives_ = 0;
 };
 
 }  // namespace dustbench::raycast

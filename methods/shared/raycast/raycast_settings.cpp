@@ -17,6 +17,8 @@ void checkRange(const char* name, double got, double least, double most) {
 }  // namespace
 
 void check(const RaycastSettings& settings) {
+    if (settings.backend == Backend::cpu && settings.renderer != Renderer::raycast)
+        throw InputError("ray cast: got a backend of cpu, allowed for other renderers than raycast: automatic, gl");
     checkRange("step in cells", settings.stepCells, 0.01, 8);
     checkRange("alpha to stop at", settings.stopAlpha, 0, 1);
     checkRange("cells of a shadow", settings.shadowCells, 0, 64);

@@ -14,6 +14,10 @@ enum class Backend {
     cpu,
     gl,
 };
+enum class Renderer {
+    raycast,  ///< a march along each pixel's ray
+    slices,   ///< planes across the view, blended; OpenGL only
+};
 /// Between the middles of cells; beyond the outermost ones the values stay.
 enum class Filter {
     linear,
@@ -22,6 +26,7 @@ enum class Filter {
 
 struct RaycastSettings {
     Backend backend = Backend::automatic;
+    Renderer renderer = Renderer::raycast;
     Filter filter = Filter::linear;
     double stepCells = 0.5;
     bool jitter = true;       ///< shifts each pixel's steps by a fixed share of one: noise instead of bands

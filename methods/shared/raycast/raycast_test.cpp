@@ -127,6 +127,24 @@ TEST(GridRaycast, ShowsTheSameOnCpuAndGpu) {
     }
 }
 
+TEST(GridRaycast, ShowsByFineSlicesWhatTheMarchShows) {
+    Canvas canvas;
+    canvas.setWall(3.217, 50);
+    for (const bool burning : {false, true})
+        for (const glm::dvec3& eye : {glm::dvec3(3, 2, 4), glm::dvec3(0.3, 0.2, 0.1)}) {
+            canvas.lookFrom(eye, -eye);
+            RaycastSettings settings = settingsOf(Backend::gl);
+            settings.extinctionPerMetre = 4;
+            settings.shadowCells = 2;
+            settings.stepCells = 0.2;
+            const draw::Image march = canvas.picture(lumps(burning), settings);
+            settings.renderer = Renderer::slices;
+            const draw::Image slices = canvas.picture(lumps(burning), settings);
+            EXPECT_LT(greatestDifference(march, slices), 0.07) << eye.x;
+            EXPECT_NEAR(meanAlpha(march) / meanAlpha(slices), 1, 2e-3);
+        }
+}
+
 TEST_P(GridRaycastOn, LosesNothingBySkippingAndLittleByStoppingEarly) {
     Canvas canvas;
     for (const bool burning : {false, true})

@@ -42,7 +42,7 @@ inline TestGrid testPlume(glm::ivec3 size = {128, 64, 64}) {
                 for (int octave = 1, f = 3; octave <= 3; ++octave, f *= 2)
                     lumps +=
                         std::sin(f * at.x + 2 * octave) * std::sin(f * at.y + octave) * std::sin(f * at.z) / octave;
-                const double radius = (0.25 + 0.95 * along) * (1 + 0.45 * lumps);
+                const double radius = (0.34 + 1.25 * along) * (1 + 0.45 * lumps);
                 return std::max(0.0, 1 - std::pow(across / radius, 2.0)) * (1.2 - along);
             }};
 }

@@ -98,6 +98,11 @@ TEST(RaycastSettings, RefuseValuesOutOfRange) {
     };
     refuses([](RaycastSettings& settings) { settings.stepCells = 0; });
     refuses([](RaycastSettings& settings) { settings.stepCells = std::nan(""); });
+    refuses([](RaycastSettings& settings) {
+        settings.backend = Backend::cpu;
+        settings.renderer = Renderer::slices;
+    });
+    refuses([](RaycastSettings& settings) { settings.shadowCells = -1; });
     refuses([](RaycastSettings& settings) { settings.stopAlpha = 1.5; });
     refuses([](RaycastSettings& settings) { settings.extinctionPerMetre = -1; });
     refuses([](RaycastSettings& settings) { settings.smokeColour.g = 2; });
