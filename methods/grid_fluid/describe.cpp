@@ -95,7 +95,7 @@ MethodInfo describe() {
         .real("tolerance", 0.001, 1e-7, 10, "",
               "of pressure=multigrid: the share of its volume that a cell may gain in a step")
         .real("vorticity", asTheFileSays, asTheFileSays, 1000, "1/s", "confinement of vortices; -1: as the file says")
-        .real("buoyancy", asTheFileSays, asTheFileSays, 1e30, "m/s2/K", "rise for each kelvin; -1: as the file says")
+        .real("buoyancy", asTheFileSays, asTheFileSays, 1e38, "m/s2/K", "rise for each kelvin; -1: as the file says")
         .real("cooling", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the heat lost; -1: as the file says")
         .real("decay", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the density lost; -1: as the file says")
         .real("diffusion", asTheFileSays, asTheFileSays, 1000, "m2/s", "viscosity; -1: as the file says")

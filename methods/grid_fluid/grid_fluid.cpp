@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
+#include <sstream>
 
 #include "methods/grid_fluid/dust_mass.h"
 #include "methods/grid_fluid/fluid_place.h"
@@ -109,11 +109,12 @@ void GridFluid::simulate(const Frame& frame) {
     }
     const auto sources = emitters_->at(frame.state, steps_++, secondsDue_, dustDueM2_);
     const fluid::StepReport report = solver_->step(secondsDue_, sources, frame.clock);
-    if (report.cellsPerStep > mostCellsPerStep)
-        throw std::runtime_error("fluid: step " + std::to_string(solver_->steps()) + " moves the air by " +
-                                 std::to_string(std::lround(report.cellsPerStep)) + " cells, allowed: at most " +
-                                 std::to_string(std::lround(mostCellsPerStep)) +
-                                 "; shorter steps, larger cells or weaker forces");
+    if (report.cellsPerStep > mostCellsPerStep) {
+        std::ostringstream text;
+        text << "fluid: got a flow that goes " << report.cellsPerStep << " cells in step " << solver_->steps()
+             << ", allowed: at most " << mostCellsPerStep << ": shorter steps, larger cells or weaker forces";
+        throw InputError(text.str());
+    }
     framesDue_ = 0;
     secondsDue_ = dustDueM2_ = 0;
 }

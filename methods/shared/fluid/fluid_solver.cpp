@@ -59,7 +59,7 @@ FluidSolver::FluidSolver(const FluidSettings& settings, MemoryLedger& ledger)
       advection_(layout_, ledger.account("fluid advection window")) {
     for (std::size_t at = 0; at < layout_.padded(); ++at)
         for (int axis = 0; axis < 3; ++axis) cells_.cell(at)[axis] = settings_.windMetresPerSecond[axis];
-    solids_.set({}, cells_);
+    (void)solids_.set({}, cells_);
 }
 
 std::size_t FluidSolver::floatsToLend() const {
@@ -67,7 +67,7 @@ std::size_t FluidSolver::floatsToLend() const {
 }
 
 void FluidSolver::setSolids(const SolidMask& mask) {
-    solids_.set(mask, cells_);
+    covered_ += solids_.set(mask, cells_);
     speedsKnown_ = false;
 }
 
@@ -108,15 +108,16 @@ StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> so
 void FluidSolver::advect(float seconds) {
     const float cellsPerSpeed = seconds / static_cast<float>(settings_.box.spacingMetres);
     const bool keeps = settings_.keepsDensity;
-    const double due =
-        keeps ? densityTotal(cells_, layout_) - densityLeaving(cells_, layout_, solids_.conductance(), cellsPerSpeed)
-              : 0;
+    const double due = keeps ? covered_ + densityTotal(cells_, layout_) -
+                                   densityLeaving(cells_, layout_, solids_.conductance(), cellsPerSpeed)
+                             : 0;
     solids_.extendInto(cells_, !settings_.noSlip);
     fill(GhostUse::lookUp);
     advection_.advect(cells_, spare_, solids_.conductance(), settings_.advection, cellsPerSpeed, greatestSpeeds_.z);
     cells_.swap(spare_);
     solids_.restore(cells_);
     if (keeps) scaleDensity(cells_, layout_, due);
+    covered_ = 0;
 }
 
 PressureResult FluidSolver::project(float seconds) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <string>
 
 #include "methods/shared/errors.h"
@@ -44,7 +45,7 @@ SolidCells::SolidCells(const CellLayout& layout, const Sides& sides, MemoryAccou
     besideOfSlab_.resize(static_cast<std::size_t>(nz));
 }
 
-void SolidCells::set(const SolidMask& mask, CellField& cells) {
+double SolidCells::set(const SolidMask& mask, CellField& cells) {
     const std::size_t count = layout_.rows() * static_cast<std::size_t>(layout_.nx);
     if (!mask.body.empty() && mask.body.size() != count)
         throw InputError("solids: got " + std::to_string(mask.body.size()) +
@@ -59,6 +60,7 @@ void SolidCells::set(const SolidMask& mask, CellField& cells) {
                              " that is not finite, allowed: metres per second");
     }
     const auto width = static_cast<std::size_t>(layout_.nx);
+    std::vector<float> covered(layout_.rows());
     parallel::forEachBlock(layout_.rows(), 64, [&](std::size_t first, std::size_t rows) {
         for (std::size_t r = first; r < first + rows; ++r) {
             const std::size_t at = layout_.at(0, layout_.rowJ(r), layout_.rowK(r));
@@ -82,12 +84,14 @@ void SolidCells::set(const SolidMask& mask, CellField& cells) {
                         ? mask.motions[n].velocityAt(static_cast<int>(i), layout_.rowJ(r), layout_.rowK(r))
                         : glm::vec3(0);
                 float* record = cells.cell(at + i);
+                covered[r] += record[density];
                 for (std::size_t lane = 0; lane < lanes; ++lane)
                     record[lane] = lane < 3 ? velocity[static_cast<int>(lane)] : 0;
             }
         }
     });
     findEdges(cells);
+    return std::accumulate(covered.begin(), covered.end(), 0.0);
 }
 
 void SolidCells::findEdges(const CellField& cells) {

@@ -35,9 +35,10 @@ class SolidCells {
  public:
     SolidCells(const CellLayout& layout, const Sides& sides, MemoryAccount& account);
 
-    /// Replaces all solids. The air that they leave has their speed, `cells` is told. Throws InputError where sizes do
-    /// not fit, a velocity is not finite, or no fluid is left.
-    void set(const SolidMask& mask, CellField& cells);
+    /// Replaces all solids. The air that they leave has their speed, `cells` is told. Returns the density that they
+    /// cover and that is lost so, summed over cells. Throws InputError where sizes do not fit, a velocity is not
+    /// finite, or no fluid is left.
+    double set(const SolidMask& mask, CellField& cells);
 
     /// For each padded cell what a face between it and a cell of fluid conducts: 1 fluid, 2 air beyond an open side,
     /// whose pressure is known half a cell away, 0 solids, walls and inflows.
