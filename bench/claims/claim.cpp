@@ -18,29 +18,8 @@ namespace {
 
 const std::vector<std::string> quantityNames{"none", "ratio", "share", "growth", "exponent", "value", "finding"};
 
-/// A column of summary.csv, in which `p.` may be anything: which parameters there are depends on the methods.
-void requireColumn(const std::string& where, const std::string& name) {
-    std::vector<std::string> known = columnsBeforeParameters();
-    std::ranges::copy(columnsAfterParameters(), std::back_inserter(known));
-    if (!name.starts_with("p.") && std::ranges::find(known, name) == known.end())
-        throw InputError(where + unknownName("column of summary.csv", name, known).what());
-}
-
-/// `billboard soft=true`: a method, then cells of parameters; or cells alone.
-Selection readSelection(files::TomlReader& table, const std::string& key) {
-    Selection selection;
-    std::istringstream words(table.text(key));
-    for (std::string word; words >> word;) {
-        const std::size_t equals = word.find('=');
-        if (equals == std::string::npos && selection.empty())
-            selection.emplace_back("method", word);
-        else if (equals == std::string::npos || equals == 0)
-            throw InputError(table.where(key) + "key '" + key + "': got '" + word + "', expected name=value");
-        else
-            selection.emplace_back("p." + word.substr(0, equals), word.substr(equals + 1));
-    }
-    if (selection.empty()) throw InputError(table.where(key) + "key '" + key + "': got nothing, expected METHOD …");
-    return selection;
+Selection selectionIn(files::TomlReader& table, const std::string& key) {
+    return parseSelection(table.text(key), table.where(key) + "key '" + key + "'");
 }
 
 std::string readColumn(files::TomlReader& table, const std::string& key) {
@@ -80,9 +59,9 @@ Claim readClaim(files::TomlReader& table) {
     }
     claim.suite = table.text("suite");
     claim.column = readColumn(table, "column");
-    claim.of = readSelection(table, "of");
+    claim.of = selectionIn(table, "of");
     claim.exact = table.boolean("exact", false);
-    if (claim.quantity == Quantity::ratio) claim.with = readSelection(table, "with");
+    if (claim.quantity == Quantity::ratio) claim.with = selectionIn(table, "with");
     if (claim.quantity == Quantity::share) {
         claim.parts = table.texts("parts");
         if (claim.parts.empty()) throw InputError(table.where("parts") + "key 'parts': got none, expected columns");
@@ -107,6 +86,29 @@ std::vector<Claim> readClaims(files::TomlReader file) {
 }
 
 }  // namespace
+
+void requireColumn(const std::string& where, const std::string& name) {
+    std::vector<std::string> known = columnsBeforeParameters();
+    std::ranges::copy(columnsAfterParameters(), std::back_inserter(known));
+    if (!name.starts_with("p.") && std::ranges::find(known, name) == known.end())
+        throw InputError(where + unknownName("column of summary.csv", name, known).what());
+}
+
+Selection parseSelection(const std::string& text, const std::string& what) {
+    Selection selection;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        const std::size_t equals = word.find('=');
+        if (equals == std::string::npos && selection.empty())
+            selection.emplace_back("method", word);
+        else if (equals == std::string::npos || equals == 0)
+            throw InputError(what + ": got '" + word + "', expected name=value");
+        else
+            selection.emplace_back("p." + word.substr(0, equals), word.substr(equals + 1));
+    }
+    if (selection.empty()) throw InputError(what + ": got nothing, expected METHOD …");
+    return selection;
+}
 
 std::string Claim::expected() const {
     if (least && greatest) return fmt::format("{:g} to {:g}", *least, *greatest);

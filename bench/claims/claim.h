@@ -25,6 +25,12 @@ enum class Quantity {
 /// Rows that have these cells: `method` → `billboard`, `p.soft` → `true`.
 using Selection = std::vector<std::pair<std::string, std::string>>;
 
+/// Of `billboard soft=true`: a method, then cells of parameters; or cells alone. `what` begins messages. Throws
+/// InputError.
+[[nodiscard]] Selection parseSelection(const std::string& text, const std::string& what);
+/// Throws InputError where summary.csv has no such column; parameters, `p.…`, may have any name.
+void requireColumn(const std::string& where, const std::string& name);
+
 struct Claim {
     std::string id;     ///< `R5a`
     std::string text;   ///< what the paper says, in our words

@@ -13,7 +13,17 @@
 namespace dustbench::bench {
 namespace {
 
-/// Of all runs that the suite can have in the table, whichever of its forms was run and however often.
+std::string rounded(double value) {
+    return std::isfinite(value) ? fmt::format("{:.4g}", value) : "";
+}
+
+std::string interval(const ClaimResult& result) {
+    if (!std::isfinite(result.low)) return "";
+    return fmt::format("[{}, {}]", rounded(result.low), rounded(result.high));
+}
+
+}  // namespace
+
 std::set<std::string> runIdsOf(const std::string& suiteId, const files::CsvTable& summary) {
     int repetitions = 1;
     for (std::size_t row = 0; row < summary.rows(); ++row)
@@ -25,17 +35,6 @@ std::set<std::string> runIdsOf(const std::string& suiteId, const files::CsvTable
                 ids.insert(runId(inRepetition(cell.spec, repetition)));
     return ids;
 }
-
-std::string rounded(double value) {
-    return std::isfinite(value) ? fmt::format("{:.4g}", value) : "";
-}
-
-std::string interval(const ClaimResult& result) {
-    if (!std::isfinite(result.low)) return "";
-    return fmt::format("[{}, {}]", rounded(result.low), rounded(result.high));
-}
-
-}  // namespace
 
 std::vector<JudgedClaim> judgeClaims(const std::string& paper, const files::CsvTable& summary,
                                      const std::vector<Finding>& findings) {

@@ -1,6 +1,7 @@
 // The claims of a paper held against a results folder's summary.csv and experiments.csv, as claims.csv and for people.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct JudgedClaim {
     Claim claim;
     ClaimResult result;
 };
+
+/// The runs that the suite can have in the table, in its whole and its quick form, however often repeated.
+[[nodiscard]] std::set<std::string> runIdsOf(const std::string& suite, const files::CsvTable& summary);
 
 /// Of each claim the runs of its suite count, in its whole and its quick form, or what its experiment found. Throws
 /// InputError for a claims.toml or a suite that cannot be read.

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "bench/claims/claim_ledger.h"
+#include "bench/claims/published_numbers.h"
 #include "bench/results/run_record.h"
 #include "bench/suite/paper.h"
 #include "bench/suite/suite.h"
@@ -241,6 +242,25 @@ TEST(Claims, EveryColumnOfTheCsvIsDescribed) {
     const auto ledger = files::CsvTable::parseText(claimsCsv({}), "claims.csv");
     for (const std::string& column : ledger.header())
         EXPECT_NE(text.substr(begin, end - begin).find("`" + column + "`"), std::string::npos) << column;
+}
+
+TEST(PublishedNumbers, StandBesideTheSumOfOurColumns) {
+    const std::string head = "what,suite,of,columns,published,formula\n";
+    const auto summary = files::CsvTable::parseText(
+        "run_id,status,method,scene,repetition,p.particles,cpu_bytes,gpu_bytes\n"
+        "a,done,haze,plain,1,100,30,12\nb,failed,haze,plain,1,200,7,7\n",
+        "summary.csv");
+    const TextRows table = tabulatePublished(
+        files::CsvTable::parseText(head + "small,s,haze particles=100,cpu_bytes gpu_bytes,about 40,40\n"
+                                          "failed,s,haze particles=200,cpu_bytes,7,7\n",
+                                   "published.csv"),
+        summary, true);
+    ASSERT_EQ(table.rows.size(), 2u);
+    EXPECT_EQ(table.rows[0], (std::vector<std::string>{"small", "about 40", "40", "42", "1.050"}));
+    EXPECT_EQ(table.rows[1], (std::vector<std::string>{"failed", "7", "7", "", ""}));
+    for (const char* wrong : {"x,s,haze,cpu_byte,1,1\n", "x,s,haze =3,cpu_bytes,1,1\n"})
+        EXPECT_THROW((void)tabulatePublished(files::CsvTable::parseText(head + wrong, "p.csv"), summary, true),
+                     InputError);
 }
 
 }  // namespace

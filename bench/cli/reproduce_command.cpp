@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "bench/claims/claim_ledger.h"
+#include "bench/claims/published_numbers.h"
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
@@ -59,6 +60,8 @@ int reproduce(const ReproduceOptions& options) {
             std::ranges::move(bench::runExperiment(id), std::back_inserter(findings));
         if (!findings.empty()) bench::writeWhole(results.path() / "experiments.csv", bench::findingsCsv(findings));
         const auto summary = files::CsvTable::parseFile(results.path() / "summary.csv");
+        if (const std::string numbers = publishedReport(bench::tabulatePublished(paper.id, summary)); !numbers.empty())
+            std::cout << "\n" << numbers;
         const auto claims = bench::judgeClaims(paper.id, summary, findings);
         bench::writeWhole(results.path() / "claims.csv", bench::claimsCsv(claims));
         std::cout << "\n" << claimsReport(claims);

@@ -53,6 +53,10 @@ std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs
     return text;
 }
 
+std::string publishedReport(bench::TextRows table) {
+    return table.rows.empty() ? "" : "the paper's numbers beside ours\n" + textOf(std::move(table));
+}
+
 std::string claimsReport(const std::vector<bench::JudgedClaim>& claims) {
     if (claims.empty()) return "";
     return "claims\n" + textOf(bench::tabulate(claims));

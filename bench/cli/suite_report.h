@@ -12,7 +12,8 @@
 namespace dustbench::cli {
 
 [[nodiscard]] std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs);
-
+/// Empty where the table has no rows.
+[[nodiscard]] std::string publishedReport(bench::TextRows table);
 [[nodiscard]] std::string claimsReport(const std::vector<bench::JudgedClaim>& claims);
 
 }  // namespace dustbench::cli

@@ -53,8 +53,51 @@ void CollectedVolume::octree(const OctreeVolume& volume) {
     octrees_.back().voxels.assign(volume.voxels.begin(), volume.voxels.end());
 }
 
+void CollectedVolume::grid(const GridVolume& volume) {
+    const std::size_t count = static_cast<std::size_t>(volume.cells.x) * static_cast<std::size_t>(volume.cells.y) *
+                              static_cast<std::size_t>(volume.cells.z);
+    const auto take = [&](std::string_view name, std::size_t components, std::span<const float> values) {
+        if (values.size() != count * components)
+            throw std::runtime_error(fmt::format("grid of {}x{}x{} cells: field {} has {} numbers, expected {}",
+                                                 volume.cells.x, volume.cells.y, volume.cells.z, name, values.size(),
+                                                 count * components));
+        for (std::size_t n = 0; n < values.size(); ++n)
+            if (!std::isfinite(values[n]))
+                throw std::runtime_error(
+                    fmt::format("grid: the {} of cell {} is no finite number", name, n / components));
+        return std::vector<float>(values.begin(), values.end());
+    };
+    CollectedGrid grid{
+        volume.originMetres, volume.spacingMetres, volume.cells, take("extinction", 1, volume.extinctionPerMetre), {}};
+    for (const GridField& field : volume.fields)
+        grid.fields.push_back({std::string(field.name), std::string(field.unit), field.components,
+                               take(field.name, static_cast<std::size_t>(field.components), field.values)});
+    grids_.push_back(std::move(grid));
+}
+
+namespace {
+
+/// What holds all cells of a grid with extinction.
+std::optional<Box> boundsOf(const CollectedGrid& grid) {
+    glm::ivec3 least(grid.cells), most(-1);
+    for (int k = 0; k < grid.cells.z; ++k)
+        for (int j = 0; j < grid.cells.y; ++j)
+            for (int i = 0; i < grid.cells.x; ++i) {
+                if (grid.extinctionPerMetre[grid.row(j, k) + static_cast<std::size_t>(i)] == 0) continue;
+                least = glm::min(least, glm::ivec3(i, j, k));
+                most = glm::max(most, glm::ivec3(i, j, k));
+            }
+    if (most.x < 0) return std::nullopt;
+    return Box{grid.originMetres + glm::dvec3(least) * grid.spacingMetres,
+               grid.originMetres + glm::dvec3(most + 1) * grid.spacingMetres};
+}
+
+}  // namespace
+
 std::optional<Box> CollectedVolume::bounds() const {
     std::optional<Box> bounds;
+    for (const CollectedGrid& grid : grids_)
+        if (const auto box = boundsOf(grid)) grow(bounds, *box);
     for (const CollectedPuff& puff : puffs_) {
         const glm::dvec3 centre(puff.centre);
         const double reach = paddingDeviations * maths::puffDeviationMetres(static_cast<double>(puff.radiusMetres));

@@ -42,16 +42,17 @@ struct CubeShape {
     double edgeMetres;
     double massSquareMetres;
 
-    CubeShape(const CollectedOctree& octree, const OctreeVoxel& voxel)
-        : corner(octree.leastCorner(voxel)),
-          edgeMetres(octree.cellEdgeMetres(voxel.level)),
-          massSquareMetres(static_cast<double>(voxel.extinctionPerMetre) * edgeMetres * edgeMetres * edgeMetres) {}
     [[nodiscard]] double begin(int axis) const { return corner[axis]; }
     [[nodiscard]] double end(int axis) const { return corner[axis] + edgeMetres; }
     [[nodiscard]] double below(int axis, double coordinate) const {
         return std::clamp((coordinate - corner[axis]) / edgeMetres, 0.0, 1.0);
     }
 };
+
+CubeShape cubeOf(const CollectedOctree& octree, const OctreeVoxel& voxel) {
+    const double edge = octree.cellEdgeMetres(voxel.level);
+    return {octree.leastCorner(voxel), edge, static_cast<double>(voxel.extinctionPerMetre) * edge * edge * edge};
+}
 
 /// The cells of one axis that a shape reaches, and its share in each of them.
 struct Run {
@@ -101,6 +102,25 @@ class Slab {
                     &values_[offset(along_[1].first + static_cast<int>(j), along_[2].first + static_cast<int>(k))];
                 for (std::size_t i = 0; i < count; ++i) row[i] += factor * shareX[i];
             }
+    }
+
+    /// Cell by cell, those layers alone that reach into the slab.
+    void add(const CollectedGrid& grid) {
+        const double edge = grid.spacingMetres;
+        const double least = plan_.origin[2] + firstLayer_ * plan_.spacingMetres - grid.originMetres.z;
+        const double most = plan_.origin[2] + endLayer_ * plan_.spacingMetres - grid.originMetres.z;
+        const auto held = [&](double layer) {
+            return static_cast<int>(std::clamp(layer, 0.0, static_cast<double>(grid.cells.z)));
+        };
+        const int end = held(std::ceil(most / edge));
+        for (int k = held(std::floor(least / edge)); k < end; ++k)
+            for (int j = 0; j < grid.cells.y; ++j)
+                for (int i = 0; i < grid.cells.x; ++i) {
+                    const float extinction = grid.extinctionPerMetre[grid.row(j, k) + static_cast<std::size_t>(i)];
+                    if (extinction == 0) continue;
+                    add(CubeShape{grid.originMetres + glm::dvec3(i, j, k) * edge, edge,
+                                  static_cast<double>(extinction) * edge * edge * edge});
+                }
     }
 
  private:
@@ -163,7 +183,8 @@ ExtinctionGrid computeGrid(const CollectedVolume& volume, const GridPlan& plan) 
                                Slab slab(grid, static_cast<int>(first), static_cast<int>(first + count));
                                for (const CollectedPuff& puff : volume.puffs()) slab.add(GaussianShape(puff));
                                for (const CollectedOctree& octree : volume.octrees())
-                                   for (const OctreeVoxel& voxel : octree.voxels) slab.add(CubeShape(octree, voxel));
+                                   for (const OctreeVoxel& voxel : octree.voxels) slab.add(cubeOf(octree, voxel));
+                               for (const CollectedGrid& each : volume.grids()) slab.add(each);
                            });
     return grid;
 }

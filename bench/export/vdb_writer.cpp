@@ -29,19 +29,39 @@ class File final : public openvdb::io::Archive {
     }
 };
 
-openvdb::FloatGrid::Ptr sparse(const ExtinctionGrid& grid) {
-    const GridPlan& plan = grid.plan;
-    const openvdb::CoordBBox box(0, 0, 0, plan.cells[0] - 1, plan.cells[1] - 1, plan.cells[2] - 1);
-    // OpenVDB's LayoutXYZ: x fastest, as ours is. It reads our memory and does not write to it.
-    const openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
-        box, const_cast<float*>(grid.extinctionPerMetre.data()));
-    const openvdb::FloatGrid::Ptr density = openvdb::FloatGrid::create(0);
-    openvdb::tools::copyFromDense(dense, *density, 0.0f);
-    const double spacing = plan.spacingMetres;
+/// `values` cell by cell, x fastest, as OpenVDB's LayoutXYZ is. It reads our memory and does not write to it.
+template <typename Grid>
+typename Grid::Ptr sparse(const float* values, const std::array<int, 3>& cells, double spacing,
+                          const glm::dvec3& origin) {
+    using Value = typename Grid::ValueType;
+    const openvdb::CoordBBox box(0, 0, 0, cells[0] - 1, cells[1] - 1, cells[2] - 1);
+    const openvdb::tools::Dense<Value, openvdb::tools::LayoutXYZ> dense(
+        box, reinterpret_cast<Value*>(const_cast<float*>(values)));
+    const auto grid = Grid::create(Value(0));
+    openvdb::tools::copyFromDense(dense, *grid, Value(0));
     const auto transform = openvdb::math::Transform::createLinearTransform(spacing);
-    transform->postTranslate(openvdb::Vec3d(plan.origin.x, plan.origin.y, plan.origin.z) + openvdb::Vec3d(spacing / 2));
-    density->setTransform(transform);
-    return density;
+    transform->postTranslate(openvdb::Vec3d(origin.x, origin.y, origin.z) + openvdb::Vec3d(spacing / 2));
+    grid->setTransform(transform);
+    return grid;
+}
+
+void describe(openvdb::GridBase& grid, const std::string& name, const std::string& unit, std::int64_t frame,
+              double timeSeconds) {
+    grid.setName(name);
+    grid.setCreator("dustbench");
+    grid.insertMeta("unit", openvdb::StringMetadata(unit));
+    grid.insertMeta("time_s", openvdb::DoubleMetadata(timeSeconds));
+    grid.insertMeta("frame", openvdb::Int64Metadata(frame));
+}
+
+void writeWholeVdb(const openvdb::GridPtrVec& grids, const std::filesystem::path& file) {
+    WholeFile whole(file);
+    try {
+        File().write(whole.beside(), grids);
+    } catch (const openvdb::Exception& error) {
+        throw cannotWrite(file, error.what());
+    }
+    whole.publish();
 }
 
 }  // namespace
@@ -56,22 +76,35 @@ void writeVdb(const ExtinctionGrid& grid, VdbPrecision precision, std::int64_t f
                         "--vdb-precision float",
                         file.string(), largest, largestHalf));
     openvdb::initialize();
-    const openvdb::FloatGrid::Ptr density = sparse(grid);
-    density->setName("density");
+    const GridPlan& plan = grid.plan;
+    const auto density =
+        sparse<openvdb::FloatGrid>(grid.extinctionPerMetre.data(), plan.cells, plan.spacingMetres, plan.origin);
     density->setGridClass(openvdb::GRID_FOG_VOLUME);
     density->setSaveFloatAsHalf(half);
-    density->setCreator("dustbench");
-    density->insertMeta("unit", openvdb::StringMetadata("extinction per metre"));
-    density->insertMeta("time_s", openvdb::DoubleMetadata(timeSeconds));
-    density->insertMeta("frame", openvdb::Int64Metadata(frame));
+    describe(*density, "density", "extinction per metre", frame, timeSeconds);
+    writeWholeVdb({density}, file);
+}
 
-    WholeFile whole(file);
-    try {
-        File().write(whole.beside(), {density});
-    } catch (const openvdb::Exception& error) {
-        throw cannotWrite(file, error.what());
+void writeGridVdb(const CollectedGrid& grid, std::int64_t frame, double timeSeconds,
+                  const std::filesystem::path& file) {
+    openvdb::initialize();
+    const std::array cells{grid.cells.x, grid.cells.y, grid.cells.z};
+    openvdb::GridPtrVec grids;
+    for (const CollectedField& field : grid.fields) {
+        openvdb::GridBase::Ptr each;
+        if (field.components == 3) {
+            const auto vectors =
+                sparse<openvdb::Vec3SGrid>(field.values.data(), cells, grid.spacingMetres, grid.originMetres);
+            vectors->setVectorType(openvdb::VEC_CONTRAVARIANT_ABSOLUTE);
+            each = vectors;
+        } else {
+            each = sparse<openvdb::FloatGrid>(field.values.data(), cells, grid.spacingMetres, grid.originMetres);
+            each->setGridClass(openvdb::GRID_FOG_VOLUME);
+        }
+        describe(*each, field.name, field.unit, frame, timeSeconds);
+        grids.push_back(each);
     }
-    whole.publish();
+    writeWholeVdb(grids, file);
 }
 
 }  // namespace dustbench::bench

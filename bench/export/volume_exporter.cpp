@@ -107,10 +107,29 @@ void VolumeExporter::writeGrids(const ExportedMoment& moment) {
     }
 }
 
+/// A grid of the method's own with all that it holds, beside the extinction that every cloud has.
+void VolumeExporter::writeOwnGrid(const ExportedMoment& moment) {
+    if (moment.volume.grids().empty()) return;
+    const CollectedGrid& grid = moment.volume.grids().front();
+    const double time = moment.state.timeSeconds;
+    const std::string stem = fmt::format("f{:06}_{}", moment.frame, moment.method);
+    if (settings_.wants(VolumeFormat::vti)) {
+        writeGridVti(grid, time, folder_ / (stem + ".vti"));
+        addTo(fmt::format("{}_grid.pvd", moment.method), Series::Kind::pvd, stem + ".vti", time);
+    }
+    if (settings_.wants(VolumeFormat::vdb)) {
+        writeGridVdb(grid, moment.frame, time, folder_ / (stem + ".vdb"));
+        addTo(fmt::format("{}_grid.vdb.series", moment.method), Series::Kind::json, stem + ".vdb", time);
+    }
+}
+
 void VolumeExporter::write(const ExportedMoment& moment) {
     requireWritable(moment.volume, settings_.formats, moment.method);
     const double time = moment.state.timeSeconds;
-    if (settings_.wants(VolumeFormat::vti) || settings_.wants(VolumeFormat::vdb)) writeGrids(moment);
+    if (settings_.wants(VolumeFormat::vti) || settings_.wants(VolumeFormat::vdb)) {
+        writeGrids(moment);
+        writeOwnGrid(moment);
+    }
     if (settings_.wants(VolumeFormat::htg)) {
         const std::string name = nameOf(moment.frame, "htg");
         writeHtg(moment.volume.octrees().front(), time, folder_ / name);

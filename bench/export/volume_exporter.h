@@ -1,9 +1,10 @@
 // Writes frames of one run: every format that was asked for, the scene around, and the series over them.
 //
 // In the folder: `f000120.vti .htg .vtp .vdb .vtm` of frame 120, `extinction.pvd extinction.vti.series octree.pvd
-// particles.pvd density.vdb.series scene.pvd` over the frames; `f000120_ID.vtp ID.pvd` of a method's own particles. The
-// scene comes with every format but .vdb. ParaView takes origin, spacing and size of `extinction.vti.series` from its
-// first file, and shows the others in the wrong place where theirs differ; `extinction.pvd` is always right.
+// particles.pvd density.vdb.series scene.pvd` over the frames; `f000120_ID.vtp ID.pvd` of a method's own particles,
+// `f000120_ID.vti .vdb ID_grid.pvd ID_grid.vdb.series` of its own grid. The scene comes with every format but .vdb.
+// ParaView takes origin, spacing and size of `extinction.vti.series` from its first file, and shows the others in the
+// wrong place where theirs differ; `extinction.pvd` is always right.
 //
 // Owns: a lock on the folder, so that two programs never write into one. Threads: one at a time; grids use the current
 // oneTBB arena.
@@ -60,6 +61,7 @@ class VolumeExporter {
 
  private:
     void writeGrids(const ExportedMoment& moment);
+    void writeOwnGrid(const ExportedMoment& moment);
     [[nodiscard]] std::string nameOf(std::int64_t frame, std::string_view extension) const;
     void addTo(const std::string& series, Series::Kind kind, const std::string& name, double timeSeconds);
 

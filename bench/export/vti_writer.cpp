@@ -1,15 +1,33 @@
 #include "bench/export/vti_writer.h"
 
 #include <vtkCellData.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
+#include <vtkStringArray.h>
 #include <vtkXMLImageDataWriter.h>
 
 #include "bench/export/vtk_file.h"
 #include "bench/export/whole_file.h"
 
 namespace dustbench::bench {
+namespace {
+
+void setPlace(vtkImageData& image, const glm::dvec3& origin, double spacing, const glm::ivec3& cells) {
+    image.SetOrigin(origin.x, origin.y, origin.z);
+    image.SetSpacing(spacing, spacing, spacing);
+    image.SetDimensions(cells.x + 1, cells.y + 1, cells.z + 1);
+}
+
+void writeImage(vtkImageData& image, const std::filesystem::path& file) {
+    WholeFile whole(file);
+    vtkNew<vtkXMLImageDataWriter> writer;
+    writeVtk(*writer, image, whole.beside());
+    whole.publish();
+}
+
+}  // namespace
 
 void writeVti(const ExtinctionGrid& grid, double timeSeconds, const std::filesystem::path& file) {
     const GridPlan& plan = grid.plan;
@@ -19,16 +37,31 @@ void writeVti(const ExtinctionGrid& grid, double timeSeconds, const std::filesys
     extinction->SetArray(const_cast<float*>(grid.extinctionPerMetre.data()), plan.cellCount(), 1);
 
     vtkNew<vtkImageData> image;
-    image->SetOrigin(plan.origin.x, plan.origin.y, plan.origin.z);
-    image->SetSpacing(plan.spacingMetres, plan.spacingMetres, plan.spacingMetres);
-    image->SetDimensions(plan.cells[0] + 1, plan.cells[1] + 1, plan.cells[2] + 1);
+    setPlace(*image, plan.origin, plan.spacingMetres, {plan.cells[0], plan.cells[1], plan.cells[2]});
     image->GetCellData()->SetScalars(extinction);
     stampTime(*image, timeSeconds);
 
-    WholeFile whole(file);
-    vtkNew<vtkXMLImageDataWriter> writer;
-    writeVtk(*writer, *image, whole.beside());
-    whole.publish();
+    writeImage(*image, file);
+}
+
+void writeGridVti(const CollectedGrid& grid, double timeSeconds, const std::filesystem::path& file) {
+    vtkNew<vtkImageData> image;
+    setPlace(*image, grid.originMetres, grid.spacingMetres, grid.cells);
+    for (const CollectedField& field : grid.fields) {
+        vtkNew<vtkFloatArray> values;
+        values->SetName(field.name.c_str());
+        values->SetNumberOfComponents(field.components);
+        // As above: VTK reads our memory alone.
+        values->SetArray(const_cast<float*>(field.values.data()), static_cast<vtkIdType>(field.values.size()), 1);
+        image->GetCellData()->AddArray(values);
+        vtkNew<vtkStringArray> unit;
+        unit->SetName((field.name + "_unit").c_str());
+        unit->InsertNextValue(field.unit);
+        image->GetFieldData()->AddArray(unit);
+    }
+    if (!grid.fields.empty()) image->GetCellData()->SetActiveScalars(grid.fields.front().name.c_str());
+    stampTime(*image, timeSeconds);
+    writeImage(*image, file);
 }
 
 }  // namespace dustbench::bench

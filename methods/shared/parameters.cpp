@@ -27,6 +27,20 @@ std::optional<Number> parseNumber(std::string_view text) {
     return value;
 }
 
+/// `128x64x64`, each within the range.
+std::optional<std::array<int, 3>> parseCells(const Parameter& parameter, std::string_view text) {
+    std::array<int, 3> cells{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t end = axis < 2 ? text.find('x') : text.size();
+        if (end == std::string_view::npos) return std::nullopt;
+        const auto value = parseNumber<int>(text.substr(0, end));
+        if (!value || *value < parameter.minimum || *value > parameter.maximum) return std::nullopt;
+        cells[axis] = *value;
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return cells;
+}
+
 /// The canonical text of a value, or nothing where the declaration does not allow it.
 std::optional<std::string> canonicalText(const Parameter& parameter, std::string_view text) {
     switch (parameter.type) {
@@ -50,6 +64,11 @@ std::optional<std::string> canonicalText(const Parameter& parameter, std::string
         case ParameterType::choice:
             if (std::ranges::find(parameter.choices, text) != parameter.choices.end()) return std::string(text);
             return std::nullopt;
+        case ParameterType::cells: {
+            const auto value = parseCells(parameter, text);
+            if (!value) return std::nullopt;
+            return std::to_string((*value)[0]) + "x" + std::to_string((*value)[1]) + "x" + std::to_string((*value)[2]);
+        }
     }
     return std::nullopt;
 }
@@ -65,6 +84,9 @@ std::string Parameter::allowed() const {
             return "number " + numberText(minimum) + ".." + numberText(maximum);
         case ParameterType::boolean:
             return "on|off";
+        case ParameterType::cells:
+            return "a grid such as " + initial + ", " + numberText(minimum) + ".." + numberText(maximum) +
+                   " cells along each edge";
         case ParameterType::choice:
             break;
     }
@@ -118,6 +140,18 @@ ParameterSet& ParameterSet::choice(std::string name, std::string initial, std::v
         {std::move(name), ParameterType::choice, std::move(initial), 0, 0, std::move(choices), "", std::move(help)});
 }
 
+ParameterSet& ParameterSet::cells(std::string name, std::string initial, std::int64_t minimum, std::int64_t maximum,
+                                  std::string help) {
+    return add({std::move(name),
+                ParameterType::cells,
+                std::move(initial),
+                static_cast<double>(minimum),
+                static_cast<double>(maximum),
+                {},
+                "",
+                std::move(help)});
+}
+
 const Parameter* ParameterSet::find(std::string_view name) const {
     const auto found = std::ranges::find(parameters_, name, &Parameter::name);
     return found == parameters_.end() ? nullptr : &*found;
@@ -162,6 +196,10 @@ bool ParameterValues::boolean(std::string_view name) const {
 
 const std::string& ParameterValues::choice(std::string_view name) const {
     return value(name, ParameterType::choice);
+}
+
+std::array<int, 3> ParameterValues::cells(std::string_view name) const {
+    return *parseCells(*declared_.find(name), value(name, ParameterType::cells));
 }
 
 std::size_t ParameterValues::choiceIndex(std::string_view name) const {

@@ -2,6 +2,7 @@
 // generated.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -11,10 +12,10 @@
 
 namespace dustbench {
 
-enum class ParameterType { integer, real, boolean, choice };
+enum class ParameterType { integer, real, boolean, choice, cells };
 
 /// One declared parameter. `initial` is the default as text in its canonical form; `minimum` and `maximum` are
-/// inclusive.
+/// inclusive, of cells along each edge.
 struct Parameter {
     std::string name;
     ParameterType type = ParameterType::real;
@@ -38,6 +39,9 @@ class ParameterSet {
                        std::string help);
     ParameterSet& boolean(std::string name, bool initial, std::string help);
     ParameterSet& choice(std::string name, std::string initial, std::vector<std::string> choices, std::string help);
+    /// The size of a grid, `128x64x64`.
+    ParameterSet& cells(std::string name, std::string initial, std::int64_t minimum, std::int64_t maximum,
+                        std::string help);
 
     [[nodiscard]] const std::vector<Parameter>& all() const { return parameters_; }
     [[nodiscard]] const Parameter* find(std::string_view name) const;
@@ -62,6 +66,7 @@ class ParameterValues {
     [[nodiscard]] double real(std::string_view name) const;
     [[nodiscard]] bool boolean(std::string_view name) const;
     [[nodiscard]] const std::string& choice(std::string_view name) const;
+    [[nodiscard]] std::array<int, 3> cells(std::string_view name) const;
     /// The choice as an enumerator, where the enumeration lists its values in the order of the declared choices.
     template <typename Enumeration>
     [[nodiscard]] Enumeration choiceAs(std::string_view name) const {

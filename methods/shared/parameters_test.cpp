@@ -15,7 +15,8 @@ ParameterSet sample() {
     set.integer("depth", 7, 4, 12, "levels", "depth of the tree")
         .real("share", 0.5, 0, 1, "", "a share")
         .boolean("soft", false, "soft edges")
-        .choice("sort", "radix", {"quicksort", "radix", "none"}, "order of drawing");
+        .choice("sort", "radix", {"quicksort", "radix", "none"}, "order of drawing")
+        .cells("grid", "128x64x64", 4, 512, "cells along x, y and z");
     return set;
 }
 
@@ -40,6 +41,9 @@ TEST(Parameters, HaveOneCanonicalTextForEqualValues) {
     ParameterValues a(sample()), b(sample());
     a.set("share", "0.250");
     b.set("share", "+.25");
+    a.set("grid", "032x8x+16");
+    b.set("grid", "32x8x16");
+    EXPECT_EQ(a.cells("grid"), (std::array{32, 8, 16}));
     a.set("soft", "true");
     b.set("soft", "on");
     EXPECT_EQ(a.canonical(), b.canonical());
@@ -51,8 +55,12 @@ TEST(Parameters, SayWhatWasGotAndWhatIsAllowed) {
     EXPECT_EQ(errorOf(values, "depth", "7.5"), "parameter depth: got '7.5', allowed: integer 4..12 levels");
     EXPECT_EQ(errorOf(values, "share", "nan"), "parameter share: got 'nan', allowed: number 0..1");
     EXPECT_EQ(errorOf(values, "sort", "bubble"), "parameter sort: got 'bubble', allowed: quicksort|radix|none");
+    for (const char* text : {"128x64", "128x64x64x64", "3x64x64", "ax64x64", "", "xx", "128X64X64", "128x64x64x"})
+        EXPECT_EQ(errorOf(values, "grid", text), "parameter grid: got '" + std::string(text) +
+                                                     "', allowed: a grid such as 128x64x64, 4..512 cells along each "
+                                                     "edge");
     EXPECT_EQ(errorOf(values, "dept", "5"),
-              "unknown parameter 'dept' (did you mean 'depth'?); known: depth, share, soft, sort");
+              "unknown parameter 'dept' (did you mean 'depth'?); known: depth, share, soft, sort, grid");
 }
 
 TEST(Parameters, KeepTheirValueWhenABadOneIsRefused) {

@@ -1,4 +1,5 @@
-// What a method hands over when it is asked what the cloud is: puffs or the voxels of an octree, never pictures.
+// What a method hands over when it is asked what the cloud is: puffs, the voxels of an octree or the cells of a grid,
+// never pictures.
 //
 // Units: metres, seconds, extinction per metre. Frame: world. Everything handed over is valid during the call alone.
 #pragma once
@@ -6,6 +7,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <string_view>
 
 namespace dustbench {
 
@@ -31,6 +33,22 @@ struct OctreeVolume {
     std::span<const OctreeVoxel> voxels;
 };
 
+/// A quantity of a grid's cells, x fastest; of a vector its components side by side.
+struct GridField {
+    std::string_view name, unit;
+    int components;  ///< 1 or 3
+    std::span<const float> values;
+};
+
+/// A regular grid of cubes, each of constant extinction, with all else that is known of them.
+struct GridVolume {
+    glm::dvec3 originMetres;  ///< least corner
+    double spacingMetres;     ///< edge of a cell
+    glm::ivec3 cells;
+    std::span<const float> extinctionPerMetre;
+    std::span<const GridField> fields;
+};
+
 /// Who wants to know. A method calls one of the functions for each part of its cloud, usually one once.
 class VolumeVisitor {
  public:
@@ -38,6 +56,7 @@ class VolumeVisitor {
     /// Gaussian puffs (maths/transmittance.h).
     virtual void puffs(const particles::ParticleStore& puffs) = 0;
     virtual void octree(const OctreeVolume& volume) = 0;
+    virtual void grid(const GridVolume& volume) = 0;
 };
 
 }  // namespace dustbench

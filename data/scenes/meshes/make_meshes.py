@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the solids of this folder, one in each format that is read. Python 3, standard library only: `python3 make_meshes.py`.
 
-rock.obj (no normals: they are computed), crate.ply and wall.ply (vertex colours), marker_post.stl (binary). Metres, +Y
+rock.obj and sphere.obj (no normals: they are computed), crate.ply and wall.ply (vertex colours), marker_post.stl (binary). Metres, +Y
 up, on y = 0.
 """
 import math
@@ -83,6 +83,17 @@ def rock():
         file.write("# a boulder, about 1.8 m long and 1 m above the ground\n")
         for p in moved:
             file.write("v {:.4f} {:.4f} {:.4f}\n".format(*p))
+        for a, b, c in faces:
+            file.write(f"f {a + 1} {b + 1} {c + 1}\n")
+
+
+def sphere():
+    """Of radius 1, its middle at the origin."""
+    points, faces = icosphere(4)
+    with open(path("sphere.obj"), "w", encoding="ascii") as file:
+        file.write("# a sphere of radius 1 m\n")
+        for p in points:
+            file.write("v {:.5f} {:.5f} {:.5f}\n".format(*p))
         for a, b, c in faces:
             file.write(f"f {a + 1} {b + 1} {c + 1}\n")
 
@@ -197,6 +208,7 @@ def marker_post():
 
 
 rock()
+sphere()
 crate()
 wall()
 marker_post()

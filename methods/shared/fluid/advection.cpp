@@ -117,17 +117,20 @@ void Advection::correct(const Pass& pass, int firstSlab, int lastSlab) {
         const Float4 high{static_cast<float>(layout_.nx), static_cast<float>(layout_.ny),
                           static_cast<float>(std::min(layout_.nz, k + 1 + slabs)), 0};
         for (std::size_t i = 0; i < nx; ++i, own += lanes, guess += lanes, kept += 3, out += lanes) {
-            Float8 value = load<Float8>(guess);
+            const auto first = load<Float8>(guess);
+            Float8 value = first;
             const Float4 behind = load<Float4>(kept);
             const Float4 ahead = paths.mirrored(behind, load<Float4>(own));
             const Int4 within = (ahead >= low) & (ahead <= high) & (behind >= low) & (behind <= high);
             if (fluid[i] == 1 && (within[0] & within[1] & within[2]) != 0) {
                 // φ = φ̂ + ½(φⁿ − φ̃)
                 value += 0.5f * (load<Float8>(own) - sample(guesses.around(ahead), pass.window.row));
-                if (pass.rule.clampToExtrema) {
+                if (pass.rule.limit != Limit::none) {
                     Float8 least, most;
                     extrema(paths.around(behind), pass.field.row, least, most);
-                    value = atMost(atLeast(value, least), most);
+                    value = pass.rule.limit == Limit::clamp      ? atMost(atLeast(value, least), most)
+                            : (value >= least) & (value <= most) ? value
+                                                                 : first;
                 }
             }
             storeRecord(out, value);

@@ -1,7 +1,7 @@
 // Carries all that a cell holds along the flow: back along the path, look up, and correct.
 //
 // Units: metres per second, cells. Threads: rows in blocks; each cell by itself.
-// Source: Stam1999, 2.2 (semi-Lagrangian); Selle2008, Eq. 4 and 3.2 (MacCormack, clamped to the extrema).
+// Source: Stam1999, 2.2 (semi-Lagrangian); Selle2008, Eq. 4 and 3.2 (MacCormack, clamped to the extrema or reverted).
 // Departs: the path ahead is the one behind, mirrored: x₊ = x₋ + 2Δt·u(x), of second order as well and without a
 // look-up; where either leaves the box, the first guess stays; a window of slabs is held instead of all first guesses.
 #pragma once
@@ -14,10 +14,16 @@
 namespace dustbench::fluid {
 
 enum class AdvectionScheme { semiLagrangian, macCormack };
+/// What happens to a corrected value beyond the extrema of the eight cells around where its path began.
+enum class Limit {
+    clamp,   ///< it becomes the nearer of them
+    revert,  ///< the first guess stays: edges of clouds gain far less
+    none,
+};
 
 struct AdvectionRule {
     AdvectionScheme scheme = AdvectionScheme::macCormack;
-    bool clampToExtrema = true;
+    Limit limit = Limit::clamp;
 };
 
 class Advection {

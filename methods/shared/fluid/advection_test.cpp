@@ -77,8 +77,8 @@ TEST(Advection, ConvergesAtItsOrder) {
                      fine = carryRound(128, rule, 0.25).error;
         return glm::dvec2(std::log2(coarse / middle), std::log2(middle / fine));
     };
-    const glm::dvec2 first = orders({AdvectionScheme::semiLagrangian, false});
-    const glm::dvec2 second = orders({AdvectionScheme::macCormack, false});
+    const glm::dvec2 first = orders({AdvectionScheme::semiLagrangian});
+    const glm::dvec2 second = orders({AdvectionScheme::macCormack, Limit::none});
     EXPECT_NEAR(first.y, 1, 0.15) << first.x;
     EXPECT_NEAR(second.y, 2, 0.2) << second.x;
     EXPECT_GT(first.x, 0.6);
@@ -90,10 +90,10 @@ TEST(Advection, ATurnCostsThePeakWhatIsKnownOfEachScheme) {
     // step, its mean is 0.6·2/π − 0.36/2; the peak falls as σ² grows.
     const double before = std::pow(0.09 * 64, 2), steps = 2 * pi * 0.22 * 64 / 0.6;
     const double known = before / (before + steps * (0.6 * 2 / pi - 0.18));
-    EXPECT_NEAR(carryRound(64, {AdvectionScheme::semiLagrangian, true}, 1).peak, known, 0.02);
+    EXPECT_NEAR(carryRound(64, {AdvectionScheme::semiLagrangian}, 1).peak, known, 0.02);
     // A second-order one keeps it but for what the clamp cuts off at the top.
-    EXPECT_NEAR(carryRound(64, {AdvectionScheme::macCormack, true}, 1).peak, 1, 0.05);
-    EXPECT_NEAR(carryRound(64, {AdvectionScheme::macCormack, false}, 1).peak, 1, 0.04);
+    EXPECT_NEAR(carryRound(64, {AdvectionScheme::macCormack, Limit::clamp}, 1).peak, 1, 0.05);
+    EXPECT_NEAR(carryRound(64, {AdvectionScheme::macCormack, Limit::none}, 1).peak, 1, 0.04);
 }
 
 }  // namespace

@@ -31,7 +31,6 @@ class Plume {
         solver.emplace(settings, ledger);
         if (withSphere) {
             inside.resize(settings.box.cellCount());
-            velocity.resize(inside.size());
             setSphere(0);
         }
         const int steps = cells.x > 128 ? 5 : 60;  // large ones are for their size, not for their flow
@@ -43,10 +42,11 @@ class Plume {
 
     void setSphere(int step) {
         placeSphere(step);
-        solver->setSolids({inside, velocity});
+        solver->setSolids({inside, {&motion, 1}});
     }
     void placeSphere(int step) {
         const float speed = moving_ ? 0.2f : 0.0f;
+        motion.velocity = {speed, 0, 0};
         const glm::vec3 centre(static_cast<float>(cells_.x) * 0.5f + speed * static_cast<float>(step % 60),
                                static_cast<float>(cells_.y) * 0.45f, static_cast<float>(cells_.z) * 0.5f);
         const float radius = static_cast<float>(cells_.y) * 0.15f;
@@ -56,7 +56,6 @@ class Plume {
                 for (int i = 0; i < cells_.x; ++i, ++at) {
                     const glm::vec3 d = glm::vec3(i, j, k) + 0.5f - centre;
                     inside[at] = glm::dot(d, d) < radius * radius ? 1 : 0;
-                    velocity[at] = {speed, 0, 0};
                 }
     }
 
@@ -65,7 +64,7 @@ class Plume {
     std::vector<FluidSource> sources;
     std::optional<FluidSolver> solver;
     std::vector<std::uint8_t> inside;
-    std::vector<glm::vec3> velocity;
+    BodyMotion motion;
 
  private:
     glm::ivec3 cells_;
@@ -106,7 +105,7 @@ void wholeStep(benchmark::State& state, bool moving) {
             state.PauseTiming();
             plume.placeSphere(step++);
             state.ResumeTiming();
-            plume.solver->setSolids({plume.inside, plume.velocity});
+            plume.solver->setSolids({plume.inside, {&plume.motion, 1}});
         }
         report = plume.solver->step(1, plume.sources);
     }
@@ -151,7 +150,7 @@ struct Kernels {
 
 void advect(benchmark::State& state, AdvectionScheme scheme) {
     Kernels kernels(boxOf(state));
-    for (auto _ : state) kernels.advect({scheme, true});
+    for (auto _ : state) kernels.advect({.scheme = scheme});
     countBytes(state, scheme == AdvectionScheme::macCormack ? 4 * 24 : 2 * 24);
 }
 

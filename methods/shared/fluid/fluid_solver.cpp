@@ -9,6 +9,7 @@
 
 #include "methods/shared/available_memory.h"
 #include "methods/shared/errors.h"
+#include "methods/shared/fluid/density_balance.h"
 #include "methods/shared/fluid/lanes.h"
 #include "methods/shared/maths/hash.h"
 #include "methods/shared/parallel/for_each_block.h"
@@ -58,7 +59,7 @@ FluidSolver::FluidSolver(const FluidSettings& settings, MemoryLedger& ledger)
       advection_(layout_, ledger.account("fluid advection window")) {
     for (std::size_t at = 0; at < layout_.padded(); ++at)
         for (int axis = 0; axis < 3; ++axis) cells_.cell(at)[axis] = settings_.windMetresPerSecond[axis];
-    solids_.set({}, cells_);
+    (void)solids_.set({}, cells_);
 }
 
 std::size_t FluidSolver::floatsToLend() const {
@@ -66,7 +67,7 @@ std::size_t FluidSolver::floatsToLend() const {
 }
 
 void FluidSolver::setSolids(const SolidMask& mask) {
-    solids_.set(mask, cells_);
+    covered_ += solids_.set(mask, cells_);
     speedsKnown_ = false;
 }
 
@@ -83,12 +84,7 @@ StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> so
     StepReport report;
     {
         const auto timing = clock.measureDetail("advect");
-        solids_.extendInto(cells_, !settings_.noSlip);
-        fill(GhostUse::lookUp);
-        advection_.advect(cells_, spare_, solids_.conductance(), settings_.advection, seconds / spacing,
-                          greatestSpeeds_.z);
-        cells_.swap(spare_);
-        solids_.restore(cells_);
+        advect(seconds);
     }
     {
         const auto timing = clock.measureDetail("forces");
@@ -109,6 +105,21 @@ StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> so
     return report;
 }
 
+void FluidSolver::advect(float seconds) {
+    const float cellsPerSpeed = seconds / static_cast<float>(settings_.box.spacingMetres);
+    const bool keeps = settings_.keepsDensity;
+    const double due = keeps ? covered_ + densityTotal(cells_, layout_) -
+                                   densityLeaving(cells_, layout_, solids_.conductance(), cellsPerSpeed)
+                             : 0;
+    solids_.extendInto(cells_, !settings_.noSlip);
+    fill(GhostUse::lookUp);
+    advection_.advect(cells_, spare_, solids_.conductance(), settings_.advection, cellsPerSpeed, greatestSpeeds_.z);
+    cells_.swap(spare_);
+    solids_.restore(cells_);
+    if (keeps) scaleDensity(cells_, layout_, due);
+    covered_ = 0;
+}
+
 PressureResult FluidSolver::project(float seconds) {
     fill(GhostUse::faces);
     pressure_.build(borrowed(), solids_.conductance());
@@ -127,32 +138,45 @@ void FluidSolver::addSources(std::span<const FluidSource> sources, float seconds
             throw InputError("source: got a radius of " + std::to_string(source.radiusMetres) +
                              " m, allowed: more than 0");
         const glm::dvec3 centre = (source.centreMetres - box.originMetres) / box.spacingMetres - 0.5;
-        const double reach = 3 * source.radiusMetres / box.spacingMetres;
+        // A smaller one could fall between the cells.
+        const double radiusCells = std::max(source.radiusMetres / box.spacingMetres, 0.5);
+        const double reach = 3 * radiusCells;
         // What lies outside the box has no cells; clamped first, so that far away is no overflow.
         const auto bound = [&](double cell, int axis) {
             return static_cast<int>(std::clamp(cell, -1.0, static_cast<double>(box.cells[axis])));
         };
-        const auto perRadius = static_cast<float>(box.spacingMetres / source.radiusMetres);
         glm::ivec3 first, last;
         for (int axis = 0; axis < 3; ++axis) {
             first[axis] = std::max(0, bound(std::ceil(centre[axis] - reach), axis));
             last[axis] = std::min(box.cells[axis] - 1, bound(std::floor(centre[axis] + reach), axis));
         }
+        const auto forFluidInReach = [&](const auto& take) {
+            const auto perRadius = static_cast<float>(1 / radiusCells);
+            for (int k = first.z; k <= last.z; ++k)
+                for (int j = first.y; j <= last.y; ++j)
+                    for (int i = first.x; i <= last.x; ++i) {
+                        const std::size_t at = layout_.at(i, j, k);
+                        if (solids_.conductance()[at] != 1) continue;
+                        const glm::vec3 d = glm::vec3(glm::dvec3(i, j, k) - centre) * perRadius;
+                        take(cells_.cell(at), std::exp(-0.5f * (d.x * d.x + d.y * d.y + d.z * d.z)));
+                    }
+        };
+        float added = source.densityPerSecond * seconds;
+        if (source.amountM3PerSecond > 0) {
+            double sum = 0;
+            forFluidInReach([&](const float*, float strength) { sum += static_cast<double>(strength); });
+            const double cell = box.spacingMetres * box.spacingMetres * box.spacingMetres;
+            if (sum > 0)
+                added += static_cast<float>(static_cast<double>(source.amountM3PerSecond * seconds) / (sum * cell));
+        }
         const float taken = 1 - std::exp(-source.velocityPerSecond * seconds);
-        for (int k = first.z; k <= last.z; ++k)
-            for (int j = first.y; j <= last.y; ++j)
-                for (int i = first.x; i <= last.x; ++i) {
-                    const std::size_t at = layout_.at(i, j, k);
-                    if (solids_.conductance()[at] != 1) continue;
-                    const glm::vec3 d = glm::vec3(glm::dvec3(i, j, k) - centre) * perRadius;
-                    const float strength = std::exp(-0.5f * (d.x * d.x + d.y * d.y + d.z * d.z));
-                    float* record = cells_.cell(at);
-                    record[density] += strength * source.densityPerSecond * seconds;
-                    record[temperature] += strength * source.kelvinPerSecond * seconds;
-                    record[reaction] = std::max(record[reaction], strength * source.reaction);
-                    for (int axis = 0; axis < 3; ++axis)
-                        record[axis] += strength * taken * (source.velocityMetresPerSecond[axis] - record[axis]);
-                }
+        forFluidInReach([&](float* record, float strength) {
+            record[density] += strength * added;
+            record[temperature] += strength * source.kelvinPerSecond * seconds;
+            record[reaction] = std::max(record[reaction], strength * source.reaction);
+            for (int axis = 0; axis < 3; ++axis)
+                record[axis] += strength * taken * (source.velocityMetresPerSecond[axis] - record[axis]);
+        });
     }
 }
 

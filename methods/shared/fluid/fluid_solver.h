@@ -31,6 +31,9 @@ struct FluidSettings {
     glm::vec3 windMetresPerSecond{0};  ///< blows in where a side is an inflow, and everywhere at first
     bool noSlip = false;               ///< solids and walls hold the air; else it glides along them
     AdvectionRule advection;
+    /// Takes off, everywhere in proportion, what advection makes of nothing, and gives back what it loses and what
+    /// solids cover.
+    bool keepsDensity = false;
     ForceSettings forces;
     PressureMethod pressure = PressureMethod::multigrid;
     int jacobiSweeps = 20;
@@ -78,6 +81,7 @@ class FluidSolver {
     void checkSettings() const;
     void addSources(std::span<const FluidSource> sources, float stepSeconds);
     void diffuseVelocity(float stepSeconds);
+    void advect(float stepSeconds);
     PressureResult project(float stepSeconds);
     void findGreatestSpeeds();
     [[noreturn]] void throwLostNumber() const;
@@ -94,6 +98,7 @@ class FluidSolver {
     Projection projection_;
     glm::vec3 greatestSpeeds_{0};
     bool speedsKnown_ = false;
+    double covered_ = 0;  ///< density that solids covered since the last step
     std::int64_t steps_ = 0;
     double lastStepSeconds_ = 0;
 };

@@ -85,8 +85,8 @@ struct Plume {
             const glm::dvec3 d = (glm::dvec3(i, j, k) + 0.5) * 0.1 - centreMetres;
             inside.push_back(glm::dot(d, d) < radiusMetres * radiusMetres ? 1 : 0);
         });
-        velocity.assign(inside.size(), speed);
-        solver->setSolids({inside, velocity});
+        motion.velocity = speed;
+        solver->setSolids({inside, {&motion, 1}});
     }
     [[nodiscard]] double sum(Lane lane) const {
         double total = 0;
@@ -100,7 +100,7 @@ struct Plume {
     MemoryLedger ledger;
     std::optional<FluidSolver> solver;
     std::vector<std::uint8_t> inside;
-    std::vector<glm::vec3> velocity;
+    BodyMotion motion;
 };
 
 TEST(FluidSolver, KeepsTheDivergenceBelowTheToleranceWithMovingSolids) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <string>
 
 #include "methods/shared/errors.h"
@@ -44,46 +45,53 @@ SolidCells::SolidCells(const CellLayout& layout, const Sides& sides, MemoryAccou
     besideOfSlab_.resize(static_cast<std::size_t>(nz));
 }
 
-void SolidCells::set(const SolidMask& mask, CellField& cells) {
+double SolidCells::set(const SolidMask& mask, CellField& cells) {
     const std::size_t count = layout_.rows() * static_cast<std::size_t>(layout_.nx);
-    if (!mask.inside.empty() && mask.inside.size() != count)
-        throw InputError("solids: got " + std::to_string(mask.inside.size()) +
+    if (!mask.body.empty() && mask.body.size() != count)
+        throw InputError("solids: got " + std::to_string(mask.body.size()) +
                          " cells, allowed: " + std::to_string(count) + ", as many as the grid has");
-    if (!mask.velocity.empty() && mask.velocity.size() != mask.inside.size())
-        throw InputError("solids: got " + std::to_string(mask.velocity.size()) + " velocities, allowed: " +
-                         std::to_string(mask.inside.size()) + ", one for each cell, or none");
-    if (!mask.inside.empty() && std::find(mask.inside.begin(), mask.inside.end(), 0) == mask.inside.end())
+    if (!mask.body.empty() && std::find(mask.body.begin(), mask.body.end(), 0) == mask.body.end())
         throw InputError("solids: got a box filled by them, allowed: one with room for the fluid");
-    for (std::size_t c = 0; c < mask.velocity.size(); ++c)
-        if (mask.inside[c] != 0 && !std::isfinite(mask.velocity[c].x + mask.velocity[c].y + mask.velocity[c].z))
-            throw InputError("solids: got a velocity that is not finite in cell " + std::to_string(c) +
-                             ", allowed: metres per second");
+    for (std::size_t n = 0; n < mask.motions.size(); ++n) {
+        const BodyMotion& motion = mask.motions[n];
+        const glm::vec3 all = motion.velocity + motion.turnPerCell + motion.centreCells;
+        if (!std::isfinite(all.x + all.y + all.z))
+            throw InputError("solids: got a motion of solid " + std::to_string(n + 1) +
+                             " that is not finite, allowed: metres per second");
+    }
     const auto width = static_cast<std::size_t>(layout_.nx);
+    std::vector<float> covered(layout_.rows());
     parallel::forEachBlock(layout_.rows(), 64, [&](std::size_t first, std::size_t rows) {
         for (std::size_t r = first; r < first + rows; ++r) {
             const std::size_t at = layout_.at(0, layout_.rowJ(r), layout_.rowK(r));
             std::uint8_t* conductance = conductance_.data() + at;
-            if (mask.inside.empty()) {
+            if (mask.body.empty()) {
                 std::memset(conductance, 1, width);
                 continue;
             }
-            const std::uint8_t* inside = mask.inside.data() + r * width;
+            const std::uint8_t* body = mask.body.data() + r * width;
             std::uint8_t any = 0;
             for (std::size_t i = 0; i < width; ++i) {
-                conductance[i] = inside[i] == 0 ? 1 : 0;
-                any |= inside[i];
+                conductance[i] = body[i] == 0 ? 1 : 0;
+                any |= body[i];
             }
             if (any == 0) continue;
             for (std::size_t i = 0; i < width; ++i) {
-                if (inside[i] == 0) continue;
-                const glm::vec3 velocity = mask.velocity.empty() ? glm::vec3(0) : mask.velocity[r * width + i];
+                if (body[i] == 0) continue;
+                const std::size_t n = body[i] - std::size_t{1};
+                const glm::vec3 velocity =
+                    n < mask.motions.size()
+                        ? mask.motions[n].velocityAt(static_cast<int>(i), layout_.rowJ(r), layout_.rowK(r))
+                        : glm::vec3(0);
                 float* record = cells.cell(at + i);
+                covered[r] += record[density];
                 for (std::size_t lane = 0; lane < lanes; ++lane)
                     record[lane] = lane < 3 ? velocity[static_cast<int>(lane)] : 0;
             }
         }
     });
     findEdges(cells);
+    return std::accumulate(covered.begin(), covered.end(), 0.0);
 }
 
 void SolidCells::findEdges(const CellField& cells) {

@@ -14,19 +14,31 @@
 
 namespace dustbench::fluid {
 
-/// Solids as a voxeliser gives them: a value for each cell, x fastest, without ghosts.
+/// How a solid moves, as it is seen from the grid.
+struct BodyMotion {
+    glm::vec3 velocity{0};     ///< metres per second, at `centreCells`
+    glm::vec3 turnPerCell{0};  ///< metres per second for each cell of distance: angular velocity times spacing
+    glm::vec3 centreCells{0};  ///< from the least corner of the box
+
+    [[nodiscard]] glm::vec3 velocityAt(int i, int j, int k) const {
+        return velocity + glm::cross(turnPerCell, glm::vec3(i, j, k) + 0.5f - centreCells);
+    }
+};
+
+/// Solids as a voxeliser gives them: a number for each cell, x fastest, without ghosts.
 struct SolidMask {
-    std::span<const std::uint8_t> inside;  ///< 0: fluid
-    std::span<const glm::vec3> velocity;   ///< metres per second, read where inside; empty: at rest
+    std::span<const std::uint8_t> body;   ///< 0: fluid; n: the n-th solid
+    std::span<const BodyMotion> motions;  ///< of the solids, from the first on; those beyond the last are at rest
 };
 
 class SolidCells {
  public:
     SolidCells(const CellLayout& layout, const Sides& sides, MemoryAccount& account);
 
-    /// Replaces all solids. The air that they leave has their speed, `cells` is told. Throws InputError where sizes do
-    /// not fit, a velocity is not finite, or no fluid is left.
-    void set(const SolidMask& mask, CellField& cells);
+    /// Replaces all solids. The air that they leave has their speed, `cells` is told. Returns the density that they
+    /// cover and that is lost so, summed over cells. Throws InputError where sizes do not fit, a velocity is not
+    /// finite, or no fluid is left.
+    double set(const SolidMask& mask, CellField& cells);
 
     /// For each padded cell what a face between it and a cell of fluid conducts: 1 fluid, 2 air beyond an open side,
     /// whose pressure is known half a cell away, 0 solids, walls and inflows.

@@ -140,6 +140,7 @@ TEST(OctreeDust, HandsOverItsVoxelsWithTheirMass) {
     class Collector final : public VolumeVisitor {
      public:
         void puffs(const particles::ParticleStore&) override { ADD_FAILURE() << "puffs"; }
+        void grid(const GridVolume&) override { ADD_FAILURE() << "grid"; }
         void octree(const OctreeVolume& volume) override {
             std::set<std::tuple<int, unsigned, unsigned, unsigned>> cells;
             for (const OctreeVoxel& voxel : volume.voxels) {

@@ -1,0 +1,120 @@
+// What the method declares, and how its parameters change what a fluid's file says.
+#include <algorithm>
+
+#include "methods/grid_fluid/grid_fluid.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/files/data_folder.h"
+
+namespace dustbench::grid_fluid {
+namespace {
+
+constexpr double asTheFileSays = -1;
+
+std::vector<std::string> fluidNames() {
+    std::vector<std::string> names = files::listData("fluids", ".toml");
+    if (std::ranges::find(names, "dust") == names.end()) names.emplace_back("dust");
+    return names;
+}
+
+void override(const ParameterValues& values, const char* name, float& value) {
+    if (const double given = values.real(name); given >= 0) value = static_cast<float>(given);
+    // Between "as the file says" and 0 there is nothing to mean.
+    else if (given != asTheFileSays)
+        throw InputError(std::string("parameter ") + name + ": got " + std::to_string(given) +
+                         ", allowed: 0 or more, or -1: as the fluid's file says");
+}
+
+double spacingOf(const ParameterValues& values, const FluidSetup& setup, int cellsAlongX) {
+    const double given = values.real("spacing_m");
+    if (given == asTheFileSays) return setup.lengthMetres / cellsAlongX;
+    if (given > 0) return given;
+    throw InputError("parameter spacing_m: got " + std::to_string(given) +
+                     " m, allowed: more than 0, or -1: the length of the fluid's box by its cells along x");
+}
+
+GridFluidSettings settingsOf(const ParameterValues& values) {
+    GridFluidSettings settings;
+    settings.setup = readFluid(files::findData("fluid", "fluids", values.choice("fluid"), ".toml"));
+    FluidSetup& setup = settings.setup;
+    override(values, "vorticity", setup.forces.confinementPerSecond);
+    override(values, "buoyancy", setup.forces.buoyancyPerKelvin);
+    override(values, "cooling", setup.forces.coolingPerSecond);
+    override(values, "decay", setup.forces.densityDecayPerSecond);
+    override(values, "diffusion", setup.forces.viscosityM2PerSecond);
+
+    fluid::FluidSettings& solver = settings.solver;
+    const auto cells = values.cells("grid");
+    solver.box.cells = {cells[0], cells[1], cells[2]};
+    solver.box.spacingMetres = spacingOf(values, setup, cells[0]);
+    solver.forces = setup.forces;
+    solver.noSlip = setup.noSlip;
+    solver.advection.scheme = values.choiceAs<fluid::AdvectionScheme>("advection");
+    solver.advection.limit = values.choiceAs<fluid::Limit>("limit");
+    solver.keepsDensity = setup.keepsDensity;
+    solver.pressure = values.choiceAs<fluid::PressureMethod>("pressure");
+    solver.jacobiSweeps = static_cast<int>(values.integer("sweeps"));
+    solver.divergencePerStep = static_cast<float>(values.real("tolerance"));
+    fluid::check(solver.box);
+    settings.framesPerStep = static_cast<int>(values.integer("frames_per_step"));
+    settings.seed = static_cast<std::uint64_t>(values.integer("fluid_seed"));
+
+    raycast::RaycastSettings& picture = settings.picture;
+    picture.backend = values.choiceAs<raycast::Backend>("backend");
+    picture.filter = values.choiceAs<raycast::Filter>("filter");
+    picture.stepCells = values.real("step_cells");
+    picture.jitter = values.boolean("jitter");
+    picture.stopAlpha = values.real("stop_alpha");
+    picture.skipEmpty = values.boolean("skip_empty");
+    const auto shadow = static_cast<int>(values.integer("shadow_cells"));
+    picture.shadowCells = shadow >= 0 ? shadow : setup.look.shadowCells;
+    picture.extinctionPerMetre = setup.look.extinctionPerMetre;
+    if (!setup.look.fire.empty()) picture.fire = raycast::loadTransferFunction(setup.look.fire);
+    return settings;
+}
+
+}  // namespace
+
+MethodInfo describe() {
+    MethodInfo info;
+    info.title = "Grid fluid";
+    info.summary = "Smoke, fire or dust flows in a grid around solids, and is ray cast.";
+    info.source = "Senger2009";
+    info.parameters
+        .choice("fluid", "dust", fluidNames(), "which file of data/fluids: what flows, from where, in which box")
+        .cells("grid", "128x64x64", 4, 4096, "cells along x, y and z")
+        .real("spacing_m", asTheFileSays, asTheFileSays, 1000, "m",
+              "edge of a cell; -1: the length of the fluid's box by its cells along x")
+        .choice("advection", "maccormack", {"semi_lagrangian", "maccormack"},
+                "look back along the flow, or correct that by its own error as well")
+        .choice("limit", "revert", {"clamp", "revert", "none"},
+                "what is done where that correction overshoots: the paper's clamp to the cells around, or back to the "
+                "uncorrected value")
+        .choice("pressure", "multigrid", {"jacobi", "multigrid"},
+                "the paper's sweeps, or cycles over coarser and coarser grids until the tolerance is met")
+        .integer("sweeps", 40, 0, 100'000, "", "of pressure=jacobi")
+        .real("tolerance", 0.001, 1e-7, 10, "",
+              "of pressure=multigrid: the share of its volume that a cell may gain in a step")
+        .real("vorticity", asTheFileSays, asTheFileSays, 1000, "1/s", "confinement of vortices; -1: as the file says")
+        .real("buoyancy", asTheFileSays, asTheFileSays, 1e38, "m/s2/K", "rise for each kelvin; -1: as the file says")
+        .real("cooling", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the heat lost; -1: as the file says")
+        .real("decay", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the density lost; -1: as the file says")
+        .real("diffusion", asTheFileSays, asTheFileSays, 1000, "m2/s", "viscosity; -1: as the file says")
+        .integer("frames_per_step", 1, 1, 600, "frames", "the fluid takes one long step in so many frames")
+        .choice("backend", "auto", {"auto", "cpu", "gl"}, "who casts the rays; auto: the CPU where OpenGL is software")
+        .choice("filter", "linear", {"linear", "cubic"}, "how cells are interpolated")
+        .real("step_cells", 0.5, 0.01, 8, "cells", "length of a ray's steps")
+        .boolean("jitter", true, "shift each pixel's steps by a share of one: noise instead of bands")
+        .real("stop_alpha", 0.99, 0, 1, "", "a ray ends where more than this is covered; 1: never")
+        .boolean("skip_empty", true, "leave out blocks of cells without density")
+        .integer(
+            "shadow_cells", -1, -1, 16, "cells",
+            "the sun's light falls off within the cloud, found in blocks of so many cells; 0: not; -1: as the file "
+            "says")
+        .integer("fluid_seed", 1, 0, 1'000'000'000, "", "seed of the fluid's own random numbers");
+    info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
+        return std::make_unique<GridFluid>(settingsOf(values));
+    };
+    return info;
+}
+
+}  // namespace dustbench::grid_fluid

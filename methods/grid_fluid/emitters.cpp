@@ -1,0 +1,112 @@
+#include "methods/grid_fluid/emitters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "methods/shared/errors.h"
+#include "methods/shared/maths/philox.h"
+#include "methods/shared/scene/scene.h"
+
+namespace dustbench::grid_fluid {
+namespace {
+
+enum Stream : std::uint32_t { placesStream = 1, chanceStream };
+
+fluid::FluidSource ballOf(const SourceSetup& setup, const glm::dvec3& centre, float strength) {
+    fluid::FluidSource source;
+    source.centreMetres = centre;
+    source.radiusMetres = setup.radiusMetres;
+    source.densityPerSecond = strength * setup.densityPerSecond;
+    source.kelvinPerSecond = strength * setup.kelvinPerSecond;
+    source.reaction = std::min(1.0f, strength) * setup.reaction;
+    source.velocityMetresPerSecond = setup.velocity;
+    source.velocityPerSecond = setup.velocityPerSecond;
+    return source;
+}
+
+}  // namespace
+
+Emitters::Emitters(const std::vector<SourceSetup>& setups, const scene::Scene& scene, std::uint64_t seed)
+    : setups_(setups), seed_(seed) {
+    for (const SourceSetup& setup : setups_) {
+        if (setup.at == SourceAt::point) balls_.push_back({setup.centreMetres, &setup, 0});
+        if (setup.at == SourceAt::solid) scatterOver(setup, scene);
+        if (setup.at == SourceAt::wheels && !scene.vehicle)
+            throw InputError("fluid: has sources at wheels, and scene '" + scene.id + "' has no vehicle");
+    }
+}
+
+/// Evenly by area: a share of it picks the triangle, two more numbers the place in it.
+void Emitters::scatterOver(const SourceSetup& setup, const scene::Scene& scene) {
+    std::vector<std::string> known;
+    for (const scene::Solid& solid : scene.solids) known.push_back(solid.name);
+    const auto found = std::ranges::find(known, setup.solid);
+    if (found == known.end()) throw unknownName("solid of scene '" + scene.id + "'", setup.solid, known);
+    const auto which = static_cast<std::size_t>(found - known.begin());
+    const scene::Mesh& mesh = *scene.solids[which].mesh;
+    const glm::dmat4 toWorld(scene.solidPoses[which].toWorld);
+    const auto corner = [&](std::size_t index) {
+        return glm::dvec3(toWorld * glm::dvec4(mesh.positions[mesh.indices[index]], 1));
+    };
+    std::vector<double> areas;
+    double whole = 0;
+    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+        const glm::dvec3 a = corner(t);
+        areas.push_back(whole += 0.5 * glm::length(glm::cross(corner(t + 1) - a, corner(t + 2) - a)));
+    }
+    if (!(whole > 0))
+        throw InputError("fluid: solid '" + setup.solid + "' has no surface, allowed: a solid of triangles");
+    for (int n = 0; n < setup.balls; ++n) {
+        const auto random = maths::uniform4(seed_, placesStream, static_cast<std::uint64_t>(n));
+        const auto chosen = std::ranges::upper_bound(areas, whole * static_cast<double>(random[0]));
+        const std::size_t t = 3 * static_cast<std::size_t>(std::min(chosen, areas.end() - 1) - areas.begin());
+        const double root = std::sqrt(static_cast<double>(random[1])), along = static_cast<double>(random[2]);
+        const glm::dvec3 place =
+            (1 - root) * corner(t) + root * (1 - along) * corner(t + 1) + root * along * corner(t + 2);
+        balls_.push_back({place, &setup, random[3]});
+    }
+}
+
+std::span<const fluid::FluidSource> Emitters::at(const scene::SceneState& state, std::int64_t step, double stepSeconds,
+                                                 double dustM2) {
+    sources_.clear();
+    for (std::size_t n = 0; n < balls_.size(); ++n) {
+        const Ball& ball = balls_[n];
+        const SourceSetup& setup = *ball.setup;
+        const double turns =
+            state.timeSeconds / static_cast<double>(setup.swingSeconds) + static_cast<double>(ball.phase);
+        const auto wave = static_cast<float>(0.5 + 0.5 * std::sin(2 * std::numbers::pi * turns));
+        float strength = 1 - setup.swing + setup.swing * wave;
+        if (setup.chance > 0) {
+            const auto random =
+                maths::uniform4(seed_, chanceStream, static_cast<std::uint64_t>(step), static_cast<std::uint32_t>(n));
+            strength *= 1 + setup.chance * maths::centred(random[0]);
+        }
+        sources_.push_back(ballOf(setup, ball.centre, strength));
+    }
+    for (const SourceSetup& setup : setups_)
+        if (setup.at == SourceAt::wheels) addWheels(setup, state, stepSeconds, dustM2);
+    return sources_;
+}
+
+void Emitters::addWheels(const SourceSetup& setup, const scene::SceneState& state, double stepSeconds, double dustM2) {
+    const glm::dvec3 up = state.vehicle.up;
+    const double speed = std::abs(state.vehicle.speed);
+    if (!(dustM2 > 0)) return;
+    for (const scene::WheelState& wheel : state.vehicle.wheels) {
+        const glm::dvec3 right = glm::normalize(glm::cross(wheel.forward, up));
+        const glm::dvec3 thrown(setup.velocity);
+        const double length = glm::length(thrown);
+        const double faster = length > 0 ? 1 + static_cast<double>(setup.speedShare) * speed / length : 1;
+        const glm::dvec3 velocity = faster * (thrown.x * wheel.forward + thrown.y * up + thrown.z * right) +
+                                    static_cast<double>(setup.inherit) * wheel.velocity;
+        fluid::FluidSource source = ballOf(setup, wheel.contact, 1);
+        source.amountM3PerSecond =
+            static_cast<float>(dustM2 / static_cast<double>(state.vehicle.wheels.size()) / stepSeconds);
+        source.velocityMetresPerSecond = glm::vec3(velocity);
+        sources_.push_back(source);
+    }
+}
+
+}  // namespace dustbench::grid_fluid

@@ -1,0 +1,278 @@
+#include "methods/grid_fluid/grid_fluid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+#include "methods/grid_fluid/dust_mass.h"
+#include "methods/grid_fluid/fluid_place.h"
+#include "methods/shared/files/data_folder.h"
+#include "methods/shared/maths/transmittance.h"
+#include "methods/shared/test_folder.h"
+#include "methods/shared/test_input_error.h"
+#include "methods/shared/test_moment.h"
+#include "methods/shared/volume.h"
+
+namespace dustbench::grid_fluid {
+namespace {
+
+/// A ball of radius 1 of so many rings; its poles lie on the y axis.
+scene::Mesh ball(int rings) {
+    scene::Mesh mesh;
+    const int sides = 2 * rings;
+    for (int r = 0; r <= rings; ++r)
+        for (int s = 0; s < sides; ++s) {
+            const double polar = std::numbers::pi * r / rings, turn = 2 * std::numbers::pi * s / sides;
+            mesh.positions.emplace_back(std::sin(polar) * std::cos(turn), std::cos(polar),
+                                        -std::sin(polar) * std::sin(turn));
+        }
+    const auto corner = [&](int r, int s) { return static_cast<std::uint32_t>(r * sides + s % sides); };
+    for (int r = 0; r < rings; ++r)
+        for (int s = 0; s < sides; ++s)
+            for (const std::uint32_t index : {corner(r, s), corner(r + 1, s), corner(r + 1, s + 1), corner(r, s),
+                                              corner(r + 1, s + 1), corner(r, s + 1)})
+                mesh.indices.push_back(index);
+    mesh.normals.assign(mesh.positions.size(), glm::vec3(0, 1, 0));
+    mesh.colours.assign(mesh.positions.size(), glm::vec3(0.5f));
+    return mesh;
+}
+
+glm::dmat4 placed(const glm::dvec3& middle, double scale) {
+    return glm::scale(glm::translate(glm::dmat4(1), middle), glm::dvec3(scale));
+}
+
+std::size_t filled(const MeshCells& cells, std::uint8_t body) {
+    return static_cast<std::size_t>(std::ranges::count(cells.bodies(), body));
+}
+
+TEST(MeshCells, FillABallByItsVolumeAndNothingBeside) {
+    MemoryLedger ledger;
+    MeshCells cells({40, 36, 32}, ledger.account("cells"));
+    cells.add(ball(24), placed({20.3, 17.9, 16.1}, 10), 3);
+    EXPECT_NEAR(static_cast<double>(filled(cells, 3)), 4.0 / 3 * std::numbers::pi * 1000, 60);
+    std::size_t at = 0;
+    for (int k = 0; k < 32; ++k)
+        for (int j = 0; j < 36; ++j)
+            for (int i = 0; i < 40; ++i, ++at) {
+                const double distance = glm::distance(glm::dvec3(i, j, k) + 0.5, glm::dvec3(20.3, 17.9, 16.1));
+                const bool inside = cells.bodies()[at] == 3;
+                EXPECT_TRUE(distance > 9.8 || inside);
+                EXPECT_TRUE(distance < 10 || !inside);
+            }
+    // Cut off by the box, on the side from which the rays come and on that to which they go.
+    for (const double x : {0.0, 40.0}) {
+        cells.clear();
+        cells.add(ball(24), placed({x, 18, 16}, 10), 1);
+        EXPECT_NEAR(static_cast<double>(filled(cells, 1)), 2.0 / 3 * std::numbers::pi * 1000, 40);
+    }
+    cells.clear();
+    cells.add(ball(8), placed({20, -11, 16}, 10), 1);
+    EXPECT_EQ(filled(cells, 1), 0u);
+}
+
+TEST(MeshCells, TakeOverlapsAndOpenPanels) {
+    MemoryLedger ledger;
+    MeshCells cells({40, 24, 24}, ledger.account("cells"));
+    scene::Mesh mesh;
+    mesh.append(ball(16), glm::mat4(placed({14, 12, 12}, 8)));
+    mesh.append(ball(16), glm::mat4(placed({24, 12, 12}, 8)));
+    MeshCells one({40, 24, 24}, ledger.account("cells")), other({40, 24, 24}, ledger.account("cells"));
+    one.add(ball(16), placed({14, 12, 12}, 8), 1);
+    other.add(ball(16), placed({24, 12, 12}, 8), 1);
+    // Lamps: a panel before either end, facing outwards.
+    for (const float x : {5.9f, 32.1f}) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const glm::vec3& corner : {glm::vec3(x, 10, 10), {x, 14, 10}, {x, 14, 14}, {x, 10, 14}})
+            mesh.positions.push_back(corner);
+        for (const std::uint32_t index : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + index);
+        if (x < 20) std::swap(mesh.indices[mesh.indices.size() - 2], mesh.indices[mesh.indices.size() - 1]);
+        if (x < 20) std::swap(mesh.indices[mesh.indices.size() - 5], mesh.indices[mesh.indices.size() - 4]);
+    }
+    cells.add(mesh, glm::dmat4(1), 1);
+    for (std::size_t at = 0; at < cells.bodies().size(); ++at)
+        EXPECT_EQ(cells.bodies()[at], one.bodies()[at] | other.bodies()[at]) << at;
+}
+
+GridFluidSettings settingsOf(const char* fluid, glm::ivec3 cells) {
+    GridFluidSettings settings;
+    settings.setup = readFluid(files::dataFolder() / "fluids" / (std::string(fluid) + ".toml"));
+    settings.solver.forces = settings.setup.forces;
+    settings.solver.box.cells = cells;
+    settings.solver.box.spacingMetres = settings.setup.lengthMetres / cells.x;
+    settings.solver.keepsDensity = settings.setup.keepsDensity;
+    settings.solver.advection.limit = fluid::Limit::revert;
+    settings.picture.backend = raycast::Backend::gl;
+    return settings;
+}
+
+/// A vehicle that is a ball of 1.2 m, driving along +X at 12 m/s over dust whose puffs are all alike.
+class Drive : public TestMoment {
+ public:
+    static constexpr std::size_t puffs = 240;
+
+    Drive() : TestMoment(puffs, 120, 90, {0, 3, 20}, {0, -0.1, -1}) {
+        scene::Mesh body = ball(10), wheel;
+        wheel.append(body, glm::mat4(placed({}, 0.33)));
+        for (glm::vec3& position : body.positions) position += glm::vec3(1, 1.3f, 0);
+        scene.vehicle = scene::VehicleModel{
+            {}, {"ball", std::make_shared<scene::Mesh>(body)}, {"wheel", std::make_shared<scene::Mesh>(wheel)}};
+        state.vehicle.speed = 12;
+        for (std::size_t i = 0; i < puffs; ++i) {
+            dust.radius[i] = 1;
+            dust.opacity[i] = 0.1f;
+            dust.lifetime[i] = 4;
+            dust.age[i] = i == 0 ? 0.001f : 1;  // one birth a step: 60 a second, 240 alive
+        }
+        move();
+    }
+    void go(GridFluid& method, int steps) {
+        for (int step = 0; step < steps; ++step) {
+            state.timeSeconds += 1.0 / 60;
+            state.vehicle.position.x += 12.0 / 60;
+            move();
+            method.update(frame());
+        }
+    }
+
+ private:
+    void move() {
+        for (std::size_t w = 0; w < 4; ++w) {
+            scene::WheelState& wheel = state.vehicle.wheels[w];
+            wheel.contact = state.vehicle.position + glm::dvec3(w < 2 ? 2.6 : 0, 0, w % 2 == 0 ? -0.8 : 0.8);
+            wheel.hub = wheel.contact + glm::dvec3(0, 0.33, 0);
+            wheel.velocity = {12, 0, 0};
+        }
+    }
+};
+
+TEST(DustMass, IsThatOfTheSharedCloudWhileAllIsWithinTheBox) {
+    Drive drive;
+    EXPECT_EQ(bornWithin(drive.dust, 1.0 / 60), 1u);
+    EXPECT_NEAR(meanLifetimeSeconds(drive.dust), 4, 1e-6);
+    const double puff = maths::puffMassSquareMetres(0.1, 1);
+    EXPECT_NEAR(meanPuffMassSquareMetres(drive.dust), puff, 1e-6 * puff);
+
+    GridFluidSettings settings = settingsOf("dust", {64, 16, 32});
+    settings.solver.box.spacingMetres = 0.4;
+    GridFluid method(settings);
+    method.prepare(drive.scene, Drive::device());
+    drive.go(method, 30);
+    // d(mass)/dt = births·puff − mass/lifetime
+    const double expected = 60 * puff * 4 * (1 - std::exp(-0.5 / 4));
+    EXPECT_NEAR(method.opticalMassSquareMetres(), expected, 0.03 * expected);
+    EXPECT_NEAR(method.massKept(drive.frame()).value(), expected / (240 * puff), 0.03 * expected / (240 * puff));
+}
+
+TEST(GridFluid, FollowsTheVehicleByWholeCellsAndHandsOverAllItHas) {
+    class Collector final : public VolumeVisitor {
+     public:
+        void puffs(const particles::ParticleStore&) override { ADD_FAILURE() << "puffs"; }
+        void octree(const OctreeVolume&) override { ADD_FAILURE() << "octree"; }
+        void grid(const GridVolume& volume) override {
+            ++grids;
+            const std::size_t cells = volume.extinctionPerMetre.size();
+            EXPECT_EQ(cells, 48u * 16 * 32);
+            for (const float extinction : volume.extinctionPerMetre)
+                mass += static_cast<double>(extinction) * std::pow(volume.spacingMetres, 3);
+            for (const GridField& field : volume.fields) {
+                EXPECT_EQ(field.values.size(), cells * static_cast<std::size_t>(field.components)) << field.name;
+                names.emplace_back(field.name);
+                if (field.name != "solids") continue;
+                for (const float solid : field.values) inside += static_cast<double>(solid);
+            }
+        }
+        int grids = 0;
+        double mass = 0, inside = 0;
+        std::vector<std::string> names;
+    } collector;
+    Drive drive;
+    GridFluidSettings settings = settingsOf("dust", {48, 16, 32});
+    settings.solver.box.spacingMetres = 0.25;
+    GridFluid method(settings);
+    method.prepare(drive.scene, Drive::device());
+    drive.go(method, 12);
+    const double first = method.solver().box().originMetres.x;
+    drive.go(method, 30);
+    const double moved = (method.solver().box().originMetres.x - first) / 0.25;
+    EXPECT_NEAR(moved, std::round(moved), 1e-9);
+    EXPECT_NEAR(moved, 24, 4);
+    EXPECT_EQ(method.solver().box().originMetres.y, 0);
+
+    method.volume(drive.frame(), collector);
+    EXPECT_EQ(collector.grids, 1);
+    EXPECT_NEAR(collector.mass, method.opticalMassSquareMetres(), 1e-4 * collector.mass);
+    EXPECT_EQ(collector.names,
+              (std::vector<std::string>{"density", "temperature", "reaction", "velocity", "pressure", "solids"}));
+    // The body and its four wheels, as far as they do not overlap.
+    const double volume = collector.inside * std::pow(0.25, 3);
+    EXPECT_NEAR(volume, 4.0 / 3 * std::numbers::pi * (1 + 4 * std::pow(0.33, 3)), 0.6);
+
+    // It is seen where it is, and drawn the same twice.
+    const draw::Image picture = drive.draw(method), again = drive.draw(method);
+    EXPECT_GT(method.primitives(), 0);
+    EXPECT_EQ(picture.pixels, again.pixels);
+    double alpha = 0;
+    for (const glm::vec4& pixel : picture.pixels) alpha += static_cast<double>(pixel.a);
+    EXPECT_GT(alpha, 1);
+}
+
+TEST(GridFluid, IsTheSameAgainAndFollowsItsSeed) {
+    const auto hashOf = [](std::uint64_t seed) {
+        TestMoment moment(0, 32, 32, {0, 2, 8}, {0, 0, -1});
+        moment.scene.solids = {{"hare", std::make_shared<scene::Mesh>(ball(8))}};
+        moment.scene.solidPoses = {{glm::mat4(placed({0, 0.8, 0}, 0.5)), {}, {}}};
+        GridFluidSettings settings = settingsOf("fire", {16, 24, 16});
+        settings.seed = seed;
+        GridFluid method(settings);
+        method.prepare(moment.scene, TestMoment::device());
+        for (int step = 0; step < 5; ++step) method.update(moment.frame());
+        return method.stateHash();
+    };
+    EXPECT_EQ(hashOf(1), hashOf(1));
+    EXPECT_NE(hashOf(1), hashOf(2));
+}
+
+TEST(GridFluid, RefusesWhatCannotFlow) {
+    TestMoment moment(0, 32, 32, {0, 2, 8}, {0, 0, -1});
+    moment.scene.id = "bare";
+    const auto refusal = [&](GridFluidSettings settings, int steps = 0) {
+        return inputError([&] {
+            GridFluid method(settings);
+            method.prepare(moment.scene, TestMoment::device());
+            for (int step = 0; step < steps; ++step) method.update(moment.frame());
+        });
+    };
+    EXPECT_NE(refusal(settingsOf("fire", {16, 16, 16})).find("unknown solid of scene 'bare' 'hare'"),
+              std::string::npos);
+    EXPECT_NE(refusal(settingsOf("dust", {16, 16, 16})).find("no vehicle"), std::string::npos);
+    GridFluidSettings outside = settingsOf("plume", {16, 16, 16});
+    outside.setup.middleMetres = {50, 0, 0};
+    EXPECT_NE(refusal(outside).find("all of its sources lie outside the box"), std::string::npos);
+    GridFluidSettings fast = settingsOf("plume", {16, 16, 16});
+    fast.solver.forces.buoyancyPerKelvin = 1e6f;
+    EXPECT_NE(refusal(fast, 2).find("allowed: at most 100"), std::string::npos);
+    moment.scene.solids = {{"rock", std::make_shared<scene::Mesh>(ball(8))}};
+    moment.scene.solidPoses = {{glm::mat4(placed({0, 0, 0}, 20)), {}, {}}};
+    EXPECT_NE(refusal(settingsOf("plume", {16, 16, 16}), 1).find("a box filled by them"), std::string::npos);
+}
+
+TEST(FluidFile, SaysWhatIsWrongWithFileAndLine) {
+    TestFolder folder;
+    const auto refusal = [&](const std::string& text) {
+        return inputError([&] { (void)readFluid(folder.write("x.toml", "description = \"x\"\n" + text)); });
+    };
+    const std::string box = "[box]\nlength_metres = 2\n", source = "[[source]]\nat = \"wheels\"\nradius_metres = 1\n";
+    EXPECT_EQ(readFluid(folder.write("good.toml", "description = \"x\"\n" + box + source)).lengthMetres, 2);
+    EXPECT_NE(refusal(source).find("box"), std::string::npos);
+    EXPECT_NE(refusal(box).find("[[source]]"), std::string::npos);
+    EXPECT_NE(refusal("[box]\nlength_metres = 0\n" + source).find("x.toml:3"), std::string::npos);
+    EXPECT_NE(refusal(box + source + "velocity = [1, 2, 1e9]\n").find("x.toml:7"), std::string::npos);
+    EXPECT_NE(refusal(box + source + "swing = 1\n").find("swing"), std::string::npos);
+    EXPECT_NE(refusal(box + "[flow]\nbuoyancy_per_kelvin = nan\n" + source).find("x.toml:5"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dustbench::grid_fluid

@@ -1,0 +1,99 @@
+#include "methods/grid_fluid/mesh_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <tuple>
+
+namespace dustbench::grid_fluid {
+namespace {
+
+/// On which side of the line from `a` to `b` a point of the y-z plane is. The two triangles at an edge must agree to
+/// the last bit, whichever way round they name it: the edge is always looked at from its lesser end.
+bool isLeftOf(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& point) {
+    const bool turned = std::tie(b.x, b.y) < std::tie(a.x, a.y);
+    const glm::dvec2 &from = turned ? b : a, &to = turned ? a : b;
+    const double area = (to.x - from.x) * (point.y - from.y) - (to.y - from.y) * (point.x - from.x);
+    return (area >= 0) != turned;
+}
+
+}  // namespace
+
+MeshCells::MeshCells(glm::ivec3 cells, MemoryAccount& account) : cells_(cells), bodies_(account) {
+    bodies_.resize(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
+                   static_cast<std::size_t>(cells.z));
+}
+
+void MeshCells::clear() {
+    std::ranges::fill(bodies_, std::uint8_t{0});
+}
+
+void MeshCells::cross(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const glm::dvec3 least = glm::min(glm::min(a, b), c), most = glm::max(glm::max(a, b), c);
+    const glm::dvec3 size(cells_);
+    // What lies beside the box crosses no row of it; what lies before or behind it still counts.
+    if (most.y < 0 || most.z < 0 || least.y > size.y || least.z > size.z) return;
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    if (!(std::abs(normal.x) > 0)) return;
+    const bool leaving = normal.x > 0;
+    const auto firstOf = [](double value) { return std::max(0, static_cast<int>(std::ceil(value - 0.5))); };
+    const int firstJ = firstOf(least.y), firstK = firstOf(least.z);
+    const int lastJ = static_cast<int>(std::min(size.y - 1, std::floor(most.y - 0.5)));
+    const int lastK = static_cast<int>(std::min(size.z - 1, std::floor(most.z - 0.5)));
+    const glm::dvec2 pa(a.y, a.z), pb(b.y, b.z), pc(c.y, c.z);
+    for (int k = firstK; k <= lastK; ++k)
+        for (int j = firstJ; j <= lastJ; ++j) {
+            const glm::dvec2 point(j + 0.5, k + 0.5);
+            // Seen along x a surface that is left through turns counter-clockwise.
+            const bool left = isLeftOf(pa, pb, point);
+            if (left != leaving || isLeftOf(pb, pc, point) != leaving || isLeftOf(pc, pa, point) != leaving) continue;
+            const double x = a.x - (normal.y * (point.x - a.y) + normal.z * (point.y - a.z)) / normal.x;
+            crossings_.push_back(
+                {static_cast<std::uint32_t>(k) * static_cast<std::uint32_t>(cells_.y) + static_cast<std::uint32_t>(j),
+                 static_cast<float>(x), leaving ? -1 : 1});
+        }
+}
+
+void MeshCells::add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uint8_t body) {
+    places_.clear();
+    glm::dvec3 least(INFINITY), most(-INFINITY);
+    for (const glm::vec3& position : mesh.positions) {
+        places_.emplace_back(toCells * glm::dvec4(position, 1));
+        least = glm::min(least, places_.back());
+        most = glm::max(most, places_.back());
+    }
+    if (glm::any(glm::lessThan(most, glm::dvec3(0))) || glm::any(glm::greaterThan(least, glm::dvec3(cells_)))) return;
+    crossings_.clear();
+    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
+        cross(places_[mesh.indices[t]], places_[mesh.indices[t + 1]], places_[mesh.indices[t + 2]]);
+    std::ranges::sort(crossings_, [](const Crossing& a, const Crossing& b) {
+        return std::tie(a.row, a.x, a.inwards) < std::tie(b.row, b.x, b.inwards);
+    });
+    for (std::size_t first = 0; first < crossings_.size();) {
+        std::size_t end = first;
+        while (end < crossings_.size() && crossings_[end].row == crossings_[first].row) ++end;
+        fillRow({crossings_.data() + first, end - first}, body);
+        first = end;
+    }
+}
+
+void MeshCells::fillRow(std::span<const Crossing> crossings, std::uint8_t body) {
+    // depths_[n]: how often the ray is inside between crossings n and n + 1, counted from the left.
+    depths_.clear();
+    int depth = 0;
+    for (const Crossing& crossing : crossings) depths_.push_back(depth = std::max(0, depth + crossing.inwards));
+    depth = 0;
+    std::uint8_t* row = bodies_.data() + std::size_t{crossings[0].row} * static_cast<std::size_t>(cells_.x);
+    const auto firstBeyond = [&](float x) {
+        return static_cast<int>(std::clamp(std::ceil(x - 0.5f), 0.0f, static_cast<float>(cells_.x)));
+    };
+    for (std::size_t n = crossings.size() - 1; n > 0; --n) {
+        depth = std::max(0, depth - crossings[n].inwards);
+        if (depth == 0 || depths_[n - 1] == 0) continue;
+        const int first = firstBeyond(crossings[n - 1].x), end = firstBeyond(crossings[n].x);
+        if (end > first) std::memset(row + first, body, static_cast<std::size_t>(end - first));
+    }
+}
+
+}  // namespace dustbench::grid_fluid

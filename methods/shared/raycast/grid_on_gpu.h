@@ -1,0 +1,44 @@
+// A grid in textures, as the shaders of grid_optics.glsl look into it.
+//
+// Owns: the textures. Threads: the OpenGL thread's.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+#include "methods/shared/gpu/program.h"
+#include "methods/shared/gpu/texture.h"
+#include "methods/shared/raycast/light_volume.h"
+#include "methods/shared/raycast/raycast_settings.h"
+
+namespace dustbench::raycast {
+
+class GridOnGpu {
+ public:
+    GridOnGpu(gpu::Device& device, const RaycastSettings& settings) : device_(device), settings_(settings) {}
+
+    /// `light`: null where the cloud casts no shadow on itself.
+    void upload(const ShownGrid& grid, const LightVolume* light);
+
+    [[nodiscard]] bool burning() const { return burning_; }
+    [[nodiscard]] std::map<std::string, std::string> definitions() const;
+    /// To texture units 1, 3, 4 and 5, and what the program must know of it.
+    void bind(gpu::Program& program, const Reflected& reflected) const;
+
+    [[nodiscard]] std::size_t gpuBytes() const;
+
+ private:
+    gpu::Device& device_;
+    RaycastSettings settings_;
+    gpu::Texture density_, reaction_, fire_, light_;
+    glm::ivec3 cells_{0}, lightCells_{0};
+    float extinctionPerCell_ = 0;
+    bool burning_ = false;
+};
+
+/// Makes a 3D texture anew where it has not the size already.
+void fitTexture(gpu::Texture& texture, gpu::Device& device, const char* label, gpu::Format format,
+                const glm::ivec3& size, gpu::Filter filter);
+
+}  // namespace dustbench::raycast

@@ -1,0 +1,57 @@
+// Draws a grid of smoke and fire by casting a ray through it for each pixel, on the CPU or the GPU.
+//
+// Units: metres, extinction per metre. Frame: world. Colours: linear RGB. Owns: the grid as the backend wants it.
+// Threads: the OpenGL thread's; the CPU's march spreads over the others. Source: Senger2009, ch. 4.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "methods/shared/memory_ledger.h"
+#include "methods/shared/raycast/brick_map.h"
+#include "methods/shared/raycast/cpu_march.h"
+#include "methods/shared/raycast/gl_march.h"
+#include "methods/shared/raycast/gl_slices.h"
+#include "methods/shared/raycast/packet_composite.h"
+#include "methods/shared/raycast/raycast_settings.h"
+#include "methods/shared/scene/lights.h"
+
+namespace dustbench::raycast {
+
+/// What a thick cloud of this albedo reflects; the same for all methods (scene::dustColour).
+[[nodiscard]] Reflected cloudColour(const glm::vec3& albedo, const scene::Lights& lights);
+
+class GridRaycast {
+ public:
+    /// `device` and `ledger` must outlive this. Throws InputError for settings out of range.
+    GridRaycast(gpu::Device& device, const RaycastSettings& settings, const scene::Lights& lights,
+                MemoryLedger& ledger);
+
+    /// Takes over all that is drawn; the grid may go afterwards. Throws InputError for a grid that has no cells, or a
+    /// density that is negative or not a number; then nothing is drawn.
+    void upload(const ShownGrid& grid);
+
+    /// Draws what was uploaded last, as often as wanted.
+    void draw(const scene::View& view, const gpu::Layer& layer);
+
+    /// `cpu` or `gl`.
+    [[nodiscard]] Backend backend() const { return cpu_ ? Backend::cpu : Backend::gl; }
+    [[nodiscard]] std::size_t gpuBytes() const;
+    /// Rays that the last draw cast, or planes that it blended.
+    [[nodiscard]] std::int64_t primitives() const { return primitives_; }
+
+ private:
+    RaycastSettings settings_;
+    Reflected reflected_;
+    BrickMap bricks_;
+    std::optional<LightVolume> light_;
+    std::optional<GlMarch> gl_;  ///< one of these three
+    std::optional<GlSlices> slices_;
+    std::optional<CpuMarch> cpu_;
+    std::optional<PacketComposite> composite_;
+    ShownGrid grid_;  ///< its place and size; it looks at no values
+    bool drawable_ = false;
+    std::int64_t primitives_ = 0;
+};
+
+}  // namespace dustbench::raycast
