@@ -145,6 +145,9 @@ const chartKit = (() => {
             }));
         const series = distinct(seen.map(point => point.series))
             .map(name => ({ name, method: cells.find(cell => theSeries(cell) === name).method }));
+        // Side by side, so that intervals of equal loads do not hide each other.
+        const gap = Math.min(5, 24 / series.length);
+        for (const point of seen) point.shift = gap * (series.findIndex(({ name }) => name === point.series) - (series.length - 1) / 2);
         const styles = seriesStyles(report, series, theme);
         const shownPanels = distinct(seen.map(point => point.panel));
         const { columns, each } = panelsWithin(chart.width, shownPanels.length);

@@ -243,6 +243,15 @@ class ReportPage(unittest.TestCase):
             made_folder.write_summary(self.folder, self.rows)
             self.report()
 
+    def test_a_folder_without_runs_gets_a_page_that_says_so(self):
+        empty = tempfile.mkdtemp(prefix="dustbench-empty-")
+        self.addCleanup(shutil.rmtree, empty)
+        called = subprocess.run([PROGRAM, "report", empty], capture_output=True, text=True)
+        self.assertEqual(called.returncode, 3)
+        self.touch()
+        self.browser.open(called.stdout.strip())
+        self.assertIn("no folder 'runs'", self.browser.evaluate("document.querySelector('.problems').textContent"))
+
     def test_charts_come_as_files_without_a_browser(self):
         for ending, start in (("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF")):
             with open(self.report("--chart", "fig7", "--format", ending).strip(), "rb") as stream:
