@@ -93,6 +93,23 @@ TEST(ClaimRules, ARatioPairsTheSameWorldAndRepetitionAlone) {
     EXPECT_NEAR(result.high, 0.97, 1e-9);
 }
 
+TEST(ClaimRules, AFindingIsJudgedByItsOwnInterval) {
+    const Claim claim = parseClaims(
+                            "[[claim]]\nid = \"X\"\ntext = \"t\"\nquantity = \"finding\"\nexperiment = \"sampling\"\n"
+                            "column = \"acceptance\"\nleast = 0.53\n",
+                            "claims.toml")
+                            .at(0);
+    const auto judgedAt = [&](double value) {
+        return judgeFinding(claim, {{"sampling", "acceptance", value, value - 0.01, value + 0.01, 100}}).verdict;
+    };
+    EXPECT_EQ(judgedAt(0.55), ClaimVerdict::confirmed);
+    EXPECT_EQ(judgedAt(0.51), ClaimVerdict::refuted);
+    EXPECT_EQ(judgedAt(0.535), ClaimVerdict::unresolved);
+    const ClaimResult untested = judgeFinding(claim, {});
+    EXPECT_EQ(untested.verdict, ClaimVerdict::notTested);
+    EXPECT_EQ(untested.note, "experiments.csv has no acceptance of the experiment 'sampling'");
+}
+
 TEST(ClaimRules, FewerRepetitionsThanSixResolveNothing) {
     const ClaimResult result = judged(faster, [](const std::string& method, int particles, int repetition) {
         return repetition == 2 ? std::nan("") : (method == "haze" ? 0.5 : 1) * particles;

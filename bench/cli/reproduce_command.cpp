@@ -40,7 +40,8 @@ int reproduce(const ReproduceOptions& options) {
         if (options.out.empty()) out = std::filesystem::path("reports/out") / paper.id;
         if (!options.out.empty() && options.paper.empty()) out /= paper.id;
         bench::ResultsFolder results(out);
-        std::cout << fmt::format("{} ({}): {}\n", paper.authors, paper.year, paper.title);
+        const std::string year = paper.year != 0 ? fmt::format(" ({})", paper.year) : "";
+        std::cout << fmt::format("{}{}: {}\n", paper.authors, year, paper.title);
         for (const std::string& id : paper.suites) {
             const bench::Suite suite = bench::loadSuite(id, options.quick);
             const auto plan = bench::planRuns(suite);
@@ -53,10 +54,16 @@ int reproduce(const ReproduceOptions& options) {
             code = std::max(code, suiteCode);
             std::cout << "\n" << suiteReport(suite, results.runs()) << std::flush;
         }
-        const auto claims = bench::judgeClaims(paper.id, files::CsvTable::parseFile(results.path() / "summary.csv"));
+        std::vector<bench::Finding> findings;
+        for (const std::string& id : paper.experiments)
+            std::ranges::move(bench::runExperiment(id), std::back_inserter(findings));
+        if (!findings.empty()) bench::writeWhole(results.path() / "experiments.csv", bench::findingsCsv(findings));
+        const auto summary = files::CsvTable::parseFile(results.path() / "summary.csv");
+        const auto claims = bench::judgeClaims(paper.id, summary, findings);
         bench::writeWhole(results.path() / "claims.csv", bench::claimsCsv(claims));
         std::cout << "\n" << claimsReport(claims);
-        for (const char* file : {"summary.csv", "claims.csv"}) std::cout << (results.path() / file).string() << "\n";
+        for (const char* file : {"summary.csv", "experiments.csv", "claims.csv"})
+            if (std::filesystem::exists(results.path() / file)) std::cout << (results.path() / file).string() << "\n";
         const bench::ReportData report = bench::readReport(results.path(), bench::defaultPictureBytes);
         std::cout << bench::writePage(results.path(), report).string() << "  (open it in a browser)\n";
     }

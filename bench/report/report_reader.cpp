@@ -140,7 +140,7 @@ void readPapers(const fs::path& folder, ReportData& data) {
                 if (const auto found = published.find(experiment.suite); found != published.end())
                     experiment.published = found->second;
             if (!fs::exists(summary)) continue;
-            for (JudgedClaim& claim : judgeClaims(id, files::CsvTable::parseFile(summary)))
+            for (JudgedClaim& claim : judgeClaims(id, files::CsvTable::parseFile(summary), readFindings(folder)))
                 data.claims.push_back(std::move(claim));
         } catch (const InputError& fault) {
             data.problems.push_back(fmt::format("paper {}: {}", id, fault.what()));

@@ -213,7 +213,7 @@
             if (!claims.length) continue;
             put(here, element('article', { className: 'card' }, [
                 element('h3', { textContent: paper.title }),
-                paragraph([`${paper.authors} (${paper.year})`, paper.venue].filter(Boolean).join(', '), 'muted'),
+                paragraph([paper.authors + (paper.year ? ` (${paper.year})` : ''), paper.venue].filter(Boolean).join(', '), 'muted'),
                 table(claimTable.heads, claims.map(claim => claimTable.row(report, claim, runLinks)), 'stacking'),
                 paragraph('Confirmed: the whole interval lies within the values in which the claim is true. Refuted: wholly outside. Unresolved: neither, or fewer than ' +
                     '6 repetitions. The interval has 95 %; for what no machine changes (bytes, counts, image metrics) it is the least and the greatest cell.', 'note'),
