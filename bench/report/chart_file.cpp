@@ -34,16 +34,25 @@ void call(const std::vector<std::string>& argv, const fs::path& log) {
     if (!outcome.succeeded()) throw InputError(fmt::format("'{}' drew no chart: {}", argv.front(), outcome.reason()));
 }
 
-/// The one id that is `wanted` or ends in it.
+std::string withoutQuick(std::string id) {
+    const std::string quick = "-quick";
+    if (const std::size_t at = id.rfind(quick); at != std::string::npos) id.erase(at, quick.size());
+    return id;
+}
+
+/// The one id that is `wanted` or ends in it, its `-quick` left out where it has one.
 std::string resolved(const ReportData& data, const std::string& wanted) {
     const std::vector<std::string> ids = chartIds(data);
     if (std::ranges::find(ids, wanted) != ids.end()) return wanted;
-    std::vector<std::string> ending;
-    for (const std::string& id : ids)
-        for (const std::string& end : {"-" + wanted, "-" + wanted + "-quick"})
-            if (id.ends_with(end)) ending.push_back(id);
-    if (ending.size() != 1) throw unknownName("chart", wanted, ids);
-    return ending.front();
+    for (const bool asWritten : {true, false}) {
+        std::vector<std::string> ending;
+        for (const std::string& id : ids) {
+            const std::string name = asWritten ? id : withoutQuick(id);
+            if (name == wanted || name.ends_with("-" + wanted)) ending.push_back(id);
+        }
+        if (ending.size() == 1) return ending.front();
+    }
+    throw unknownName("chart", wanted, ids);
 }
 
 }  // namespace

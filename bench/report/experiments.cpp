@@ -202,6 +202,7 @@ std::vector<Experiment> sortIntoExperiments(const StoredRuns& runs, const Machin
 
     std::vector<Experiment> experiments;
     std::set<const StoredRun*> placed;
+    std::vector<std::string> faults;
     for (const SuiteFile& file : listSuites()) {
         for (const bool quick : {false, true}) {
             try {
@@ -218,7 +219,7 @@ std::vector<Experiment> sortIntoExperiments(const StoredRuns& runs, const Machin
                 experiment.paper = file.paper;
                 experiments.push_back(std::move(experiment));
             } catch (const InputError& error) {
-                problems.push_back(fmt::format("suite '{}' cannot be read: {}", file.id, error.what()));
+                faults.push_back(fmt::format("suite '{}' cannot be read: {}", file.id, error.what()));
             }
         }
     }
@@ -226,6 +227,8 @@ std::vector<Experiment> sortIntoExperiments(const StoredRuns& runs, const Machin
     for (const auto& [id, run] : runs)
         if (!placed.contains(&run)) others.push_back(&run);
     if (!others.empty()) {
+        // Their suite may be among those.
+        std::ranges::move(faults, std::back_inserter(problems));
         Experiment experiment = makeExperiment(others, machines);
         experiment.id = "other";
         experiment.title = experiments.empty() ? "Runs" : "Other runs";

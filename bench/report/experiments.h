@@ -10,7 +10,7 @@ namespace dustbench::bench {
 /// Which machine each run was measured on, by run id, as an index into ReportData::machines.
 using MachineOfRun = std::map<std::string, std::size_t, std::less<>>;
 
-/// Points into `runs`. Suites that cannot be read are left out, with a sentence in `problems`.
+/// Points into `runs`. Suites that cannot be read are left out, with a sentence in `problems` where runs are left over.
 [[nodiscard]] std::vector<Experiment> sortIntoExperiments(const StoredRuns& runs, const MachineOfRun& machines,
                                                           std::vector<std::string>& problems);
 

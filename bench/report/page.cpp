@@ -53,6 +53,7 @@ std::string pageOf(const ReportData& data) {
                                             {"charts", chartSpecifications()},
                                             {"data", reportJson(data)},
                                             {"schema", escaped(schemaText())},
+                                            {"licence", escaped(vegaLicence())},
                                             {"chart-script", chartScript()},
                                             {"page-script", pageScript()}});
 }

@@ -70,8 +70,8 @@ class Collector {
 
     void noteMissing() const {
         if (missing_ > 0)
-            data_.problems.push_back(
-                fmt::format("the pictures of {} runs are missing, the first in {}", missing_, firstMissing_));
+            data_.problems.push_back(fmt::format("the pictures of {} {} are missing, the first in {}", missing_,
+                                                 missing_ == 1 ? "run" : "runs", firstMissing_));
     }
 
  private:

@@ -56,6 +56,12 @@ std::string schemaText() {
     return textOf(fs::path(DUSTBENCH_REPORTS_FOLDER) / "SCHEMA.md");
 }
 
+std::string vegaLicence() {
+    const fs::path file = "/usr/share/doc/libjs-vega/copyright";
+    // A system that was stripped of its documentation has the name at least.
+    return fs::exists(file) ? textOf(file) : "Vega: copyright 2015-2021 UW Interactive Data Lab, BSD-3-Clause licence.";
+}
+
 std::string chartSpecifications() {
     std::vector<fs::path> specifications;
     for (const auto& entry : fs::directory_iterator(fs::path(DUSTBENCH_REPORT_FOLDER) / "charts"))

@@ -13,6 +13,9 @@ namespace dustbench::bench {
 /// The content of reports/SCHEMA.md.
 [[nodiscard]] std::string schemaText();
 
+/// Under which Vega may be handed on with a page, as the package says it.
+[[nodiscard]] std::string vegaLicence();
+
 /// `{"cost": {…}, …}`: every specification of `reports/report/charts`, by its name without extension.
 [[nodiscard]] std::string chartSpecifications();
 

@@ -18,6 +18,7 @@
 #include "bench/report/report_json.h"
 #include "bench/report/report_reader.h"
 #include "methods/shared/errors.h"
+#include "methods/shared/pictures/picture_library.h"
 
 namespace dustbench::bench {
 namespace {
@@ -200,6 +201,57 @@ TEST(ReportPage, NamesWhatIsDamagedAndGoesOn) {
 TEST(ReportPictures, AreBase64) {
     EXPECT_EQ(dataUrl("image/png", "hello!"), "data:image/png;base64,aGVsbG8h");
     EXPECT_EQ(dataUrl("image/png", "hell"), "data:image/png;base64,aGVsbA==");
+}
+
+/// One judged run with a picture of 24 x 16 pixels; gives its data, of which the folder holds the files.
+ReportData pictured(const Folder& folder) {
+    ReportData data;
+    StoredRun made = run("haze", 100, 1, 3);
+    made.cells["FILE_image"] = "runs/" + made.runId + "/images/f000030.png";
+    made.cells["metric_reference"] = "exact";
+    const fs::path images = folder.path() / "runs" / made.runId / "images";
+    fs::create_directories(images);
+    const std::vector<std::uint8_t> grey(std::size_t{24} * 16 * 3, 128);
+    for (const char* name : {"f000030.png", "f000030_reference.png", "f000030_difference.png"})
+        EXPECT_EQ(pictures::pictureLibrary().writePng(images / name, 24, 16, 3, grey), "");
+    data.runs.emplace(made.runId, made);
+    data.experiments.push_back(makeExperiment({&data.runs.begin()->second}, {}));
+    return data;
+}
+
+TEST(ReportPictures, AreInThePageOrBesideItAsTheBudgetAllows) {
+    const Folder folder;
+    for (const std::int64_t budget : {std::int64_t{100'000}, std::int64_t{0}}) {
+        ReportData data = pictured(folder);
+        collectPictures(folder.path(), budget, data);
+        ASSERT_EQ(data.pictureSets.size(), 1u);
+        const PictureSet& set = data.pictureSets[0];
+        EXPECT_EQ(set.frame, 30);
+        ASSERT_EQ(set.pictures.size(), 3u);
+        EXPECT_EQ(set.pictures[0].label, "exact");
+        EXPECT_EQ(set.pictures[1].label, "haze");
+        EXPECT_TRUE(set.pictures[2].difference);
+        EXPECT_EQ(data.linkedPictures, budget > 0 ? 0u : 3u);
+        for (const ReportPicture& picture : set.pictures)
+            EXPECT_TRUE(picture.source.starts_with(budget > 0 ? "data:image/" : "runs/haze-")) << picture.source;
+        EXPECT_EQ(set.width, budget > 0 ? 24 : 0) << "a linked picture is not opened";
+    }
+}
+
+TEST(ReportPictures, AreMissedAndNamedWhereTheyAreDamaged) {
+    const Folder folder;
+    ReportData data = pictured(folder);
+    folder.write("runs/" + data.runs.begin()->first + "/images/f000030_reference.png", "no picture");
+    collectPictures(folder.path(), 100'000, data);
+    ASSERT_EQ(data.problems.size(), 1u);
+    EXPECT_NE(data.problems[0].find("f000030_reference.png"), std::string::npos);
+    EXPECT_EQ(data.pictureSets.at(0).pictures.size(), 2u);
+
+    fs::remove_all(folder.path() / "runs");
+    ReportData gone = pictured(folder);
+    fs::remove_all(folder.path() / "runs");
+    collectPictures(folder.path(), 100'000, gone);
+    EXPECT_NE(unreasonable(gone).find("the pictures of 1 run are missing"), std::string::npos);
 }
 
 TEST(Published, ReadsBandsAndRefusesThoseUpsideDown) {

@@ -145,6 +145,9 @@ const chartKit = (() => {
             }));
         const series = distinct(seen.map(point => point.series))
             .map(name => ({ name, method: cells.find(cell => theSeries(cell) === name).method }));
+        // Side by side, so that intervals of equal loads do not hide each other.
+        const gap = Math.min(5, 24 / series.length);
+        for (const point of seen) point.shift = gap * (series.findIndex(({ name }) => name === point.series) - (series.length - 1) / 2);
         const styles = seriesStyles(report, series, theme);
         const shownPanels = distinct(seen.map(point => point.panel));
         const { columns, each } = panelsWithin(chart.width, shownPanels.length);
@@ -181,7 +184,7 @@ const chartKit = (() => {
         if (labelled) spec.legends = [];
         if (!named && xs.length <= 10) spec.marks[0].axes[1].values = xs;
         const notes = [];
-        for (const of of new Set(published.map(item => item.tip.of))) notes.push(`Grey: what the paper's text gives as a number. ${of}.`);
+        if (published.length) notes.push(`Grey: what the paper's text gives as a number. ${distinct(published.map(item => item.tip.of)).join('; ')}.`);
         if (curves.length) notes.push(`Wide pale lines: the fitted cost a + b·N^k${column === 'fps_avg' ? ' of the frame time, as a rate' : ''}.`);
         return { spec, notes, state: { x: load.name, column, xLog, yLog } };
     };

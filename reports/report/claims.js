@@ -50,6 +50,6 @@ const claimTable = (() => {
             text, claim.measured === null ? '' : `${number(claim.measured)}${interval}`, expectedOf(claim, number), claimRange(claim), links.children.length ? links : '',
         ];
     };
-    const heads = [['claim'], ['verdict'], ['what the paper says'], ['measured [interval]', 'number', 'measured'], ['true if', '', 'true if'], [''], ['chart, runs']];
+    const heads = [['claim'], ['verdict'], ['what the paper says', 'wide'], ['measured [interval]', 'number', 'measured'], ['true if', '', 'true if'], [''], ['chart, runs']];
     return { row, heads };
 })();

@@ -138,7 +138,7 @@
         const known = chartKit.list(report);
         if (!known.length) put(here, paragraph('There is no run with frame times.', 'muted'));
         else put(here, paragraph('Each point is the median of a cell\'s runs; the bar is the interval in which the true median lies with 95 % or more, by ' +
-            'the order of 6 runs or more, and with fewer the least and the greatest run. Runs take turns in random order, each in a process of its own.', 'muted'));
+            'the order of 6 runs or more, and with fewer the least and the greatest run. Points of one load stand a little apart. Runs take turns in random order, each in a process of its own.', 'muted'));
         for (const experiment of data.experiments) {
             const own = known.filter(chart => chart.experiment === experiment);
             if (!own.length) continue;
@@ -238,8 +238,9 @@
             paragraph('A frame is input, vehicle, simulation, building, sorting, upload, the opaque scene and drawing, without waiting for the display. Each run is a process of its ' +
                 'own; the picture of the measured run is held against that of a checked one first, frames before the first recorded one warm up. Stages are timed one by one and add up ' +
                 'to the frame; the queue of the GPU is worked through in the wait. Pictures and metrics are made outside the timed frames.'),
-            paragraph('All that this page shows is in summary.csv, claims.csv and runs/ beside it; dustbench report --text prints the tables.'),
+            element('p', {}, ['All that this page shows is in summary.csv, claims.csv and runs/ beside it; ', element('code', { textContent: 'dustbench report --text' }), ' prints the tables.']),
             element('details', {}, [element('summary', { textContent: 'What the columns and files say (SCHEMA)' }), section('schema').content.cloneNode(true)]),
+            element('details', {}, [element('summary', { textContent: 'Licence of the chart library' }), section('licence').content.cloneNode(true)]),
         ]));
         if (data.warnings.length)
             put(here, element('article', { className: 'card', id: 'warnings' }, [

@@ -14,6 +14,41 @@ import zlib
 EVIL = "</script><img src=x onerror=\"document.title='broken'\">&amp;"
 STAGES = "input simulate build sort upload scene draw wait".split()
 
+# A paper whose experiment takes seconds: files of its folder.
+TINY_PAPER = {
+    "paper.toml": """id = "tiny"
+title = "A very short paper"
+authors = "Nobody"
+year = 2026
+venue = ""
+key = "Carr2006"
+summary = "Two loads."
+suites = ["tiny-loads"]
+""",
+    "suites/tiny-loads.toml": """title = "Two loads"
+summary = ""
+methods = ["billboard"]
+sizes = ["96x72"]
+frames = 3
+warmup = 1
+images = 2
+[parameters]
+preroll = 0.2
+particles = [100, 300]
+""",
+    "claims.toml": """[[claim]]
+id = "T1"
+text = "more particles make more billboards"
+suite = "tiny-loads"
+quantity = "growth"
+column = "primitives_median"
+against = "p.particles"
+of = "billboard"
+exact = true
+least = 1
+""",
+}
+
 
 @functools.cache
 def png(width, height, colour):

@@ -243,6 +243,38 @@ class ReportPage(unittest.TestCase):
             made_folder.write_summary(self.folder, self.rows)
             self.report()
 
+    def test_a_folder_without_runs_gets_a_page_that_says_so(self):
+        empty = tempfile.mkdtemp(prefix="dustbench-empty-")
+        self.addCleanup(shutil.rmtree, empty)
+        called = subprocess.run([PROGRAM, "report", empty], capture_output=True, text=True)
+        self.assertEqual(called.returncode, 3)
+        self.touch()
+        self.browser.open(called.stdout.strip())
+        self.assertIn("no folder 'runs'", self.browser.evaluate("document.querySelector('.problems').textContent"))
+
+    def test_reproduce_ends_with_a_page_of_what_it_measured(self):
+        place = tempfile.mkdtemp(prefix="dustbench-tiny-")
+        self.addCleanup(shutil.rmtree, place)
+        data = os.path.join(place, "data")
+        shutil.copytree(os.path.join(os.path.dirname(__file__), "..", "..", "data"), data)
+        for name, text in made_folder.TINY_PAPER.items():
+            file = os.path.join(data, "papers", "tiny", name)
+            os.makedirs(os.path.dirname(file), exist_ok=True)
+            with open(file, "w", encoding="utf-8") as stream:
+                stream.write(text)
+        out = os.path.join(place, "out")
+        called = subprocess.run([PROGRAM, "reproduce", "--paper", "tiny", "--quick", "--out", out], capture_output=True, text=True,
+                                env=os.environ | {"DUSTBENCH_DATA": data})
+        self.assertEqual(called.returncode, 0, called.stderr)
+        self.assertIn(os.path.join(out, "index.html"), called.stdout)
+        self.touch()
+        self.browser.open(os.path.join(out, "index.html"))
+        marks = self.marks()
+        self.assertEqual(set(marks), {"chart-tiny-loads", "chart-tiny-loads-stages", "chart-frames"})
+        self.assertTrue(all(marks.values()), marks)
+        self.assertIn("✓ confirmed", self.browser.evaluate("document.getElementById('claims').textContent"))
+        self.assertTrue(self.browser.evaluate("[...document.querySelectorAll('.picture-stage img')].every(image => image.naturalWidth === 96)"))
+
     def test_charts_come_as_files_without_a_browser(self):
         for ending, start in (("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF")):
             with open(self.report("--chart", "fig7", "--format", ending).strip(), "rb") as stream:
