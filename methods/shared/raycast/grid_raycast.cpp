@@ -24,6 +24,8 @@ GridRaycast::GridRaycast(gpu::Device& device, const RaycastSettings& settings, c
     if (settings.shadowCells > 0) light_.emplace(settings, lights.toSun, ledger);
     if (settings.renderer == Renderer::slices) {
         slices_.emplace(device, settings);
+    } else if (settings.renderer == Renderer::splat) {
+        splats_.emplace(device, settings, ledger);
     } else if (settings.backend == Backend::cpu || (settings.backend == Backend::automatic && isSoftware(device))) {
         cpu_.emplace(settings, ledger);
         composite_.emplace(device);
@@ -43,12 +45,18 @@ void GridRaycast::upload(const ShownGrid& grid) {
     if (cpu_) cpu_->upload(grid, bricks_, light);
     if (gl_) gl_->upload(grid, bricks_, light);
     if (slices_) slices_->upload(grid, bricks_, light);
+    if (splats_) splats_->upload(grid, reflected_, light);
     drawable_ = true;
 }
 
 void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer) {
     primitives_ = 0;
     if (!drawable_) return;
+    if (splats_) {
+        splats_->draw(view, layer);
+        primitives_ = static_cast<std::int64_t>(splats_->count());
+        return;
+    }
     const PixelRays rays(grid_, view);
     if (slices_) {
         primitives_ = slices_->draw(rays, view, reflected_, layer);
@@ -68,7 +76,7 @@ void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer) {
 }
 
 std::size_t GridRaycast::gpuBytes() const {
-    return (gl_ ? gl_->gpuBytes() : 0) + (slices_ ? slices_->gpuBytes() : 0) +
+    return (gl_ ? gl_->gpuBytes() : 0) + (slices_ ? slices_->gpuBytes() : 0) + (splats_ ? splats_->gpuBytes() : 0) +
            (composite_ ? composite_->gpuBytes() : 0);
 }
 

@@ -9,6 +9,7 @@
 
 #include "methods/shared/memory_ledger.h"
 #include "methods/shared/raycast/brick_map.h"
+#include "methods/shared/raycast/cell_splats.h"
 #include "methods/shared/raycast/cpu_march.h"
 #include "methods/shared/raycast/gl_march.h"
 #include "methods/shared/raycast/gl_slices.h"
@@ -37,7 +38,7 @@ class GridRaycast {
     /// `cpu` or `gl`.
     [[nodiscard]] Backend backend() const { return cpu_ ? Backend::cpu : Backend::gl; }
     [[nodiscard]] std::size_t gpuBytes() const;
-    /// Rays that the last draw cast, or planes that it blended.
+    /// Rays that the last draw cast, or planes or splats that it blended.
     [[nodiscard]] std::int64_t primitives() const { return primitives_; }
 
  private:
@@ -45,8 +46,9 @@ class GridRaycast {
     Reflected reflected_;
     BrickMap bricks_;
     std::optional<LightVolume> light_;
-    std::optional<GlMarch> gl_;  ///< one of these three
+    std::optional<GlMarch> gl_;  ///< one of these four
     std::optional<GlSlices> slices_;
+    std::optional<CellSplats> splats_;
     std::optional<CpuMarch> cpu_;
     std::optional<PacketComposite> composite_;
     ShownGrid grid_;  ///< its place and size; it looks at no values

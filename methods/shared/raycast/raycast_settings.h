@@ -16,7 +16,8 @@ enum class Backend {
 };
 enum class Renderer {
     raycast,  ///< a march along each pixel's ray
-    slices,   ///< planes across the view, blended; OpenGL only
+    slices,   ///< planes across the view, blended; OpenGL only, as all that follow
+    splat,    ///< a Gaussian for each cell
 };
 /// Between the middles of cells; beyond the outermost ones the values stay.
 enum class Filter {

@@ -145,6 +145,30 @@ TEST(GridRaycast, ShowsByFineSlicesWhatTheMarchShows) {
         }
 }
 
+TEST(GridRaycast, ShowsBySplatsAlmostWhatTheMarchShows) {
+    Canvas canvas;
+    canvas.setWall(4.2, 50);
+    canvas.lookFrom({3, 2, 4}, {-3, -2, -4});
+    for (const bool burning : {false, true}) {
+        RaycastSettings settings = settingsOf(Backend::gl);
+        settings.extinctionPerMetre = 2;
+        settings.shadowCells = burning ? 1 : 0;
+        const draw::Image march = canvas.picture(lumps(burning), settings);
+        settings.renderer = Renderer::splat;
+        const draw::Image splats = canvas.picture(lumps(burning), settings);
+        double difference = 0, redOfMarch = 0, redOfSplats = 0;
+        for (std::size_t i = 0; i < march.pixels.size(); ++i) {
+            difference += static_cast<double>(std::abs(march.pixels[i].a - splats.pixels[i].a));
+            redOfMarch += static_cast<double>(march.pixels[i].r);
+            redOfSplats += static_cast<double>(splats.pixels[i].r);
+        }
+        // A splat is a little wider than linear interpolation, and what burns in part of a cell burns in all of it.
+        EXPECT_NEAR(meanAlpha(march) / meanAlpha(splats), 1, 0.04);
+        EXPECT_NEAR(redOfMarch / redOfSplats, 1, burning ? 0.1 : 0.04);
+        EXPECT_LT(difference / static_cast<double>(march.pixels.size()), 0.1 * meanAlpha(march));
+    }
+}
+
 TEST_P(GridRaycastOn, LosesNothingBySkippingAndLittleByStoppingEarly) {
     Canvas canvas;
     for (const bool burning : {false, true})
