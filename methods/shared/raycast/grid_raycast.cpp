@@ -26,6 +26,8 @@ GridRaycast::GridRaycast(gpu::Device& device, const RaycastSettings& settings, c
         slices_.emplace(device, settings);
     } else if (settings.renderer == Renderer::splat) {
         splats_.emplace(device, settings, ledger);
+    } else if (settings.renderer == Renderer::isosurface) {
+        surface_.emplace(device, settings, lights);
     } else if (settings.backend == Backend::cpu || (settings.backend == Backend::automatic && isSoftware(device))) {
         cpu_.emplace(settings, ledger);
         composite_.emplace(device);
@@ -46,6 +48,7 @@ void GridRaycast::upload(const ShownGrid& grid) {
     if (gl_) gl_->upload(grid, bricks_, light);
     if (slices_) slices_->upload(grid, bricks_, light);
     if (splats_) splats_->upload(grid, reflected_, light);
+    if (surface_) surface_->upload(grid);
     drawable_ = true;
 }
 
@@ -55,6 +58,11 @@ void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer) {
     if (splats_) {
         splats_->draw(view, layer);
         primitives_ = static_cast<std::int64_t>(splats_->count());
+        return;
+    }
+    if (surface_) {
+        surface_->draw(view, layer);
+        primitives_ = static_cast<std::int64_t>(surface_->triangles());
         return;
     }
     const PixelRays rays(grid_, view);
@@ -76,8 +84,8 @@ void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer) {
 }
 
 std::size_t GridRaycast::gpuBytes() const {
-    return (gl_ ? gl_->gpuBytes() : 0) + (slices_ ? slices_->gpuBytes() : 0) + (splats_ ? splats_->gpuBytes() : 0) +
-           (composite_ ? composite_->gpuBytes() : 0);
+    const auto bytesOf = [](const auto& part) { return part ? part->gpuBytes() : std::size_t{0}; };
+    return bytesOf(gl_) + bytesOf(composite_) + bytesOf(slices_) + bytesOf(splats_) + bytesOf(surface_);
 }
 
 }  // namespace dustbench::raycast
