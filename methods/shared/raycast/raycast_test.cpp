@@ -215,6 +215,16 @@ TEST_P(GridRaycastOn, DrawsTheLatestGridAndTheSameAgain) {
     EXPECT_EQ(picture().pixels, burning.pixels);
 }
 
+TEST_P(GridRaycastOn, EndsFromSoFarThatFloatsDoNotTellStepsApart) {
+    Canvas canvas;
+    canvas.view.camera.verticalFieldOfView = 1e-7;
+    for (const double metres : {1e6, 1e8, 1e12}) {
+        canvas.lookFrom({0, 0, metres}, {0, 0, -1});
+        for (const glm::vec4& pixel : canvas.picture(lumps(true), settingsOf(GetParam())).pixels)
+            ASSERT_TRUE(pixel.a >= 0 && pixel.a <= 1);
+    }
+}
+
 TEST(GridRaycast, OnTheCpuIsTheSameOnOneThreadAndOnMore) {
     Canvas canvas;
     canvas.lookFrom({3, 2, 4}, {-3, -2, -4});
