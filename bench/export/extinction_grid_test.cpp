@@ -38,6 +38,25 @@ void forEachCell(const ExtinctionGrid& grid, const Check& check) {
     EXPECT_EQ(cell, grid.extinctionPerMetre.size());
 }
 
+TEST(ExtinctionGrid, OfAGridIsThatGridAndKeepsItsMassOnAnother) {
+    const TestGrid test;
+    const CollectedVolume volume = test.volume();
+    const ExtinctionGrid same = computeGrid(volume, {{10, 20, 30}, 0.25, {5, 4, 3}});
+    for (std::size_t c = 0; c < 60; ++c) EXPECT_NEAR(same.extinctionPerMetre[c], test.extinction[c], 1e-4) << c;
+    const ExtinctionGrid coarse = computeGrid(volume, planGrid(Box{{9.9, 19.8, 29.9}, {11.4, 21.1, 30.9}}, 7));
+    EXPECT_NEAR(coarse.massSquareMetres(), same.massSquareMetres(), 1e-5 * same.massSquareMetres());
+    EXPECT_EQ(volume.bounds()->least, glm::dvec3(10, 20, 30));
+    EXPECT_EQ(volume.bounds()->most, glm::dvec3(11.25, 21, 30.75));
+}
+
+TEST(CollectedVolume, RefusesGridsThatAreNone) {
+    std::vector<float> values(8, 1);
+    CollectedVolume volume;
+    EXPECT_THROW(volume.grid({{}, 1, {2, 2, 3}, values, {}}), std::runtime_error);
+    values[5] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(volume.grid({{}, 1, {2, 2, 2}, values, {}}), std::runtime_error);
+}
+
 TEST(ExtinctionGrid, HoldsTheCellAveragesOfPuffsThatQuadratureGives) {
     for (const unsigned seed : {1u, 2u, 3u}) {
         const TestDust dust(6, 2, 0.5f, seed);

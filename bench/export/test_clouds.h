@@ -94,4 +94,23 @@ inline CollectedVolume volumeOf(const CollectedOctree& octree) {
     return volume;
 }
 
+/// A method's own grid of 5×4×3 cells: field n of cell c is c + 1000·n, so that a swap of any two shows.
+struct TestGrid {
+    TestGrid() : extinction(60), scalar(60), vector(180) {
+        for (std::size_t c = 0; c < 60; ++c) {
+            extinction[c] = c % 7 == 0 ? 0.0f : static_cast<float>(c);
+            scalar[c] = static_cast<float>(c);
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                vector[3 * c + axis] = static_cast<float>(c + 1000 * (axis + 1));
+        }
+    }
+    [[nodiscard]] CollectedVolume volume() const {
+        const std::array<GridField, 2> fields{{{"heat", "K", 1, scalar}, {"velocity", "m/s", 3, vector}}};
+        CollectedVolume collected;
+        collected.grid({{10, 20, 30}, 0.25, {5, 4, 3}, extinction, fields});
+        return collected;
+    }
+    std::vector<float> extinction, scalar, vector;
+};
+
 }  // namespace dustbench::bench

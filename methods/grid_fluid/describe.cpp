@@ -60,6 +60,8 @@ GridFluidSettings settingsOf(const ParameterValues& values) {
 
     raycast::RaycastSettings& picture = settings.picture;
     picture.backend = values.choiceAs<raycast::Backend>("backend");
+    picture.renderer = values.choiceAs<raycast::Renderer>("renderer");
+    picture.isoDensity = values.real("iso_density");
     picture.filter = values.choiceAs<raycast::Filter>("filter");
     picture.stepCells = values.real("step_cells");
     picture.jitter = values.boolean("jitter");
@@ -95,12 +97,17 @@ MethodInfo describe() {
         .real("tolerance", 0.001, 1e-7, 10, "",
               "of pressure=multigrid: the share of its volume that a cell may gain in a step")
         .real("vorticity", asTheFileSays, asTheFileSays, 1000, "1/s", "confinement of vortices; -1: as the file says")
-        .real("buoyancy", asTheFileSays, asTheFileSays, 1e38, "m/s2/K", "rise for each kelvin; -1: as the file says")
+        .real("buoyancy", asTheFileSays, asTheFileSays, 1e6, "m/s2/K", "rise for each kelvin; -1: as the file says")
         .real("cooling", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the heat lost; -1: as the file says")
         .real("decay", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the density lost; -1: as the file says")
         .real("diffusion", asTheFileSays, asTheFileSays, 1000, "m2/s", "viscosity; -1: as the file says")
         .integer("frames_per_step", 1, 1, 600, "frames", "the fluid takes one long step in so many frames")
         .choice("backend", "auto", {"auto", "cpu", "gl"}, "who casts the rays; auto: the CPU where OpenGL is software")
+        .choice(
+            "renderer", "raycast", {"raycast", "slices", "splat", "isosurface"},
+            "a march along each pixel's ray; planes across the view; a Gaussian for each cell; or an opaque surface of "
+            "one density")
+        .real("iso_density", 0.5, 1e-6, 1e6, "", "of renderer=isosurface")
         .choice("filter", "linear", {"linear", "cubic"}, "how cells are interpolated")
         .real("step_cells", 0.5, 0.01, 8, "cells", "length of a ray's steps")
         .boolean("jitter", true, "shift each pixel's steps by a share of one: noise instead of bands")

@@ -30,7 +30,7 @@ struct Carried {
 /// A Gaussian of σ = 0.09 turns `turns` times about the middle of a unit square of n×n cells, 0.6 cells a step at its
 /// place.
 Carried carryRound(int n, AdvectionRule rule, double turns) {
-    const CellLayout layout(glm::ivec3(n, n, 4));
+    const CellLayout layout(glm::ivec3(n, n, 1));
     MemoryLedger ledger;
     CellField from(layout, ledger.account("a")), to(layout, ledger.account("b"));
     const SolidCells solids(layout, openOverFloor, ledger.account("c"));
@@ -43,7 +43,7 @@ Carried carryRound(int n, AdvectionRule rule, double turns) {
     };
     // The flow, in cells per step; set again each step, for it is carried as well.
     const auto setFlow = [&](CellField& field) {
-        for (int k = -1; k <= 4; ++k)
+        for (int k = -1; k <= 1; ++k)
             for (int j = -1; j <= n; ++j)
                 for (int i = -1; i <= n; ++i) {
                     float* record = field.cell(layout.at(i, j, k));
@@ -67,7 +67,7 @@ Carried carryRound(int n, AdvectionRule rule, double turns) {
         carried.error += std::pow(value - gaussian(i, j, turns * 2 * pi), 2);
         carried.peak = std::max(carried.peak, value);
     });
-    carried.error = std::sqrt(carried.error / (4.0 * n * n));
+    carried.error = std::sqrt(carried.error / n / n);
     return carried;
 }
 

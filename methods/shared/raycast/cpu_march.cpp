@@ -1,6 +1,7 @@
 #include "methods/shared/raycast/cpu_march.h"
 
 #include <cmath>
+#include <optional>
 
 #include "methods/shared/parallel/for_each_block.h"
 #include "methods/shared/raycast/cell_window.h"
@@ -61,12 +62,30 @@ Floats sceneDistance(const PixelRays& rays, const SceneDepths& depths, int x, in
     return rays.nearDistance / atLeast(depth, all(1e-9f)) * stretch;
 }
 
+/// A grid to sample, and how many of its cells there are along one of the shown grid's.
+struct Field {
+    explicit Field(const PaddedCells& padded, float scale = 1)
+        : cells(padded),
+          origin(padded.origin()),
+          row(padded.row()),
+          slab(padded.slab()),
+          last{static_cast<float>(padded.cells().x - 1), static_cast<float>(padded.cells().y - 1),
+               static_cast<float>(padded.cells().z - 1), 0},
+          perCell(scale) {}
+
+    const PaddedCells& cells;
+    const float* origin;
+    std::ptrdiff_t row, slab;
+    Four last;  ///< middle of the last cell
+    float perCell;
+};
+
 /// What a march goes through and looks for.
 struct Volume {
-    const PaddedCells& density;
-    const PaddedCells* reaction;  ///< null: nothing burns
-    const BrickMap* bricks;       ///< null: nothing is skipped
-    const LightVolume* light;     ///< null: no shadow
+    Field density;
+    std::optional<Field> reaction;  ///< none: nothing burns
+    std::optional<Field> light;     ///< none: no shadow
+    const BrickMap* bricks;         ///< null: nothing is skipped
     std::span<const glm::vec4> fire;
     Reflected reflected;
     float stepCells, extinctionPerCell, opaqueDepth;
@@ -79,12 +98,10 @@ class PacketMarch {
     PacketMarch(const Volume& volume, const RayPacket& rays, const Floats& jitter, const Floats& sceneDistance)
         : volume_(volume),
           rays_(rays),
-          row_(volume.density.row()),
-          slab_(volume.density.slab()),
           step_(volume.stepCells),
           opaque_(volume.opaqueDepth / volume.extinctionPerCell),
           shift_(jitter * volume.stepCells) {
-        const glm::vec3 cells(volume.density.cells());
+        const glm::vec3 cells(volume.density.cells.cells());
         const Stretches box = rays.within(glm::vec3(0), cells);
         Stretches filled = box;
         if (volume.bricks) filled = rays.within(glm::vec3(volume.bricks->least()), glm::vec3(volume.bricks->most()));
@@ -95,13 +112,13 @@ class PacketMarch {
         end_ = hits ? atMost(box.to, sceneDistance) : from_;
         first_ = least(hits ? filled.from : all(std::numeric_limits<float>::max()));
         last_ = most(hits ? filled.to : all(0));
-        lastBase_ = Four{cells.x, cells.y, cells.z, 1} - 1;
     }
 
     [[gnu::always_inline]] void march() {
+        if (!(first_ < last_)) return;
         const float lastFrom = most(from_), firstEnd = least(end_);
-        for (int k = static_cast<int>(std::floor(first_ / step_)) - 1; step_ * static_cast<float>(k) < last_;
-             k += stepsPerChunk) {
+        for (int k = static_cast<int>(std::min(std::floor(first_ / step_), 1e9f)) - 1;
+             step_ * static_cast<float>(k) < last_; k += stepsPerChunk) {
             const float begin = step_ * static_cast<float>(k), end = begin + step_ * (stepsPerChunk + 1);
             const float nearest = std::max(begin, first_), farthest = std::min(end, last_);
             if (volume_.bricks &&
@@ -129,52 +146,55 @@ class PacketMarch {
             length = atLeast(to - from, all(0));
         }
         length = depth_ > opaque_ ? all(0) : length;
-        if constexpr (cubic) {
-            const Places at = places(middle, Four{});
-            gather(middle, length, sampleCubic(volume_.density, at),
-                   [&] { return sampleCubic(*volume_.reaction, at); });
-            return;
-        }
         // The middles of steps that are cut may lie anywhere in them.
-        const float nearest = begin + (cut ? 0.0f : 0.5f) * step_, farthest = begin + (cut ? 2.0f : 1.5f) * step_;
-        const Four low = rays_.low(nearest, farthest) - 0.5f, high = rays_.high(nearest, farthest) - 0.5f;
-        constexpr Four outside{-1, -1, -1, 0};
-        const FourInts base = __builtin_convertvector(atMost(atLeast(low, outside), lastBase_) - outside, FourInts) +
+        const Reach reach{middle, begin + (cut ? 0.0f : 0.5f) * step_, begin + (cut ? 2.0f : 1.5f) * step_};
+        gather(reach, length * sample(volume_.density, reach));
+    }
+
+    /// Where the rays are sampled: distances, and the least and the greatest that any of them may be.
+    struct Reach {
+        const Floats& middle;
+        float nearest, farthest;
+    };
+
+    [[gnu::always_inline]] [[nodiscard]] Floats sample(const Field& field, const Reach& reach) const {
+        return cubic ? sampleCubic(field.cells, places(reach.middle, Four{}, 1)) : sampleLinear(field, reach, 1);
+    }
+
+    /// `perCell`: of the field, given by itself so that it may be known to be 1.
+    [[gnu::always_inline]] [[nodiscard]] Floats sampleLinear(const Field& field, const Reach& reach,
+                                                             float perCell) const {
+        const Four low = perCell * rays_.low(reach.nearest, reach.farthest) - 0.5f;
+        const Four high = perCell * rays_.high(reach.nearest, reach.farthest) - 0.5f;
+        const Four outside{-1, -1, -1, 0};
+        const FourInts base = __builtin_convertvector(atMost(atLeast(low, outside), field.last) - outside, FourInts) +
                               FourInts{-1, -1, -1, 0};
         const Four whole = __builtin_convertvector(base, Four);
-        const FourInts beyond = atMost(high, lastBase_ + 0.5f) - whole > Four{2.999f, 2.999f, 1.999f, 1e30f};
+        const FourInts beyond = atMost(high, field.last + 0.5f) - whole > Four{2.999f, 2.999f, 1.999f, 1e30f};
         if (CellWindow::useful && (beyond[0] | beyond[1] | beyond[2]) == 0) {
-            const Places at = places(middle, whole);
-            const std::ptrdiff_t from = base[0] + base[1] * row_ + base[2] * slab_;
-            gather(middle, length, CellWindow(volume_.density.origin() + from, row_, slab_).sample(at),
-                   [&] { return CellWindow(volume_.reaction->origin() + from, row_, slab_).sample(at); });
-        } else {
-            const Places at = places(middle, Four{});
-            gather(middle, length, sampleAnywhere(volume_.density, at),
-                   [&] { return sampleAnywhere(*volume_.reaction, at); });
+            const float* const from = field.origin + base[0] + base[1] * field.row + base[2] * field.slab;
+            return CellWindow(from, field.row, field.slab).sample(places(reach.middle, whole, perCell));
         }
+        return sampleAnywhere(field.cells, places(reach.middle, Four{}, perCell));
     }
 
     /// From the middle of a cell on.
-    [[gnu::always_inline]] [[nodiscard]] Places places(const Floats& distance, const Four& cell) const {
-        const Four eye = rays_.eye - 0.5f - cell;
-        return {eye[0] + distance * rays_.along[0], eye[1] + distance * rays_.along[1],
-                eye[2] + distance * rays_.along[2]};
+    [[gnu::always_inline]] [[nodiscard]] Places places(const Floats& distance, const Four& cell, float perCell) const {
+        const Four eye = perCell * rays_.eye - 0.5f - cell;
+        const Floats scaled = perCell * distance;
+        return {eye[0] + scaled * rays_.along[0], eye[1] + scaled * rays_.along[1], eye[2] + scaled * rays_.along[2]};
     }
 
     /// D ← D + σ·Δ,   C ← C + (T before − T after)·(reflected + emission)
-    template <typename Reaction>
-    [[gnu::always_inline]] void gather(const Floats& middle, const Floats& length, const Floats& density,
-                                       const Reaction& reaction) {
-        Floats step = length * density;
+    [[gnu::always_inline]] void gather(const Reach& reach, Floats step) {
         if constexpr (coloured) {
             if (most(step) <= 0) return;
             Floats source[3];
-            const Floats light = volume_.light ? lightAt(middle) : all(1);
+            const Floats light = volume_.light ? sampleLinear(*volume_.light, reach, volume_.light->perCell) : all(1);
             for (int channel = 0; channel < 3; ++channel)
                 source[channel] = volume_.reflected.ambient[channel] + volume_.reflected.sun[channel] * light;
             if (volume_.reaction) {
-                const Burning look = burningAt(reaction());
+                const Burning look = burningAt(sample(*volume_.reaction, reach));
                 step *= look.extinction;
                 for (int channel = 0; channel < 3; ++channel) source[channel] += look.emission[channel];
             }
@@ -185,19 +205,13 @@ class PacketMarch {
         depth_ += step;
     }
 
-    [[nodiscard]] Floats lightAt(const Floats& distance) const {
-        const Places at = places(distance, Four{-0.5f, -0.5f, -0.5f, 0});
-        const float perTexel = 1 / static_cast<float>(volume_.light->texelCells());
-        return sampleAnywhere(volume_.light->padded(),
-                              {at.x * perTexel - 0.5f, at.y * perTexel - 0.5f, at.z * perTexel - 0.5f});
-    }
-
     struct Burning {
         Floats emission[3], extinction;
     };
     [[nodiscard]] Burning burningAt(const Floats& reaction) const {
         const std::span<const glm::vec4> fire = volume_.fire;
         const Floats at = atLeast(atMost(reaction, all(1)), all(0)) * static_cast<float>(fire.size() - 1);
+        if (most(at) <= 0) return {{all(fire[0].r), all(fire[0].g), all(fire[0].b)}, all(fire[0].a)};
         const Ints texel = wholePart(at);
         Burning result;
         for (int lane = 0; lane < laneCount; ++lane) {
@@ -212,13 +226,11 @@ class PacketMarch {
 
     const Volume& volume_;
     const RayPacket& rays_;
-    std::ptrdiff_t row_, slab_;
     float step_;
     float opaque_;  ///< as `depth_` counts: without the extinction of a density of 1
     Floats shift_;
     Floats from_, end_;   ///< of each ray, within the grid and before the scene
     float first_, last_;  ///< between them is all there may be to see
-    Four lastBase_;
     Floats depth_{};
     Floats transmittance_ = all(1);
     Floats colour_[3]{};
@@ -265,15 +277,17 @@ void CpuMarch::upload(const ShownGrid& grid, const BrickMap& bricks, const Light
 
 void CpuMarch::march(const PixelRays& rays, const SceneDepths& depths, const Reflected& reflected,
                      const PacketPicture& picture) const {
-    const Volume volume{density_,
-                        burning_ ? &reaction_ : nullptr,
-                        settings_.skipEmpty ? bricks_ : nullptr,
-                        light_,
-                        fire_,
-                        reflected,
-                        static_cast<float>(settings_.stepCells),
-                        extinctionPerCell_,
-                        opaqueDepth(settings_)};
+    Volume volume{Field(density_),
+                  std::nullopt,
+                  std::nullopt,
+                  settings_.skipEmpty ? bricks_ : nullptr,
+                  fire_,
+                  reflected,
+                  static_cast<float>(settings_.stepCells),
+                  extinctionPerCell_,
+                  opaqueDepth(settings_)};
+    if (burning_) volume.reaction.emplace(reaction_);
+    if (light_) volume.light.emplace(light_->padded(), 1 / static_cast<float>(light_->texelCells()));
     const bool cubic = settings_.filter == Filter::cubic;
     const auto all = channels() == 4 ? (cubic ? marchAll<true, true> : marchAll<true, false>)
                                      : (cubic ? marchAll<false, true> : marchAll<false, false>);

@@ -99,7 +99,8 @@ void main() {
     float shift = jitter() * stepLength;
     float k = floor((enter - shift) / stepLength) + 1.0;  // the step from `from` ends at `next`, or at the end
     float next = k * stepLength + shift, from = max(next - stepLength, box.x);
-    while (from < last && depth <= opaqueDepth) {
+    // Counted, because so far away that floats do not tell steps from each other they would not end.
+    for (int steps = int((last - enter) / stepLength) + 3; steps > 0 && from < last && depth <= opaqueDepth; --steps) {
         float to = min(next, end);
         march(eye + 0.5 * (from + to) * ray, to - from);
         from = to;

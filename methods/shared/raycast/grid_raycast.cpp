@@ -24,6 +24,10 @@ GridRaycast::GridRaycast(gpu::Device& device, const RaycastSettings& settings, c
     if (settings.shadowCells > 0) light_.emplace(settings, lights.toSun, ledger);
     if (settings.renderer == Renderer::slices) {
         slices_.emplace(device, settings);
+    } else if (settings.renderer == Renderer::splat) {
+        splats_.emplace(device, settings, ledger);
+    } else if (settings.renderer == Renderer::isosurface) {
+        surface_.emplace(device, settings, lights);
     } else if (settings.backend == Backend::cpu || (settings.backend == Backend::automatic && isSoftware(device))) {
         cpu_.emplace(settings, ledger);
         composite_.emplace(device);
@@ -43,12 +47,24 @@ void GridRaycast::upload(const ShownGrid& grid) {
     if (cpu_) cpu_->upload(grid, bricks_, light);
     if (gl_) gl_->upload(grid, bricks_, light);
     if (slices_) slices_->upload(grid, bricks_, light);
+    if (splats_) splats_->upload(grid, reflected_, light);
+    if (surface_) surface_->upload(grid);
     drawable_ = true;
 }
 
 void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer) {
     primitives_ = 0;
     if (!drawable_) return;
+    if (splats_) {
+        splats_->draw(view, layer);
+        primitives_ = static_cast<std::int64_t>(splats_->count());
+        return;
+    }
+    if (surface_) {
+        surface_->draw(view, layer);
+        primitives_ = static_cast<std::int64_t>(surface_->triangles());
+        return;
+    }
     const PixelRays rays(grid_, view);
     if (slices_) {
         primitives_ = slices_->draw(rays, view, reflected_, layer);
@@ -68,8 +84,8 @@ void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer) {
 }
 
 std::size_t GridRaycast::gpuBytes() const {
-    return (gl_ ? gl_->gpuBytes() : 0) + (slices_ ? slices_->gpuBytes() : 0) +
-           (composite_ ? composite_->gpuBytes() : 0);
+    const auto bytesOf = [](const auto& part) { return part ? part->gpuBytes() : std::size_t{0}; };
+    return bytesOf(gl_) + bytesOf(composite_) + bytesOf(slices_) + bytesOf(splats_) + bytesOf(surface_);
 }
 
 }  // namespace dustbench::raycast

@@ -9,9 +9,11 @@
 
 #include "methods/shared/memory_ledger.h"
 #include "methods/shared/raycast/brick_map.h"
+#include "methods/shared/raycast/cell_splats.h"
 #include "methods/shared/raycast/cpu_march.h"
 #include "methods/shared/raycast/gl_march.h"
 #include "methods/shared/raycast/gl_slices.h"
+#include "methods/shared/raycast/iso_surface_pass.h"
 #include "methods/shared/raycast/packet_composite.h"
 #include "methods/shared/raycast/raycast_settings.h"
 #include "methods/shared/scene/lights.h"
@@ -37,7 +39,7 @@ class GridRaycast {
     /// `cpu` or `gl`.
     [[nodiscard]] Backend backend() const { return cpu_ ? Backend::cpu : Backend::gl; }
     [[nodiscard]] std::size_t gpuBytes() const;
-    /// Rays that the last draw cast, or planes that it blended.
+    /// Rays that the last draw cast, or what else it drew: planes, splats, triangles.
     [[nodiscard]] std::int64_t primitives() const { return primitives_; }
 
  private:
@@ -45,8 +47,10 @@ class GridRaycast {
     Reflected reflected_;
     BrickMap bricks_;
     std::optional<LightVolume> light_;
-    std::optional<GlMarch> gl_;  ///< one of these three
+    std::optional<GlMarch> gl_;  ///< one of these five
     std::optional<GlSlices> slices_;
+    std::optional<CellSplats> splats_;
+    std::optional<IsoSurfacePass> surface_;
     std::optional<CpuMarch> cpu_;
     std::optional<PacketComposite> composite_;
     ShownGrid grid_;  ///< its place and size; it looks at no values

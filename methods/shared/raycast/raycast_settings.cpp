@@ -23,6 +23,7 @@ void check(const RaycastSettings& settings) {
     checkRange("alpha to stop at", settings.stopAlpha, 0, 1);
     checkRange("cells of a shadow", settings.shadowCells, 0, 64);
     checkRange("extinction per metre", settings.extinctionPerMetre, 0, 1e6);
+    checkRange("density of the isosurface", settings.isoDensity, 1e-6, 1e6);
     for (int channel = 0; channel < 3; ++channel)
         checkRange("smoke colour", static_cast<double>(settings.smokeColour[channel]), 0, 1);
 }

@@ -15,8 +15,10 @@ enum class Backend {
     gl,
 };
 enum class Renderer {
-    raycast,  ///< a march along each pixel's ray
-    slices,   ///< planes across the view, blended; OpenGL only
+    raycast,     ///< a march along each pixel's ray
+    slices,      ///< planes across the view, blended; OpenGL only, as all that follow
+    splat,       ///< a Gaussian for each cell
+    isosurface,  ///< opaque, where the density has one value
 };
 /// Between the middles of cells; beyond the outermost ones the values stay.
 enum class Filter {
@@ -34,6 +36,7 @@ struct RaycastSettings {
     bool skipEmpty = true;    ///< leave out bricks of cells without density
     int shadowCells = 0;      ///< the sun's light falls off within the cloud, found in blocks of so many cells; 0: not
     double extinctionPerMetre = 1;               ///< of a density of 1
+    double isoDensity = 0.5;                     ///< of the isosurface
     glm::vec3 smokeColour{0.64f, 0.54f, 0.42f};  ///< albedo
     TransferFunction fire;
 };
