@@ -32,12 +32,10 @@ double distanceInCone(double leastDegrees, double mostDegrees) {
 }
 
 TEST(SamplingExperiment, IntervalsHoldTheClosedForms) {
-    const std::map<std::string, double> truths{{"acceptance", std::numbers::pi / 6},
-                                               {"corner_over_face_gaussian", 1},
-                                               {"chi2_per_cell_gaussian", 1},
-                                               {"cone30", distanceInCone(0, 30)},
-                                               {"cone90", distanceInCone(0, 90)},
-                                               {"nested20_30", distanceInCone(20, 30)}};
+    const std::map<std::string, double> truths{
+        {"acceptance", std::numbers::pi / 6}, {"corner_over_face_gaussian", 1},
+        {"chi2_per_cell_gaussian", 1},        {"cone30", distanceInCone(0, 30)},
+        {"cone90", distanceInCone(0, 90)},    {"nested20_30", distanceInCone(20, 30)}};
     int misses = 0;
     std::map<std::string, Finding> found;
     for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
