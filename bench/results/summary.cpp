@@ -67,7 +67,10 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "start_s",
                                  "gpu_driver_bytes",
                                  "energy_cpu_j",
-                                 "energy_gpu_j"})
+                                 "energy_gpu_j",
+                                 "flow_speed_max",
+                                 "flow_cells_per_step_max",
+                                 "flow_divergence_max"})
             list.emplace_back(name);
         return list;
     }();
