@@ -68,7 +68,10 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "gpu_driver_bytes",
                                  "energy_cpu_j",
                                  "energy_gpu_j",
-                                 "frame_ms_min"})
+                                 "frame_ms_min",
+                                 "flow_speed_max",
+                                 "flow_cells_per_step_max",
+                                 "flow_divergence_max"})
             list.emplace_back(name);
         return list;
     }();

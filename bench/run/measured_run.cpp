@@ -166,6 +166,11 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
 
     record.summary = identityColumns(record, threads);
     for (auto& column : measuredColumns(runner.records(), whole)) record.summary.push_back(std::move(column));
+    if (const auto flow = runner.method().flow()) {
+        record.summary.emplace_back("flow_speed_max", flow->speedMetresPerSecond);
+        record.summary.emplace_back("flow_cells_per_step_max", flow->cellsPerStep);
+        record.summary.emplace_back("flow_divergence_max", flow->divergencePerStep);
+    }
     if (const auto kept = runner.massKept()) record.summary.emplace_back("mass_kept", *kept);
     if (spec.imagesEvery > 0 || spec.judging)
         record.summary.emplace_back("FILE_image", "runs/" + runId(spec) + "/images/f000000.png");

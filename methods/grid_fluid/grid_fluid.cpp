@@ -109,6 +109,11 @@ void GridFluid::simulate(const Frame& frame) {
     }
     const auto sources = emitters_->at(frame.state, steps_++, secondsDue_, dustDueM2_);
     const fluid::StepReport report = solver_->step(secondsDue_, sources, frame.clock);
+    const auto cells = static_cast<double>(report.cellsPerStep);
+    flow_.cellsPerStep = std::max(flow_.cellsPerStep, cells);
+    flow_.speedMetresPerSecond =
+        std::max(flow_.speedMetresPerSecond, cells * settings_.solver.box.spacingMetres / secondsDue_);
+    flow_.divergencePerStep = std::max(flow_.divergencePerStep, static_cast<double>(report.divergencePerStep));
     if (report.cellsPerStep > mostCellsPerStep) {
         std::ostringstream text;
         text << "fluid: got a flow that goes " << report.cellsPerStep << " cells in step " << solver_->steps()

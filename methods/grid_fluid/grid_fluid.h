@@ -38,6 +38,7 @@ class GridFluid final : public Method {
     [[nodiscard]] MemoryReport memory() const override;
     [[nodiscard]] std::int64_t primitives() const override;
     [[nodiscard]] std::optional<std::uint64_t> stateHash() const override;
+    [[nodiscard]] std::optional<FlowExtremes> flow() const override { return flow_; }
     [[nodiscard]] bool wantsPreroll() const override { return true; }
 
     [[nodiscard]] const fluid::FluidSolver& solver() const { return *solver_; }
@@ -62,6 +63,7 @@ class GridFluid final : public Method {
     int framesDue_ = 0;
     double secondsDue_ = 0, dustDueM2_ = 0;
     std::int64_t steps_ = 0;
+    FlowExtremes flow_;
 };
 
 /// What the method declares; the registry asks for it.

@@ -38,6 +38,13 @@ struct Frame {
     const StageClock& clock;               ///< where the method reports its stages
 };
 
+/// How wild a flow has been, the greatest of all steps so far.
+struct FlowExtremes {
+    double speedMetresPerSecond = 0;
+    double cellsPerStep = 0;       ///< the Courant number
+    double divergencePerStep = 0;  ///< the share of its volume that a cell gained in a step
+};
+
 /// One way to show the cloud. Prepared once; then `update` and `draw` each frame, on the thread that owns the OpenGL
 /// context.
 class Method {
@@ -66,6 +73,8 @@ class Method {
     [[nodiscard]] virtual std::int64_t primitives() const { return 0; }
     /// Hash of a simulation of the method's own; empty where it shows the shared dust alone.
     [[nodiscard]] virtual std::optional<std::uint64_t> stateHash() const { return std::nullopt; }
+    /// Of a flow of the method's own, since the beginning; empty where nothing flows.
+    [[nodiscard]] virtual std::optional<FlowExtremes> flow() const { return std::nullopt; }
     /// True for a method whose own simulation must run through the preroll and warm-up as well.
     [[nodiscard]] virtual bool wantsPreroll() const { return false; }
 };
