@@ -1,4 +1,4 @@
-// Draws a grid of smoke and fire by casting a ray through it for each pixel, on the CPU or the GPU.
+// Draws a grid of smoke and fire: by a ray through it for each pixel, on the CPU or the GPU, or in an older way.
 //
 // Units: metres, extinction per metre. Frame: world. Colours: linear RGB. Owns: the grid as the backend wants it.
 // Threads: the OpenGL thread's; the CPU's march spreads over the others. Source: Senger2009, ch. 4.

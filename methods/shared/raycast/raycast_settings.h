@@ -1,6 +1,6 @@
-// How a grid is ray cast. Source: Senger2009, ch. 4.
+// How a grid is shown.
 //
-// Units: cells where it says so, extinction per metre. Colours: linear RGB.
+// Units: cells where it says so, extinction per metre. Colours: linear RGB. Source: Senger2009, ch. 2 and 4.
 #pragma once
 
 #include <glm/glm.hpp>
