@@ -38,6 +38,7 @@ reproduce: build ## The paper's experiments in their quick size (PAPER=carr2006)
 
 .PHONY: test
 test: build/release/build.ninja ## Build everything and run every test
+	@.ci/install browser
 	@cmake --build --preset release --parallel $(JOBS)
 	@ctest --preset release
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <sstream>
 
+#include "bench/experiments/experiment.h"
 #include "bench/results/summary.h"
 #include "bench/suite/suite.h"
 #include "methods/shared/errors.h"
@@ -15,7 +16,7 @@
 namespace dustbench::bench {
 namespace {
 
-const std::vector<std::string> quantityNames{"none", "ratio", "share", "growth", "exponent", "value"};
+const std::vector<std::string> quantityNames{"none", "ratio", "share", "growth", "exponent", "value", "finding"};
 
 Selection selectionIn(files::TomlReader& table, const std::string& key) {
     return parseSelection(table.text(key), table.where(key) + "key '" + key + "'");
@@ -46,6 +47,13 @@ Claim readClaim(files::TomlReader& table) {
     claim.quantity = static_cast<Quantity>(std::ranges::find(quantityNames, quantity) - quantityNames.begin());
     if (claim.quantity == Quantity::none) {
         claim.missing = table.text("missing");
+        table.finish();
+        return claim;
+    }
+    if (claim.quantity == Quantity::finding) {
+        claim.experiment = table.choice("experiment", experimentNames());
+        claim.column = table.text("column");
+        readRange(table, claim);
         table.finish();
         return claim;
     }

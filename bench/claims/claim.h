@@ -1,7 +1,7 @@
 // What a paper says that can be measured, and the rule by which our results are held against it.
 //
 // `data/papers/<id>/claims.toml` has them; CONTRIBUTING.md names every key. A rule is a quantity of the rows of
-// summary.csv and the range of values in which the claim is true.
+// summary.csv, or what an experiment found, and the range of values in which the claim is true.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,8 @@ enum class Quantity {
     share,     ///< of the sum of some columns in another column
     growth,    ///< of a column from the least value of `against` to the greatest
     exponent,  ///< k of column = a + b·against^k
-    value      ///< of a column
+    value,     ///< of a column
+    finding    ///< of an experiment, with its own interval
 };
 
 /// Rows that have these cells: `method` → `billboard`, `p.soft` → `true`.
@@ -31,11 +32,12 @@ using Selection = std::vector<std::pair<std::string, std::string>>;
 void requireColumn(const std::string& where, const std::string& name);
 
 struct Claim {
-    std::string id;    ///< `R5a`
-    std::string text;  ///< what the paper says, in our words
-    std::string suite;
+    std::string id;     ///< `R5a`
+    std::string text;   ///< what the paper says, in our words
+    std::string suite;  ///< or, of a finding:
+    std::string experiment;
     Quantity quantity = Quantity::none;
-    std::string column;
+    std::string column;              ///< of a finding: its quantity
     std::vector<std::string> parts;  ///< of a share: columns whose sum is the numerator
     Selection of, with;              ///< of a ratio both, else `of` alone
     std::string against;

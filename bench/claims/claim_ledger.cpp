@@ -36,13 +36,15 @@ std::set<std::string> runIdsOf(const std::string& suiteId, const files::CsvTable
     return ids;
 }
 
-std::vector<JudgedClaim> judgeClaims(const std::string& paper, const files::CsvTable& summary) {
+std::vector<JudgedClaim> judgeClaims(const std::string& paper, const files::CsvTable& summary,
+                                     const std::vector<Finding>& findings) {
     std::map<std::string, std::set<std::string>> runIds;
     std::vector<JudgedClaim> judged;
     for (Claim& claim : loadClaims(paper)) {
         if (!claim.suite.empty() && !runIds.contains(claim.suite)) runIds[claim.suite] = runIdsOf(claim.suite, summary);
         const ResultRows rows(summary, &runIds[claim.suite]);
-        ClaimResult result = judgeClaim(claim, rows);
+        ClaimResult result =
+            claim.quantity == Quantity::finding ? judgeFinding(claim, findings) : judgeClaim(claim, rows);
         judged.push_back({paper, std::move(claim), std::move(result)});
     }
     return judged;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 
 #include "bench/measure/cost_fit.h"
 #include "bench/measure/paired_comparison.h"
@@ -242,6 +243,8 @@ ClaimResult judgeClaim(const Claim& claim, const ResultRows& rows) {
         case Quantity::value:
             samples = values(claim, rows);
             break;
+        case Quantity::finding:
+            throw std::invalid_argument("judgeClaim: a finding is not in the rows of a summary");
         case Quantity::exponent:
             result = judgeExponent(claim, rows, samples);
             break;
@@ -260,6 +263,22 @@ ClaimResult judgeClaim(const Claim& claim, const ResultRows& rows) {
     const auto repeated = std::ranges::unique(samples.rows);
     samples.rows.erase(repeated.begin(), repeated.end());
     for (const std::size_t row : samples.rows) result.runs.push_back(rows.runId(row));
+    return result;
+}
+
+ClaimResult judgeFinding(const Claim& claim, const std::vector<Finding>& findings) {
+    ClaimResult result;
+    const auto found = std::ranges::find_if(findings, [&](const Finding& finding) {
+        return finding.experiment == claim.experiment && finding.quantity == claim.column;
+    });
+    if (found == findings.end()) {
+        result.note = fmt::format("experiments.csv has no {} of the experiment '{}'", claim.column, claim.experiment);
+        return result;
+    }
+    result.measured = found->value;
+    result.low = found->low;
+    result.high = found->high;
+    result.verdict = verdictOf(claim, result);
     return result;
 }
 

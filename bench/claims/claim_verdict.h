@@ -19,6 +19,7 @@
 
 #include "bench/claims/claim.h"
 #include "bench/claims/result_rows.h"
+#include "bench/experiments/experiment.h"
 
 namespace dustbench::bench {
 
@@ -35,6 +36,8 @@ struct ClaimResult {
     std::vector<std::string> runs{};  ///< ids of all runs that took part
 };
 
+/// Of every quantity but `finding`, which has this of its own:
 [[nodiscard]] ClaimResult judgeClaim(const Claim& claim, const ResultRows& rows);
+[[nodiscard]] ClaimResult judgeFinding(const Claim& claim, const std::vector<Finding>& findings);
 
 }  // namespace dustbench::bench

@@ -13,6 +13,7 @@
 #include "bench/suite/suite.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/maths/philox.h"
+#include "source_folder.h"
 
 namespace dustbench::bench {
 namespace {
@@ -91,6 +92,23 @@ TEST(ClaimRules, ARatioPairsTheSameWorldAndRepetitionAlone) {
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
     EXPECT_NEAR(result.low, 0.97, 1e-9);
     EXPECT_NEAR(result.high, 0.97, 1e-9);
+}
+
+TEST(ClaimRules, AFindingIsJudgedByItsOwnInterval) {
+    const Claim claim = parseClaims(
+                            "[[claim]]\nid = \"X\"\ntext = \"t\"\nquantity = \"finding\"\nexperiment = \"sampling\"\n"
+                            "column = \"acceptance\"\nleast = 0.53\n",
+                            "claims.toml")
+                            .at(0);
+    const auto judgedAt = [&](double value) {
+        return judgeFinding(claim, {{"sampling", "acceptance", value, value - 0.01, value + 0.01, 100}}).verdict;
+    };
+    EXPECT_EQ(judgedAt(0.55), ClaimVerdict::confirmed);
+    EXPECT_EQ(judgedAt(0.51), ClaimVerdict::refuted);
+    EXPECT_EQ(judgedAt(0.535), ClaimVerdict::unresolved);
+    const ClaimResult untested = judgeFinding(claim, {});
+    EXPECT_EQ(untested.verdict, ClaimVerdict::notTested);
+    EXPECT_EQ(untested.note, "experiments.csv has no acceptance of the experiment 'sampling'");
 }
 
 TEST(ClaimRules, FewerRepetitionsThanSixResolveNothing) {

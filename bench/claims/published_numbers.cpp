@@ -54,7 +54,7 @@ TextRows tabulatePublished(const files::CsvTable& published, const files::CsvTab
 }
 
 TextRows tabulatePublished(const std::string& paper, const files::CsvTable& summary) {
-    const std::filesystem::path file = files::dataFolder() / "papers" / paper / "published.csv";
+    const std::filesystem::path file = files::dataFolder() / "papers" / paper / "numbers.csv";
     if (!std::filesystem::exists(file)) return {};
     return tabulatePublished(files::CsvTable::parseFile(file), summary);
 }

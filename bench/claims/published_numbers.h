@@ -1,4 +1,4 @@
-// The numbers that a paper prints, beside ours: `data/papers/<id>/published.csv`.
+// The numbers that a paper prints, beside ours: `data/papers/<id>/numbers.csv`.
 //
 // Its columns: `what` in words; `suite` and `of`, the runs; `columns` of summary.csv whose sum is ours, with blanks
 // between; `published`, as printed; `formula`, what the paper's formula gives when worked out, or empty.

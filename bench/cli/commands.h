@@ -15,6 +15,7 @@ namespace dustbench::cli {
 [[nodiscard]] Command suiteCommand();
 [[nodiscard]] Command mergeCommand();
 [[nodiscard]] Command reproduceCommand();
+[[nodiscard]] Command reportCommand();
 [[nodiscard]] Command diffCommand();
 [[nodiscard]] Command compareCommand();
 

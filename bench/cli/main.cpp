@@ -22,7 +22,7 @@ std::string oneLine(std::string message) {
 int run(const std::vector<std::string>& argv) {
     if (!argv.empty() && argv.front() == childCommandName) return measureRunCommand(argv);
     return dispatch({listCommand(), envCommand(), runCommand(), compareCommand(), suiteCommand(), mergeCommand(),
-                     reproduceCommand(), exportCommand(), diffCommand()},
+                     reproduceCommand(), reportCommand(), exportCommand(), diffCommand()},
                     "dustbench " + bench::buildFacts().version, argv);
 }
 

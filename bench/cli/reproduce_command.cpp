@@ -1,4 +1,4 @@
-// `dustbench reproduce`: runs the suites of a paper and prints what came out.
+// `dustbench reproduce`: runs the suites of a paper, prints what came out, and writes its page.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +13,8 @@
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/suite_report.h"
+#include "bench/report/page.h"
+#include "bench/report/report_reader.h"
 #include "bench/suite/paper.h"
 #include "bench/suite/suite.h"
 #include "methods/shared/errors.h"
@@ -39,7 +41,8 @@ int reproduce(const ReproduceOptions& options) {
         if (options.out.empty()) out = std::filesystem::path("reports/out") / paper.id;
         if (!options.out.empty() && options.paper.empty()) out /= paper.id;
         bench::ResultsFolder results(out);
-        std::cout << fmt::format("{} ({}): {}\n", paper.authors, paper.year, paper.title);
+        const std::string year = paper.year != 0 ? fmt::format(" ({})", paper.year) : "";
+        std::cout << fmt::format("{}{}: {}\n", paper.authors, year, paper.title);
         for (const std::string& id : paper.suites) {
             const bench::Suite suite = bench::loadSuite(id, options.quick);
             const auto plan = bench::planRuns(suite);
@@ -52,13 +55,20 @@ int reproduce(const ReproduceOptions& options) {
             code = std::max(code, suiteCode);
             std::cout << "\n" << suiteReport(suite, results.runs()) << std::flush;
         }
+        std::vector<bench::Finding> findings;
+        for (const std::string& id : paper.experiments)
+            std::ranges::move(bench::runExperiment(id), std::back_inserter(findings));
+        if (!findings.empty()) bench::writeWhole(results.path() / "experiments.csv", bench::findingsCsv(findings));
         const auto summary = files::CsvTable::parseFile(results.path() / "summary.csv");
         if (const std::string numbers = publishedReport(bench::tabulatePublished(paper.id, summary)); !numbers.empty())
             std::cout << "\n" << numbers;
-        const auto claims = bench::judgeClaims(paper.id, summary);
+        const auto claims = bench::judgeClaims(paper.id, summary, findings);
         bench::writeWhole(results.path() / "claims.csv", bench::claimsCsv(claims));
         std::cout << "\n" << claimsReport(claims);
-        for (const char* file : {"summary.csv", "claims.csv"}) std::cout << (results.path() / file).string() << "\n";
+        for (const char* file : {"summary.csv", "experiments.csv", "claims.csv"})
+            if (std::filesystem::exists(results.path() / file)) std::cout << (results.path() / file).string() << "\n";
+        const bench::ReportData report = bench::readReport(results.path(), bench::defaultPictureBytes);
+        std::cout << bench::writePage(results.path(), report).string() << "  (open it in a browser)\n";
     }
     return code;
 }

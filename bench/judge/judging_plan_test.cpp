@@ -7,6 +7,7 @@
 
 #include "bench/judge/judgement.h"
 #include "methods/shared/test_folder.h"
+#include "source_folder.h"
 
 namespace dustbench::bench {
 namespace {

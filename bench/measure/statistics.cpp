@@ -28,6 +28,10 @@ double median(std::span<const double> values) {
     return quantile(values, 0.5);
 }
 
+double minimum(std::span<const double> values) {
+    return values.empty() ? nothing : std::ranges::min(values);
+}
+
 double maximum(std::span<const double> values) {
     return values.empty() ? nothing : std::ranges::max(values);
 }

@@ -13,6 +13,7 @@ namespace dustbench::bench {
 
 [[nodiscard]] double median(std::span<const double> values);
 
+[[nodiscard]] double minimum(std::span<const double> values);
 [[nodiscard]] double maximum(std::span<const double> values);
 
 /// FPS = n·1000 / Σms: frames over the time they took, not the mean of their rates.

@@ -42,6 +42,7 @@ TEST(Statistics, OnePercentLowWeighsByTime) {
 TEST(Statistics, NothingGivesNaN) {
     EXPECT_TRUE(std::isnan(median({})));
     EXPECT_TRUE(std::isnan(maximum({})));
+    EXPECT_TRUE(std::isnan(minimum({})));
     EXPECT_TRUE(std::isnan(averageFps({})));
     EXPECT_TRUE(std::isnan(lowFps({})));
 }

@@ -12,6 +12,7 @@
 #include "bench/regression/folder_comparison_table.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/files/csv.h"
+#include "source_folder.h"
 
 namespace dustbench::bench {
 namespace {

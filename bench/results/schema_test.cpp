@@ -14,6 +14,7 @@
 #include "bench/results/frame_files.h"
 #include "bench/results/summary.h"
 #include "methods/shared/files/csv.h"
+#include "source_folder.h"
 
 namespace dustbench::bench {
 namespace {

@@ -68,6 +68,7 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "gpu_driver_bytes",
                                  "energy_cpu_j",
                                  "energy_gpu_j",
+                                 "frame_ms_min",
                                  "flow_speed_max",
                                  "flow_cells_per_step_max",
                                  "flow_divergence_max"})
@@ -103,7 +104,8 @@ Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run
                     {"frame_ms_max", maximum(frameMs)},
                     {"fps_1pct_low", lowFps(frameMs)},
                     {"frame_ms_p999", quantile(frameMs, 0.999)},
-                    {"fps_01pct_low", lowFps(frameMs, 0.001)}};
+                    {"fps_01pct_low", lowFps(frameMs, 0.001)},
+                    {"frame_ms_min", minimum(frameMs)}};
     for (std::size_t stage = 0; stage < stageNames.size(); ++stage)
         columns.emplace_back(
             std::string(stageNames[stage]) + "_ms_median",

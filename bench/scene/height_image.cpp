@@ -1,33 +1,31 @@
 #include "bench/scene/height_image.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "methods/shared/errors.h"
+#include "methods/shared/pictures/picture_library.h"
 
 namespace dustbench::bench {
 
 scene::Terrain readHeightImage(const std::filesystem::path& file, double spacingMetres, double heightMetres,
                                double baseMetres) {
-    const auto image = OIIO::ImageInput::open(file.string());
-    if (!image) throw InputError(file.string() + ": not an image that can be read: " + OIIO::geterror());
-    const OIIO::ImageSpec& spec = image->spec();
-    if (spec.width < 2 || spec.height < 2 || spec.width > 8192 || spec.height > 8192)
-        throw InputError(file.string() + ": the height field has " + std::to_string(spec.width) + " x " +
-                         std::to_string(spec.height) + " pixels, expected 2..8192 a side");
-    std::vector<float> heights(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
-    if (!image->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, heights.data()))
-        throw InputError(file.string() + ": the image cannot be read: " + image->geterror());
-    for (float& height : heights) {
-        if (!std::isfinite(height)) throw InputError(file.string() + ": a height is not a finite number");
-        height = static_cast<float>(baseMetres + heightMetres * static_cast<double>(height));
+    pictures::StoredPicture image;
+    if (const std::string reason = pictures::pictureLibrary().read(file, image); !reason.empty())
+        throw InputError(file.string() + ": not an image that can be read: " + reason);
+    if (image.width < 2 || image.height < 2 || image.width > 8192 || image.height > 8192)
+        throw InputError(file.string() + ": the height field has " + std::to_string(image.width) + " x " +
+                         std::to_string(image.height) + " pixels, expected 2..8192 a side");
+    std::vector<float> heights(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        const float share = image.values[i * static_cast<std::size_t>(image.channels)];
+        if (!std::isfinite(share)) throw InputError(file.string() + ": a height is not a finite number");
+        heights[i] = static_cast<float>(baseMetres + heightMetres * static_cast<double>(share));
     }
     const auto firstOf = [&](int samples) { return static_cast<float>(-0.5 * spacingMetres * (samples - 1)); };
-    return {std::move(heights),  spec.width,          spec.height, static_cast<float>(spacingMetres),
-            firstOf(spec.width), firstOf(spec.height)};
+    return {std::move(heights),   image.width,          image.height, static_cast<float>(spacingMetres),
+            firstOf(image.width), firstOf(image.height)};
 }
 
 }  // namespace dustbench::bench

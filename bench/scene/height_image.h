@@ -1,4 +1,4 @@
-// Reads a height field from an image through OpenImageIO.
+// Reads a height field from an image.
 #pragma once
 
 #include <filesystem>

@@ -8,6 +8,7 @@
 
 #include "bench/measure/image/plane.h"
 #include "methods/shared/draw/image.h"
+#include "methods/shared/pictures/picture_library.h"
 
 namespace dustbench::bench {
 
@@ -18,12 +19,7 @@ struct Font {
 };
 
 /// What a line's ink lies within, seen from the pen's start on the baseline; y runs down.
-struct InkExtent {
-    int left = 0, right = 0, top = 0, bottom = 0;
-
-    [[nodiscard]] int width() const { return right - left; }
-    [[nodiscard]] int height() const { return bottom - top; }
-};
+using InkExtent = pictures::InkBox;
 
 /// All zero for text without ink. Throws InputError where there is no such font.
 [[nodiscard]] InkExtent inkExtent(const std::string& line, const Font& font);

@@ -29,6 +29,7 @@ std::vector<CatalogueItem> listMetrics() {
     add("fps_1pct_low", "frame rate of the slowest frames that make up 1 % of the time, 1/s");
     add("frame_ms_p999", "99.9th percentile of the frame times, ms");
     add("fps_01pct_low", "frame rate of the slowest frames that make up 0.1 % of the time, 1/s");
+    add("frame_ms_min", "shortest frame, ms: for frames of equal work, what the machine does undisturbed");
     for (const std::string_view stage : stageNames)
         add(fmt::format("{}_ms_median", stage), fmt::format("median time of the stage '{}', ms", stage));
     add("gpu_ms_median", "median GPU time of scene and drawing, where timer queries are true, ms");

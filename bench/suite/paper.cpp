@@ -29,11 +29,12 @@ Paper loadPaper(const std::string& id) {
         throw InputError(file.where("id") + "key 'id': got '" + named + "', expected the folder's name '" + id + "'");
     paper.title = file.text("title");
     paper.authors = file.text("authors");
-    paper.year = file.integer("year", 1800, 2200);
+    if (file.has("year")) paper.year = file.integer("year", 1800, 2200);
     paper.venue = file.text("venue");
     paper.key = file.text("key");
     paper.summary = file.text("summary");
     paper.suites = file.texts("suites");
+    if (file.has("experiments")) paper.experiments = file.texts("experiments");
     file.finish();
     return paper;
 }

@@ -11,11 +11,12 @@ struct Paper {
     std::string id;
     std::string title;
     std::string authors;
-    std::int64_t year = 0;
+    std::int64_t year = 0;  ///< 0: not known
     std::string venue;
     std::string key;  ///< in data/references.bib
     std::string summary;
     std::vector<std::string> suites;
+    std::vector<std::string> experiments;  ///< statistical ones, by name
 };
 
 /// Ids of the papers in the data folder, sorted.

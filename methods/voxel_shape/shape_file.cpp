@@ -162,6 +162,11 @@ void readCollision(TomlReader& file, Shape& shape) {
     shape.collides = table.boolean("with_solids", shape.collides);
     shape.impact.restitution = number(table, "restitution", 0, 1, shape.impact.restitution);
     shape.impact.friction = number(table, "friction", 0, 1, shape.impact.friction);
+    shape.impact.scatter = number(table, "scatter", 0, 1, shape.impact.scatter);
+    if (std::hypot(shape.impact.restitution, shape.impact.scatter) > 1)
+        throw InputError(
+            table.where("scatter") +
+            "restitution and scatter: their squares add up to more than 1, so that particles would gain energy");
     table.finish();
 }
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <iterator>
 
+#include "source_folder.h"
 #include "tests/architecture/source_rules.h"
 
 namespace dustbench::architecture {

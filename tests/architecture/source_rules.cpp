@@ -35,9 +35,9 @@ std::string territoryOf(const std::string& path) {
 }
 
 /// The rooms of bench/: each may use those before it.
-constexpr std::array<std::string_view, 12> benchRooms{"scene",     "measure",    "sheet",   "export",
-                                                      "reference", "judge",      "results", "suite",
-                                                      "claims",    "regression", "run",     "cli"};
+constexpr std::array<std::string_view, 14> benchRooms{"scene",      "measure", "sheet",  "export",      "reference",
+                                                      "judge",      "results", "suite",  "experiments", "claims",
+                                                      "regression", "run",     "report", "cli"};
 
 /// Where a room of bench/ stands in that order; nothing for all other files.
 std::optional<std::size_t> roomOf(const std::string& path) {

@@ -19,6 +19,7 @@
 #include "bench/measure/image/test_splatter.h"
 #include "bench/measure/image/trail_gaps.h"
 #include "bench/measure/image/volume_error.h"
+#include "source_folder.h"
 
 namespace dustbench::bench {
 namespace {

@@ -12,6 +12,7 @@
 #include "methods/shared/draw/test_canvas.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/maths/transmittance.h"
+#include "source_folder.h"
 
 namespace dustbench::draw {
 namespace {

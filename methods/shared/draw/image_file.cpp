@@ -1,5 +1,4 @@
-// Image files by OpenImageIO: the one file that includes it.
-#include <OpenImageIO/imageio.h>
+// Image files through the pictures' library.
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,18 +8,12 @@
 
 #include "methods/shared/draw/image.h"
 #include "methods/shared/errors.h"
+#include "methods/shared/pictures/picture_library.h"
 
 namespace dustbench::draw {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// OpenImageIO's message on one line.
-std::string oneLine(std::string message) {
-    while (!message.empty() && std::isspace(static_cast<unsigned char>(message.back()))) message.pop_back();
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    return message.empty() ? "no reason given" : message;
-}
 
 bool isOpaque(const Image& image) {
     return std::all_of(image.pixels.begin(), image.pixels.end(), [](const glm::vec4& p) { return p.a >= 1; });
@@ -43,26 +36,12 @@ std::vector<std::uint8_t> encodedBytes(const Image& image, bool withAlpha) {
     return bytes;
 }
 
-/// Empty on success, else what went wrong. `type` names the format, whatever the file is called.
-std::string tryToWrite(const Image& image, const fs::path& file, const std::string& type) {
-    const bool png = type == "png";
-    const bool withAlpha = !png || !isOpaque(image);
-    OIIO::ImageSpec spec(image.width, image.height, withAlpha ? 4 : 3,
-                         png ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT);
-    if (png) {
-        spec.attribute("oiio:ColorSpace", "sRGB");
-        spec.attribute("oiio:UnassociatedAlpha", 1);
-    } else {
-        spec.attribute("oiio:ColorSpace", "Linear");
-        spec.attribute("compression", "zip");
-    }
-    const auto output = OIIO::ImageOutput::create(type);
-    if (!output) return oneLine(OIIO::geterror());
-    if (!output->open(file.string(), spec)) return oneLine(output->geterror());
-    const bool written = png ? output->write_image(OIIO::TypeDesc::UINT8, encodedBytes(image, withAlpha).data())
-                             : output->write_image(OIIO::TypeDesc::FLOAT, image.pixels.data());
-    if (!written || !output->close()) return oneLine(output->geterror());
-    return "";
+/// Empty on success, else what went wrong.
+std::string tryToWrite(const Image& image, const fs::path& file, bool png) {
+    const pictures::PictureLibrary& library = pictures::pictureLibrary();
+    if (!png) return library.writeExr(file, image.width, image.height, {&image.pixels[0].x, image.pixels.size() * 4});
+    const bool withAlpha = !isOpaque(image);
+    return library.writePng(file, image.width, image.height, withAlpha ? 4 : 3, encodedBytes(image, withAlpha));
 }
 
 /// The file's channels as straight or premultiplied RGBA: grey is spread over the colours, missing alpha is 1.
@@ -92,36 +71,23 @@ void writeImage(const Image& image, const fs::path& file) {
         fs::remove(beside, ignored);
         throw InputError("cannot write image '" + file.string() + "': " + reason);
     };
-    if (const std::string reason = tryToWrite(image, beside, extension.substr(1)); !reason.empty()) fail(reason);
+    if (const std::string reason = tryToWrite(image, beside, extension == ".png"); !reason.empty()) fail(reason);
     std::error_code error;
     fs::rename(beside, file, error);
     if (error) fail(error.message());
 }
 
 Image readImage(const fs::path& file) {
-    // Straight alpha is asked for: OpenImageIO would premultiply the encoded colours.
-    OIIO::ImageSpec wanted;
-    wanted.attribute("oiio:UnassociatedAlpha", 1);
-    const auto input = OIIO::ImageInput::open(file.string(), &wanted);
-    if (!input) throw InputError("cannot read image '" + file.string() + "': " + oneLine(OIIO::geterror()));
-    const OIIO::ImageSpec& spec = input->spec();
-    const int count = spec.nchannels;
-    if (count < 1 || spec.width < 1 || spec.height < 1 || spec.depth > 1)
-        throw InputError("cannot read image '" + file.string() + "': it is not a flat picture");
-
-    std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(count));
-    if (!input->read_image(0, 0, 0, count, OIIO::TypeDesc::FLOAT, values.data()))
-        throw InputError("cannot read image '" + file.string() + "': " + oneLine(input->geterror()));
-
-    const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-    const bool integers = !spec.format.is_floating_point();
-    const bool encoded = space.empty() ? integers : OIIO::Strutil::iequals(space, "sRGB");
-    const bool straight = integers || spec.get_int_attribute("oiio:UnassociatedAlpha") != 0;
-    Image image{spec.width, spec.height, std::vector<glm::vec4>(spec.image_pixels())};
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        glm::vec4 pixel = toRgba(&values[i * static_cast<std::size_t>(count)], count, spec.alpha_channel);
-        if (encoded) pixel = {decodeSrgb(pixel.r), decodeSrgb(pixel.g), decodeSrgb(pixel.b), pixel.a};
-        if (straight) pixel = {glm::vec3(pixel) * pixel.a, pixel.a};
+    pictures::StoredPicture stored;
+    if (const std::string reason = pictures::pictureLibrary().read(file, stored); !reason.empty())
+        throw InputError("cannot read image '" + file.string() + "': " + reason);
+    const auto pixels = static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height);
+    const auto channels = static_cast<std::size_t>(stored.channels);
+    Image image{stored.width, stored.height, std::vector<glm::vec4>(pixels)};
+    for (std::size_t i = 0; i < pixels; ++i) {
+        glm::vec4 pixel = toRgba(&stored.values[i * channels], stored.channels, stored.alphaChannel);
+        if (stored.isEncoded) pixel = {decodeSrgb(pixel.r), decodeSrgb(pixel.g), decodeSrgb(pixel.b), pixel.a};
+        if (!stored.isPremultiplied) pixel = {glm::vec3(pixel) * pixel.a, pixel.a};
         image.pixels[i] = pixel;
     }
     return image;

@@ -150,7 +150,7 @@ struct Kernels {
 
 void advect(benchmark::State& state, AdvectionScheme scheme) {
     Kernels kernels(boxOf(state));
-    for (auto _ : state) kernels.advect({scheme, true});
+    for (auto _ : state) kernels.advect({.scheme = scheme});
     countBytes(state, scheme == AdvectionScheme::macCormack ? 4 * 24 : 2 * 24);
 }
 

@@ -8,6 +8,7 @@
 #include "methods/shared/errors.h"
 #include "methods/shared/particles/part_table.h"
 #include "methods/shared/particles/test_world.h"
+#include "source_folder.h"
 
 namespace dustbench::particles {
 namespace {

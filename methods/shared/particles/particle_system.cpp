@@ -8,9 +8,9 @@
 #include "methods/shared/maths/hash.h"
 #include "methods/shared/parallel/for_each_block.h"
 #include "methods/shared/particles/chunk_update.h"
-#include "methods/shared/particles/death_list.h"
 #include "methods/shared/particles/emitter_tracker.h"
 #include "methods/shared/particles/newborn_block.h"
+#include "methods/shared/particles/noted_particles.h"
 #include "methods/shared/particles/part_toml.h"
 
 namespace dustbench::particles {
@@ -34,7 +34,7 @@ struct ParticleSystem::State {
     EmitterTracker tracker;
     MemoryLedger ledger;
     ParticleStore store{ledger};
-    DeathList deaths{ledger};
+    NotedParticles deaths{ledger};
     LedgerVector<std::uint32_t> survivors{ledger.account("particle deaths")};
 };
 

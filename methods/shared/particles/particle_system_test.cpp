@@ -10,7 +10,7 @@
 #include "methods/shared/errors.h"
 #include "methods/shared/maths/philox.h"
 #include "methods/shared/maths/transmittance.h"
-#include "methods/shared/particles/death_list.h"
+#include "methods/shared/particles/noted_particles.h"
 #include "methods/shared/particles/part_table.h"
 #include "methods/shared/particles/test_world.h"
 
@@ -234,9 +234,9 @@ TEST(ParticleSystem, RefusesAnIncompleteListAndAStepOfNoLength) {
     EXPECT_THROW(advance(system, scene, 1, 20, 0, 0.0), std::invalid_argument);
 }
 
-TEST(DeathList, CollectsInOrderWhateverTheOrderOfNoting) {
+TEST(NotedParticles, CollectsInOrderWhateverTheOrderOfNoting) {
     MemoryLedger ledger;
-    DeathList deaths(ledger);
+    NotedParticles deaths(ledger);
     for (const std::size_t total : {0ul, 1ul, 513ul, 5000ul}) {
         std::vector<std::uint8_t> dead(total);
         std::vector<std::uint32_t> expected;

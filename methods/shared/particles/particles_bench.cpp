@@ -12,6 +12,7 @@
 
 #include "methods/shared/particles/part_table.h"
 #include "methods/shared/particles/particle_system.h"
+#include "source_folder.h"
 
 namespace dustbench::particles {
 namespace {

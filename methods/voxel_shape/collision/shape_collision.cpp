@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "methods/shared/maths/philox.h"
+#include "methods/shared/maths/sampling.h"
 #include "methods/shared/parallel/for_each_block.h"
 #include "methods/shared/particles/chunk.h"
 #include "methods/voxel_shape/collision/mesh_parts.h"
@@ -14,6 +16,15 @@ namespace dustbench::voxel_shape {
 namespace {
 
 constexpr float gapMetres = 1e-3f;
+constexpr std::uint32_t scatterStream = 8;
+
+/// Along a surface, at most as long as 1, anywhere with equal chance; the same for a particle at every hit.
+glm::vec3 alongSurface(const glm::vec3& normal, std::uint64_t serial) {
+    const auto toss = maths::uniform4(0, scatterStream, serial);
+    const glm::vec2 point = maths::discPoint(toss[0], toss[1]);
+    const maths::Tangents tangents = maths::tangentsOf(normal);
+    return point.x * tangents.first + point.y * tangents.second;
+}
 
 template <typename Visit>
 void forEachCorner(const glm::vec3& least, const glm::vec3& most, const Visit& visit) {
@@ -122,7 +133,8 @@ std::size_t ShapeCollision::stopParticles(ShapeParticles& particles, float stepS
             const glm::vec3 stop = before + std::max(0.0f, hit->share - gapMetres / length) * way;
             const float into = glm::dot(velocity, hit->normal);
             const glm::vec3 along = velocity - into * hit->normal;
-            const glm::vec3 after = (1 - impact_.friction) * along - impact_.restitution * into * hit->normal;
+            const glm::vec3 after = (1 - impact_.friction) * along - impact_.restitution * into * hit->normal +
+                                    impact_.scatter * into * alongSurface(hit->normal, s.serial[i]);
             s.x[i] = stop.x;
             s.y[i] = stop.y;
             s.z[i] = stop.z;

@@ -2,7 +2,8 @@
 // switched off while they touch a solid, then the way of each particle that is near one against the solid's triangles.
 //
 // A particle that meets a triangle stops there, a millimetre before it; its velocity keeps the share `restitution` of
-// what led into the surface, turned round, and loses the share `friction` of what led along it.
+// what led into the surface, turned round, and loses the share `friction` of what led along it. Up to the share
+// `scatter` of what led into it leads along it afterwards, in a direction of the particle's own: a shape bursts.
 //
 // Units: m, s. Frame: world. Owns: the solids' tree and grids. Threads: one caller at a time; uses the current oneTBB
 // arena, and the result is the same at any number of threads.
@@ -24,6 +25,7 @@ namespace dustbench::voxel_shape {
 struct Impact {
     float restitution = 0.3f;
     float friction = 0.1f;
+    float scatter = 0;  ///< restitution² + scatter² ≤ 1, or particles would gain energy
 };
 
 class ShapeCollision {

@@ -215,5 +215,34 @@ TEST(ShapeCollision, TurnsBackWhatLedIntoTheSurfaceAndSlowsWhatLedAlongIt) {
     EXPECT_NEAR(s.velocityY[0], 2.4f, 1e-4f);
 }
 
+TEST(ShapeCollision, ScattersAlongTheSurfaceAloneAndAllWaysAlike) {
+    MemoryLedger ledger;
+    ShapeParticles particles(ledger);
+    constexpr std::size_t count = 2000;
+    particles.resize(count);
+    ShapeCollision collision(sceneWith(boxMesh({1, 1, 1}), glm::mat4(1)), 0.1f, {0.6f, 0, 0.8f});
+    particles::ParticleStore& s = particles.store;
+    for (std::size_t i = 0; i < count; ++i) {
+        s.serial[i] = i;
+        s.x[i] = -0.95f;
+        s.y[i] = s.z[i] = 0;
+        s.velocityX[i] = 6;
+        s.velocityY[i] = s.velocityZ[i] = 0;
+    }
+    EXPECT_EQ(collision.stopParticles(particles, dt), count);
+    glm::dvec2 sum(0), squares(0);
+    for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_NEAR(s.velocityX[i], -3.6f, 1e-4f);
+        const glm::dvec2 along(s.velocityY[i], s.velocityZ[i]);
+        ASSERT_LE(glm::length(along), 4.8 + 1e-4) << "no energy is gained";
+        sum += along;
+        squares += along * along;
+    }
+    // Uniform on a disc of radius R: mean 0, variance R²/4 along each axis, here 5.76.
+    EXPECT_LT(glm::length(sum) / count, 4 * std::sqrt(2 * 5.76 / count));
+    EXPECT_NEAR(squares.x / count, 5.76, 0.5);
+    EXPECT_NEAR(squares.y / count, 5.76, 0.5);
+}
+
 }  // namespace
 }  // namespace dustbench::voxel_shape

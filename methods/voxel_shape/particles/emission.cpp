@@ -42,63 +42,34 @@ glm::vec3 rotationAt(const Voxel& voxel, const glm::vec3& r) {
 }  // namespace
 
 Emission::Emission(MemoryLedger& ledger, std::uint64_t seed)
-    : seed_(seed),
-      births_(ledger.account("births")),
-      starts_(ledger.account("births")),
-      sums_(ledger.account("births")) {}
+    : seed_(seed), births_(ledger.account("births")), starts_(ledger.account("births")) {}
 
-Emission::Sums Emission::countLacking(const VoxelGrid& grid) {
+/// The number of them all.
+std::size_t Emission::countBirths(const VoxelGrid& grid, float share) {
     const std::span<const std::uint32_t> active = grid.active();
     const std::span<const Voxel> voxels = grid.voxels();
     births_.resize(active.size());
-    sums_.assign((active.size() + voxelsABlock - 1) / voxelsABlock, {});
-    parallel::forEachBlock(active.size(), voxelsABlock, [&](std::size_t first, std::size_t count) {
-        Sums sums;
-        for (std::size_t k = first; k < first + count; ++k) {
-            const Voxel& voxel = voxels[active[k]];
-            const std::uint32_t most = voxel.isOn() ? voxel.maximumDensity : 0;
-            births_[k] = most > voxel.density ? most - voxel.density : 0;
-            sums.lacking += births_[k];
-            sums.room += voxel.maximumDensity;
-            sums.within += voxel.density;
-        }
-        sums_[first / voxelsABlock] = sums;
-    });
-    Sums all;
-    for (const Sums& sums : sums_) {
-        all.lacking += sums.lacking;
-        all.room += sums.room;
-        all.within += sums.within;
-    }
-    return all;
-}
-
-/// Makes births of what is lacking; the number of them all.
-std::size_t Emission::shareOut(const VoxelGrid& grid, float share, std::uint64_t most) {
-    const std::span<const std::uint32_t> active = grid.active();
-    starts_.assign(sums_.size() + 1, 0);
+    starts_.assign((active.size() + voxelsABlock - 1) / voxelsABlock + 1, 0);
     parallel::forEachBlock(active.size(), voxelsABlock, [&](std::size_t first, std::size_t count) {
         std::size_t sum = 0;
-        if (sums_[first / voxelsABlock].lacking > 0)
-            for (std::size_t k = first; k < first + count; ++k) {
-                if (births_[k] > 0 && share < 1)
-                    births_[k] = birthsOf(births_[k], share, maths::uniform4(seed_, fillStream, active[k], steps_)[0]);
-                sum += births_[k];
-            }
+        for (std::size_t k = first; k < first + count; ++k) {
+            const Voxel& voxel = voxels[active[k]];
+            std::uint32_t births =
+                voxel.isOn() ? voxel.maximumDensity - std::min(voxel.density, voxel.maximumDensity) : 0;
+            if (births > 0 && share < 1)
+                births = birthsOf(births, share, maths::uniform4(seed_, fillStream, active[k], steps_)[0]);
+            births_[k] = births;
+            sum += births;
+        }
         starts_[first / voxelsABlock + 1] = sum;
     });
     for (std::size_t block = 1; block < starts_.size(); ++block) starts_[block] += starts_[block - 1];
-    return std::min<std::uint64_t>(starts_.back(), most);
+    return starts_.back();
 }
 
 void Emission::emit(ShapeParticles& particles, VoxelGrid& grid, const Pose& pose, const Motion& motion,
                     float stepSeconds) {
-    const Sums sums = countLacking(grid);
-    const std::uint64_t most = sums.room > sums.within ? sums.room - sums.within : 0;
-    const float inTime = motion.fillSeconds > stepSeconds ? stepSeconds / motion.fillSeconds : 1.0f;
-    const float share =
-        sums.lacking > most ? inTime * static_cast<float>(most) / static_cast<float>(sums.lacking) : inTime;
-    const std::size_t born = share > 0 ? shareOut(grid, share, most) : 0;
+    const std::size_t born = countBirths(grid, motion.fillSeconds > stepSeconds ? stepSeconds / motion.fillSeconds : 1);
     ++steps_;
     if (born == 0) return;
 
@@ -112,9 +83,9 @@ void Emission::emit(ShapeParticles& particles, VoxelGrid& grid, const Pose& pose
         std::size_t number = starts_[first / voxelsABlock];
         if (starts_[first / voxelsABlock + 1] == number) return;
         for (std::size_t k = first; k < first + count; ++k) {
-            if (births_[k] == 0 || number >= born) continue;
+            const std::uint32_t births = births_[k];
+            if (births == 0) continue;
             Voxel& voxel = voxels[active[k]];
-            const auto births = static_cast<std::uint32_t>(std::min<std::size_t>(births_[k], born - number));
             voxel.density += births;
             const glm::vec3 cell(lattice.cell(active[k]));
             const glm::vec4 colour = voxel.colour.colour();

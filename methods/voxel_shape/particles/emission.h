@@ -1,9 +1,8 @@
 // Births: every active voxel below its maximum density makes up for what it lacks, at random places in it, with its own
 // looks and the shape's motion as momentum.
 //
-// No birth lifts a voxel above its maximum; particles that wander in from another one may, for within the shape they
-// are immortal. So that the shape does not fill up by such wandering, there are never more births than the shape as a
-// whole lacks: the particles within it are never more than its maxima together.
+// Neither births nor those that wander in from another voxel (particle_kernel.h, `admit`) lift a voxel above its
+// maximum.
 //
 // Owns: its lists, on a ledger. Threads: uses the current oneTBB arena; the births are the same at any number of
 // threads: their serials follow the voxels' order, and their random numbers their serials.
@@ -28,15 +27,10 @@ class Emission {
     std::uint64_t seed_;
     std::uint64_t nextSerial_ = 0;
     std::uint32_t steps_ = 0;
-    struct Sums {
-        std::uint64_t lacking = 0, room = 0, within = 0;
-    };
-    [[nodiscard]] Sums countLacking(const VoxelGrid& grid);
-    [[nodiscard]] std::size_t shareOut(const VoxelGrid& grid, float share, std::uint64_t most);
+    [[nodiscard]] std::size_t countBirths(const VoxelGrid& grid, float share);
 
-    LedgerVector<std::uint32_t> births_;  ///< of each active voxel in this step; before that, what it lacks
+    LedgerVector<std::uint32_t> births_;  ///< of each active voxel in this step
     LedgerVector<std::size_t> starts_;    ///< of each block of active voxels: the first of its newborn
-    LedgerVector<Sums> sums_;             ///< of each block
 };
 
 }  // namespace dustbench::voxel_shape

@@ -60,27 +60,6 @@ void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t coun
     }
 }
 
-/// Few particles change their voxel in a step: their densities, their time to settle, their age.
-void changePlaces(ShapeParticles& particles, std::size_t first, std::size_t count, std::span<Voxel> voxels,
-                  const Scratch& scratch) {
-    std::uint32_t* const place = particles.place.data() + first;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t now = scratch.here[i], before = place[i];
-        if (now == before) continue;
-        const bool wasIn = (before & ShapeParticles::outside) == 0;
-        if (now == nowhere && !wasIn) continue;
-        if (wasIn) std::atomic_ref(voxels[before].density).fetch_sub(1, std::memory_order_relaxed);
-        particles.store.age[first + i] = 0;
-        if (now == nowhere) {
-            place[i] = before | ShapeParticles::outside;
-        } else {
-            std::atomic_ref(voxels[now].density).fetch_add(1, std::memory_order_relaxed);
-            place[i] = now;
-            particles.settlingSeconds[first + i] = voxels[now].interpolationSeconds;
-        }
-    }
-}
-
 /// Forces as velocities (see Force), then the air and gravity, then the way of a step.
 void move(ShapeParticles& particles, std::size_t first, std::size_t count, const Voxel* voxels, const KernelStep& step,
           const Scratch& scratch) {
@@ -205,6 +184,22 @@ void changeLooks(ShapeParticles& particles, std::size_t first, std::size_t count
     }
 }
 
+/// Few particles change their voxel in a step. By now they have moved and looked as the voxel that they leave told
+/// them.
+void changePlaces(ShapeParticles& particles, std::size_t first, std::size_t count, std::span<Voxel> voxels,
+                  const Scratch& scratch, const std::uint8_t* dead, std::uint8_t* arriving) {
+    std::uint32_t* const place = particles.place.data() + first;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t now = scratch.here[i], before = place[i];
+        arriving[i] = 0;
+        if (now == before) continue;
+        if ((before & ShapeParticles::outside) == 0)
+            std::atomic_ref(voxels[before].density).fetch_sub(1, std::memory_order_relaxed);
+        place[i] = (now == nowhere ? before : now) | ShapeParticles::outside;
+        arriving[i] = now != nowhere && dead[i] == 0 ? 1 : 0;
+    }
+}
+
 }  // namespace
 
 KernelStep::KernelStep(const VoxelGrid& grid, const Pose& where, const Motion& motion, float stepSeconds)
@@ -221,13 +216,25 @@ KernelStep::KernelStep(const VoxelGrid& grid, const Pose& where, const Motion& m
 }
 
 void updateParticles(ShapeParticles& particles, std::size_t first, std::size_t count, VoxelGrid& grid,
-                     const KernelStep& step, std::uint8_t* dead) {
+                     const KernelStep& step, std::uint8_t* dead, std::uint8_t* arriving) {
     Scratch scratch;
     const std::span<Voxel> voxels = grid.voxels();
     lookUp(particles, first, count, voxels.data(), step, scratch);
-    changePlaces(particles, first, count, voxels, scratch);
     move(particles, first, count, voxels.data(), step, scratch);
     changeLooks(particles, first, count, voxels.data(), step.seconds, dead);
+    changePlaces(particles, first, count, voxels, scratch, dead, arriving);
+}
+
+void admit(ShapeParticles& particles, std::span<const std::uint32_t> arrivals, std::span<Voxel> voxels) {
+    for (const std::uint32_t i : arrivals) {
+        const std::uint32_t place = particles.place[i] & ~ShapeParticles::outside;
+        Voxel& voxel = voxels[place];
+        if (voxel.density >= voxel.maximumDensity) continue;
+        ++voxel.density;
+        particles.place[i] = place;
+        particles.settlingSeconds[i] = voxel.interpolationSeconds;
+        particles.store.age[i] = 0;
+    }
 }
 
 }  // namespace dustbench::voxel_shape

@@ -1,12 +1,13 @@
 // One step of a run of particles: look up the voxel, take its force, move, come nearer to how it says they look.
 //
-// Units: m, s. Frame: world. Threads: pure but for the voxels' densities, which are counted atomically: several threads
-// may work on disjoint runs of particles, and the sums do not depend on how many there are.
+// Units: m, s. Frame: world. Threads: pure but for the voxels' densities, which are counted down atomically: several
+// threads may work on disjoint runs of particles, and the sums do not depend on how many there are.
 // Source: JuckelBeckhaus2007, 4.2, 4.3 and 5.1.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "methods/voxel_shape/particles/motion.h"
 #include "methods/voxel_shape/particles/pose.h"
@@ -31,8 +32,13 @@ struct KernelStep {
     glm::vec3 gravityStep;  ///< velocity that gravity adds
 };
 
-/// Works on particles first .. first + count, at most particles::chunkSize. `dead[i]` becomes 1 where one dies, else 0.
+/// Works on particles first .. first + count, at most particles::chunkSize. `dead[i]` becomes 1 where one dies, else 0;
+/// `arriving[i]` where one has come to a voxel that may let it in (`admit`), else 0: until then it is outside of it.
 void updateParticles(ShapeParticles& particles, std::size_t first, std::size_t count, VoxelGrid& grid,
-                     const KernelStep& step, std::uint8_t* dead);
+                     const KernelStep& step, std::uint8_t* dead, std::uint8_t* arriving);
+
+/// Lets those into the voxels where they stand that find room there, the first come in `arrivals` first. The others
+/// stay outside, fade by that voxel's looks, and ask again in the next step.
+void admit(ShapeParticles& particles, std::span<const std::uint32_t> arrivals, std::span<Voxel> voxels);
 
 }  // namespace dustbench::voxel_shape

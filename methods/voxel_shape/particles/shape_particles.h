@@ -9,7 +9,8 @@
 namespace dustbench::voxel_shape {
 
 struct ShapeParticles {
-    /// Set in `place` while a particle is in no active voxel; the rest is then the last one that it was in.
+    /// Set in `place` while a particle is in no active voxel, or in one that was full when it came; the rest is then
+    /// the last one that it was in or met.
     static constexpr std::uint32_t outside = 0x80000000u;
 
     explicit ShapeParticles(MemoryLedger& ledger);

@@ -15,21 +15,32 @@ constexpr std::size_t fewChunks = 4;  // below, a second thread does not pay
 }  // namespace
 
 ShapeSystem::ShapeSystem(MemoryLedger& ledger, const MarkedVoxels& marked, const Voxel& pattern, std::uint64_t seed)
-    : grid_(ledger, marked, pattern), particles_(ledger), deaths_(ledger), emission_(ledger, seed) {}
+    : grid_(ledger, marked, pattern),
+      particles_(ledger),
+      deaths_(ledger),
+      arrivals_(ledger, "arrivals"),
+      emission_(ledger, seed) {}
 
 ShapeSystem::ShapeSystem(MemoryLedger& ledger, VoxelGrid grid, std::uint64_t seed)
-    : grid_(std::move(grid)), particles_(ledger), deaths_(ledger), emission_(ledger, seed) {}
+    : grid_(std::move(grid)),
+      particles_(ledger),
+      deaths_(ledger),
+      arrivals_(ledger, "arrivals"),
+      emission_(ledger, seed) {}
 
 void ShapeSystem::live(const KernelStep& step) {
     deaths_.prepare(particles_.size());
+    arrivals_.prepare(particles_.size());
     parallel::forEachBlock(
         particles_.size(), particles::chunkSize,
         [&](std::size_t first, std::size_t count) {
-            std::array<std::uint8_t, particles::chunkSize> dead;
-            updateParticles(particles_, first, count, grid_, step, dead.data());
+            std::array<std::uint8_t, particles::chunkSize> dead, arriving;
+            updateParticles(particles_, first, count, grid_, step, dead.data(), arriving.data());
             deaths_.note(first / particles::chunkSize, dead.data(), count);
+            arrivals_.note(first / particles::chunkSize, arriving.data(), count);
         },
         fewChunks);
+    admit(particles_, arrivals_.collect(), grid_.voxels());
 }
 
 /// The last particles move into the holes (ascending) that lie before them.

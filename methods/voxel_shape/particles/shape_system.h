@@ -5,7 +5,7 @@
 // Source: JuckelBeckhaus2007, 4.3 (the update cycle).
 #pragma once
 
-#include "methods/shared/particles/death_list.h"
+#include "methods/shared/particles/noted_particles.h"
 #include "methods/voxel_shape/particles/emission.h"
 #include "methods/voxel_shape/particles/particle_kernel.h"
 
@@ -19,7 +19,8 @@ class ShapeSystem {
 
     /// One step: `live`, then `replace`. Between the two, particles may be moved out of solids.
     void step(const Pose& pose, const Motion& motion, float stepSeconds);
-    /// Every particle looks up its voxel, moves, and changes its looks; who has faded is noted.
+    /// Every particle looks up its voxel, moves, changes its looks, and enters the voxel if it is another one and has
+    /// room; who has faded is noted.
     void live(const KernelStep& step);
     /// Buries whom `live` has noted, and gives birth.
     void replace(const Pose& pose, const Motion& motion, float stepSeconds);
@@ -36,7 +37,8 @@ class ShapeSystem {
 
     VoxelGrid grid_;
     ShapeParticles particles_;
-    particles::DeathList deaths_;
+    particles::NotedParticles deaths_;
+    particles::NotedParticles arrivals_;  ///< come to another voxel
     Emission emission_;
 };
 

@@ -1,6 +1,7 @@
-// Who dies in a step: noted chunk by chunk on any thread, then collected in the order of storage.
+// Particles that something happens to in a step, such as death: noted chunk by chunk on any thread, then collected in
+// the order of storage.
 //
-// Owns: its lists, booked on a ledger: two bytes per particle, and four per death.
+// Owns: its lists, booked on a ledger: two bytes per particle, and four per noted one.
 // Threads: `note` from any thread, one chunk each.
 #pragma once
 
@@ -13,15 +14,15 @@
 
 namespace dustbench::particles {
 
-class DeathList {
+class NotedParticles {
  public:
-    explicit DeathList(MemoryLedger& ledger);
+    explicit NotedParticles(MemoryLedger& ledger, const char* account = "particle deaths");
 
     /// Makes room for this many particles.
     void prepare(std::size_t particles);
-    /// The dead of one chunk; those of its `count` particles whose flag is 1 (the others are 0).
-    void note(std::size_t chunk, const std::uint8_t* dead, std::size_t count);
-    /// Storage indices of all the dead, ascending, however many threads noted them.
+    /// Those of the chunk's `count` particles whose flag is 1 (the others are 0).
+    void note(std::size_t chunk, const std::uint8_t* flags, std::size_t count);
+    /// Storage indices of all that were noted, ascending, however many threads noted them.
     [[nodiscard]] std::span<const std::uint32_t> collect();
 
  private:

@@ -1,4 +1,4 @@
-#include "methods/shared/particles/death_list.h"
+#include "methods/shared/particles/noted_particles.h"
 
 #include <bit>
 #include <cstring>
@@ -7,12 +7,10 @@ namespace dustbench::particles {
 
 static_assert(std::endian::native == std::endian::little);
 
-DeathList::DeathList(MemoryLedger& ledger)
-    : within_(ledger.account("particle deaths")),
-      counts_(ledger.account("particle deaths")),
-      indices_(ledger.account("particle deaths")) {}
+NotedParticles::NotedParticles(MemoryLedger& ledger, const char* account)
+    : within_(ledger.account(account)), counts_(ledger.account(account)), indices_(ledger.account(account)) {}
 
-void DeathList::prepare(std::size_t particles) {
+void NotedParticles::prepare(std::size_t particles) {
     const std::size_t chunks = (particles + chunkSize - 1) / chunkSize;
     if (chunks > counts_.capacity()) {
         const std::size_t room = chunks + chunks / 4;
@@ -23,24 +21,24 @@ void DeathList::prepare(std::size_t particles) {
     within_.resize(chunks * chunkSize);
 }
 
-void DeathList::note(std::size_t chunk, const std::uint8_t* dead, std::size_t count) {
+void NotedParticles::note(std::size_t chunk, const std::uint8_t* flags, std::size_t count) {
     std::uint16_t* const list = within_.data() + chunk * chunkSize;
     std::uint32_t found = 0;
     std::size_t i = 0;
-    // Most particles live: eight flags at a time.
+    // Few are noted: eight flags at a time.
     for (; i + 8 <= count; i += 8) {
-        std::uint64_t flags;
-        std::memcpy(&flags, dead + i, sizeof flags);
+        std::uint64_t eight;
+        std::memcpy(&eight, flags + i, sizeof eight);
         // A flag is 1 in its byte: the lowest byte, the first particle, comes first.
-        for (; flags != 0; flags &= flags - 1)
-            list[found++] = static_cast<std::uint16_t>(i + static_cast<std::size_t>(std::countr_zero(flags)) / 8);
+        for (; eight != 0; eight &= eight - 1)
+            list[found++] = static_cast<std::uint16_t>(i + static_cast<std::size_t>(std::countr_zero(eight)) / 8);
     }
     for (; i < count; ++i)
-        if (dead[i]) list[found++] = static_cast<std::uint16_t>(i);
+        if (flags[i]) list[found++] = static_cast<std::uint16_t>(i);
     counts_[chunk] = found;
 }
 
-std::span<const std::uint32_t> DeathList::collect() {
+std::span<const std::uint32_t> NotedParticles::collect() {
     indices_.clear();
     for (std::size_t chunk = 0; chunk < counts_.size(); ++chunk)
         for (std::uint32_t k = 0; k < counts_[chunk]; ++k)

@@ -1,0 +1,76 @@
+// `dustbench report`: the page of a results folder, its tables for a terminal, or one of its charts as a file.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "bench/cli/commands.h"
+#include "bench/cli/exit_codes.h"
+#include "bench/cli/suite_report.h"
+#include "bench/report/chart_file.h"
+#include "bench/report/page.h"
+#include "bench/report/report_reader.h"
+#include "methods/shared/errors.h"
+
+namespace dustbench::cli {
+namespace {
+
+struct ReportOptions {
+    std::string folder, chart, format;
+    double pictureMegabytes = static_cast<double>(bench::defaultPictureBytes) / 1e6;
+    bool text = false;
+};
+
+/// The tables that `suite` and `reproduce` print, of whatever is there.
+void printTables(const bench::ReportData& data) {
+    for (const bench::Experiment& experiment : data.experiments) {
+        if (experiment.suite.empty()) continue;
+        bench::Suite suite = bench::loadSuite(experiment.suite, experiment.id != experiment.suite);
+        for (const bench::ReportCell& cell : experiment.cells)
+            suite.repetitions = std::max(suite.repetitions, static_cast<int>(cell.done.size()));
+        std::cout << experiment.id << ": " << suiteReport(suite, data.runs) << "\n";
+    }
+    std::cout << claimsReport(data.claims);
+}
+
+int report(const ReportOptions& options) {
+    if (!options.format.empty() && options.chart.empty())
+        throw InputError("--format: got '" + options.format + "' without --chart, which it belongs to");
+    if (options.text && !options.chart.empty()) throw InputError("--text and --chart: got both, allowed: one of them");
+    const bool needsPictures = !options.text && options.chart.empty();
+    const bench::ReportData data = bench::readReport(
+        options.folder, needsPictures ? static_cast<std::int64_t>(options.pictureMegabytes * 1e6) : 0);
+    for (const std::string& problem : data.problems) std::cerr << "note: " << problem << "\n";
+    if (options.text) {
+        printTables(data);
+    } else if (!options.chart.empty()) {
+        const std::string format = options.format.empty() ? "svg" : options.format;
+        std::cout << bench::writeChart(options.folder, data, options.chart, format).string() << "\n";
+    } else {
+        std::cout << bench::writePage(options.folder, data).string() << "\n";
+    }
+    return data.runs.empty() ? exitBadInput : exitOk;
+}
+
+}  // namespace
+
+Command reportCommand() {
+    auto options = std::make_shared<ReportOptions>();
+    return {"report", "Write the page of a results folder: charts, pictures, claims, machine",
+            "The page is DIR/index.html, one file; a chart is DIR/charts/ID.svg. Exit code 3 where DIR holds no run.",
+            [options](Arguments& arguments) {
+                arguments.required("dir", "DIR", "a folder that `suite`, `run`, `compare` or `reproduce` wrote",
+                                   options->folder);
+                arguments.flag("--text", "print the tables in place of the page", options->text);
+                arguments.text("--chart", "ID",
+                               "one chart alone: a suite's id or its end (fig7), -stages or -quality "
+                               "behind it, or frames",
+                               options->chart);
+                arguments.text("--format", "svg|png|pdf", "of the chart; svg unless given", options->format);
+                arguments.number("--pictures", "megabytes of pictures in the page; those beyond are linked",
+                                 options->pictureMegabytes, 0, 1000);
+            },
+            [options] { return report(*options); }};
+}
+
+}  // namespace dustbench::cli

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numbers>
+
+#include "bench/experiments/experiment.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/test_folder.h"
+
+namespace dustbench::bench {
+namespace {
+
+std::map<std::string, Finding> sampled(std::uint64_t seed) {
+    std::map<std::string, Finding> byName;
+    for (Finding& finding : runExperiment("sampling", seed)) byName[finding.quantity] = finding;
+    return byName;
+}
+
+/// sup |F(x) − x| for β = a + √u·(b − a), on a fine grid: F(x) = ((β(x) − a)/(b − a))², cos β(x) = cos a − x·(cos a −
+/// cos b).
+double distanceInCone(double leastDegrees, double mostDegrees) {
+    const double a = leastDegrees * std::numbers::pi / 180, b = mostDegrees * std::numbers::pi / 180;
+    double most = 0;
+    for (int i = 1; i < 10'000; ++i) {
+        const double x = i / 10'000.0;
+        const double share = (std::acos(std::cos(a) - x * (std::cos(a) - std::cos(b))) - a) / (b - a);
+        most = std::max(most, std::abs(share * share - x));
+    }
+    return most;
+}
+
+TEST(SamplingExperiment, IntervalsHoldTheClosedForms) {
+    const std::map<std::string, double> truths{
+        {"acceptance", std::numbers::pi / 6}, {"corner_over_face_gaussian", 1},
+        {"chi2_per_cell_gaussian", 1},        {"cone30", distanceInCone(0, 30)},
+        {"cone90", distanceInCone(0, 90)},    {"nested20_30", distanceInCone(20, 30)}};
+    int misses = 0;
+    std::map<std::string, Finding> found;
+    for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+        found = sampled(seed);
+        for (const auto& [name, truth] : truths) misses += truth < found.at(name).low || truth > found.at(name).high;
+    }
+    EXPECT_LE(misses, 3) << "of 24 intervals, of which 5 % miss";
+    EXPECT_DOUBLE_EQ(found.at("tries_per_point").value * found.at("acceptance").value, 1);
+    // Density grows as the cube of the distance to the cube's surface: 3√3 at the very corner, less over a cap.
+    EXPECT_GT(found.at("corner_over_face_cube").low, 4);
+    EXPECT_LT(found.at("corner_over_face_cube").high, 3 * std::numbers::sqrt3);
+    EXPECT_GT(found.at("chi2_per_cell_cube").low, 100);
+    for (const char* cone : {"cone30_by_cosine", "cone90_by_cosine", "nested20_30_by_cosine"})
+        EXPECT_LT(found.at(cone).value, 0.002) << cone;
+}
+
+TEST(SamplingExperiment, IsAFunctionOfItsSeed) {
+    const std::string first = findingsCsv(runExperiment("sampling", 1));
+    EXPECT_EQ(findingsCsv(runExperiment("sampling", 1)), first);
+    EXPECT_NE(findingsCsv(runExperiment("sampling", 2)), first);
+}
+
+TEST(Findings, AreReadAsTheyWereWritten) {
+    const TestFolder folder;
+    EXPECT_TRUE(readFindings(folder.path()).empty());
+    const std::vector<Finding> written{{"sampling", "acceptance", 0.5236, 0.52, 0.53, 1000}};
+    folder.write("experiments.csv", findingsCsv(written));
+    const std::vector<Finding> read = readFindings(folder.path());
+    ASSERT_EQ(read.size(), 1u);
+    EXPECT_EQ(read[0].quantity, "acceptance");
+    EXPECT_EQ(read[0].value, 0.5236);
+    EXPECT_EQ(read[0].samples, 1000);
+    EXPECT_THROW((void)runExperiment("smapling"), InputError);
+}
+
+}  // namespace
+}  // namespace dustbench::bench

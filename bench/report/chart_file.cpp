@@ -1,0 +1,107 @@
+#include "bench/report/chart_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <sstream>
+
+#include "bench/export/whole_file.h"
+#include "bench/report/report_files.h"
+#include "bench/report/report_json.h"
+#include "bench/run/child_process.h"
+#include "methods/shared/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double longestSeconds = 120;
+
+fs::path findProgram(const std::string& name, const std::string& package) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');)
+        if (fs::is_regular_file(fs::path(folder) / name)) return fs::path(folder) / name;
+    throw InputError(fmt::format(
+        "a chart as a file needs '{}', which is not installed; Debian has it in the package {}", name, package));
+}
+
+void call(const std::vector<std::string>& argv, const fs::path& log) {
+    const ChildOutcome outcome = runChild({argv, log, longestSeconds, [](std::string_view) {}, [] { return false; }});
+    if (!outcome.succeeded()) throw InputError(fmt::format("'{}' drew no chart: {}", argv.front(), outcome.reason()));
+}
+
+std::string withoutQuick(std::string id) {
+    const std::string quick = "-quick";
+    if (const std::size_t at = id.rfind(quick); at != std::string::npos) id.erase(at, quick.size());
+    return id;
+}
+
+/// The one id that is `wanted` or ends in it, its `-quick` left out where it has one.
+std::string resolved(const ReportData& data, const std::string& wanted) {
+    const std::vector<std::string> ids = chartIds(data);
+    if (std::ranges::find(ids, wanted) != ids.end()) return wanted;
+    for (const bool asWritten : {true, false}) {
+        std::vector<std::string> ending;
+        for (const std::string& id : ids) {
+            const std::string name = asWritten ? id : withoutQuick(id);
+            if (name == wanted || name.ends_with("-" + wanted)) ending.push_back(id);
+        }
+        if (ending.size() == 1) return ending.front();
+    }
+    throw unknownName("chart", wanted, ids);
+}
+
+}  // namespace
+
+std::vector<std::string> chartIds(const ReportData& data) {
+    std::vector<std::string> ids;
+    for (const Experiment& experiment : data.experiments) {
+        const auto has = [&experiment](std::string_view column) {
+            return std::ranges::any_of(experiment.cells,
+                                       [column](const ReportCell& cell) { return cell.values.contains(column); });
+        };
+        if (!has("frame_ms_median")) continue;
+        if (std::ranges::any_of(experiment.axes,
+                                [](const ReportAxis& axis) { return axis.name != "seed" && axis.name != "frames"; }))
+            ids.push_back(experiment.id);
+        ids.push_back(experiment.id + "-stages");
+        if (has("flip")) ids.push_back(experiment.id + "-quality");
+    }
+    if (!data.frameTimes.empty()) ids.emplace_back("frames");
+    return ids;
+}
+
+fs::path writeChart(const fs::path& folder, const ReportData& data, const std::string& id, const std::string& format) {
+    constexpr std::array<std::string_view, 3> formats{"svg", "png", "pdf"};
+    if (std::ranges::find(formats, format) == formats.end())
+        throw InputError(fmt::format("--format: got '{}', allowed: svg, png, pdf", format));
+    const std::string chart = resolved(data, id);
+    const fs::path place = folder / "charts" / fmt::format("{}.{}", chart, format);
+    std::error_code error;
+    fs::create_directories(place.parent_path(), error);
+    if (error) throw cannotWrite(place.parent_path(), error.message());
+
+    WholeFile script(place.string() + ".js"), svg(place.string() + ".svg"), drawn(place), log(place.string() + ".log");
+    writeWhole(script.beside(), fmt::format("{}\n{}\nconst reportColumns = {};\nconst reportCharts = {};\n"
+                                            "const reportData = {};\n{}",
+                                            vegaScript(), chartScript(), reportFile("columns.json"),
+                                            chartSpecifications(), reportJson(data), reportFile("chart_file.js")));
+    call({findProgram("node", "nodejs").string(), script.beside().string(), chart, svg.beside().string()},
+         log.beside());
+    if (format == "svg") {
+        fs::rename(svg.beside(), drawn.beside());
+    } else {
+        std::vector<std::string> convert{findProgram("rsvg-convert", "librsvg2-bin").string(), "--format", format};
+        if (format == "png") convert.insert(convert.end(), {"--zoom", "2", "--background-color", "white"});
+        convert.insert(convert.end(), {"--output", drawn.beside().string(), svg.beside().string()});
+        call(convert, log.beside());
+    }
+    drawn.publish();
+    return place;
+}
+
+}  // namespace dustbench::bench

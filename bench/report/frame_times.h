@@ -1,0 +1,21 @@
+// Frame times of a bounded number of runs, small enough for a page.
+#pragma once
+
+#include <filesystem>
+
+#include "bench/report/report_data.h"
+
+namespace dustbench::bench {
+
+inline constexpr std::size_t mostRunsWithFrameTimes = 64;
+inline constexpr std::size_t mostTracePoints = 400;
+inline constexpr std::size_t fewestBins = 8, mostBins = 40;  // of a histogram
+
+/// Of all frames, `label` and ids left to the caller. Bins are equally wide from the least to the greatest.
+[[nodiscard]] FrameTimes condense(const std::vector<double>& frameMs);
+
+/// Of the first repetition of each cell, spread evenly over the cells where there are too many. What cannot be read
+/// gives a sentence in the data's problems.
+void readFrameTimes(const std::filesystem::path& folder, ReportData& data);
+
+}  // namespace dustbench::bench

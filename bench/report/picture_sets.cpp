@@ -1,0 +1,132 @@
+#include "bench/report/picture_sets.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "bench/report/experiments.h"
+#include "bench/report/small_picture.h"
+#include "methods/shared/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FramePictures {
+    bool reference = false, difference = false;
+};
+
+/// Frames of which the run has a picture.
+std::map<int, FramePictures> framesIn(const fs::path& images) {
+    static const std::regex name("f(\\d{6,9})(_reference|_difference)?\\.png");
+    std::map<int, FramePictures> frames;
+    std::map<int, bool> pictured;
+    std::error_code error;
+    for (fs::directory_iterator entry(images, error); !error && entry != fs::directory_iterator();
+         entry.increment(error)) {
+        std::smatch match;
+        const std::string file = entry->path().filename().string();
+        if (!std::regex_match(file, match, name)) continue;
+        FramePictures& frame = frames[std::stoi(match[1])];
+        if (!match[2].matched) pictured[std::stoi(match[1])] = true;
+        if (match[2] == "_reference") frame.reference = true;
+        if (match[2] == "_difference") frame.difference = true;
+    }
+    std::erase_if(frames, [&pictured](const auto& frame) { return !pictured.contains(frame.first); });
+    return frames;
+}
+
+class Collector {
+ public:
+    Collector(const fs::path& folder, std::int64_t mostBytes, ReportData& data)
+        : folder_(folder), bytesLeft_(mostBytes), data_(data) {}
+
+    void add(const Experiment& experiment, const ReportCell& cell) {
+        if (cell.done.empty()) return;
+        const StoredRun& run = *cell.done.front();
+        const std::string relative = "runs/" + run.runId + "/images/";
+        const std::string label = variantLabel(experiment, cell);
+        const bool wasPictured = run.cells.contains("FILE_image") && !run.cells.at("FILE_image").empty();
+        const auto frames = framesIn(folder_ / relative);
+        if (wasPictured && frames.empty() && missing_++ == 0) firstMissing_ = relative;
+        const auto reference = run.cells.find("metric_reference");
+        const bool isExact = reference == run.cells.end() || reference->second == "exact";
+        for (const auto& [frame, has] : frames) {
+            PictureSet& set = setOf(experiment.id, worldLabel(experiment, cell), frame);
+            const std::string start = fmt::format("{}f{:06}", relative, frame);
+            if (has.reference) {
+                // The exact picture is the same for all methods, a finer setting of the method is its own.
+                const std::string name = isExact ? "exact" : "reference of " + label;
+                if (std::ranges::find(set.pictures, name, &ReportPicture::label) == set.pictures.end())
+                    place(set, {name, isExact ? "" : cell.method, false, start + "_reference.png"});
+            }
+            place(set, {label, cell.method, false, start + ".png"});
+            if (has.difference) place(set, {label, cell.method, true, start + "_difference.png"});
+        }
+    }
+
+    void noteMissing() const {
+        if (missing_ > 0)
+            data_.problems.push_back(fmt::format("the pictures of {} {} are missing, the first in {}", missing_,
+                                                 missing_ == 1 ? "run" : "runs", firstMissing_));
+    }
+
+ private:
+    PictureSet& setOf(const std::string& experiment, const std::string& world, int frame) {
+        for (PictureSet& set : data_.pictureSets)
+            if (set.experiment == experiment && set.world == world && set.frame == frame) return set;
+        return data_.pictureSets.emplace_back(PictureSet{experiment, world, frame, 0, 0, {}});
+    }
+
+    void place(PictureSet& set, ReportPicture picture) {
+        try {
+            if (bytesLeft_ > 0) {
+                const SmallPicture small = makeSmall(folder_ / picture.source);
+                set.width = small.width;
+                set.height = small.height;
+                const auto size = static_cast<std::int64_t>(small.bytes.size() * 4 / 3);
+                if (size <= bytesLeft_) {
+                    bytesLeft_ -= size;
+                    picture.source = dataUrl(small.mediaType, small.bytes);
+                    set.pictures.push_back(std::move(picture));
+                    return;
+                }
+                bytesLeft_ = 0;  // small ones later would make holes that nobody understands
+            }
+            ++data_.linkedPictures;
+            set.pictures.push_back(std::move(picture));
+        } catch (const InputError& error) {
+            data_.problems.push_back(fmt::format("picture left out: {}", error.what()));
+        }
+    }
+
+    const fs::path& folder_;
+    std::int64_t bytesLeft_;
+    ReportData& data_;
+    std::size_t missing_ = 0;
+    std::string firstMissing_;
+};
+
+}  // namespace
+
+std::string dataUrl(std::string_view mediaType, std::string_view bytes) {
+    std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): OpenSSL takes unsigned characters
+    const int length =
+        EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                        reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
+    text.resize(static_cast<std::size_t>(length));
+    return fmt::format("data:{};base64,{}", mediaType, text);
+}
+
+void collectPictures(const fs::path& folder, std::int64_t mostBytes, ReportData& data) {
+    Collector collector(folder, mostBytes, data);
+    for (const Experiment& experiment : data.experiments)
+        for (const ReportCell& cell : experiment.cells) collector.add(experiment, cell);
+    collector.noteMissing();
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,18 @@
+// The pictures of a folder's judged and pictured runs, side by side for each world and frame.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "bench/report/report_data.h"
+
+namespace dustbench::bench {
+
+/// Pictures go into the page as they are or as JPEG, whichever is smaller, up to `mostBytes` in all; those beyond are
+/// linked by their path in the folder. What cannot be read gives a sentence in the data's problems.
+void collectPictures(const std::filesystem::path& folder, std::int64_t mostBytes, ReportData& data);
+
+/// `data:image/png;base64,…`
+[[nodiscard]] std::string dataUrl(std::string_view mediaType, std::string_view bytes);
+
+}  // namespace dustbench::bench

@@ -1,0 +1,119 @@
+// All that the report of a results folder shows, as it is handed from those who read to those who write.
+//
+// Units: as the columns of summary.csv. Threads: plain data.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bench/claims/claim_ledger.h"
+#include "bench/measure/cost_fit.h"
+#include "bench/report/median_interval.h"
+#include "bench/results/stored_run.h"
+#include "bench/suite/paper.h"
+
+namespace dustbench::bench {
+
+/// Something that differs between the cells of an experiment.
+struct ReportAxis {
+    std::string name;  ///< `particles`, `scene`, `size`
+    std::string unit;
+    std::string help;
+    bool world = false;               ///< what all methods are shown, not a method's own setting
+    bool numeric = false;             ///< every value is a number
+    std::vector<std::string> values;  ///< in rising order
+};
+
+/// All runs that are equal in everything but the repetition, on one machine.
+struct ReportCell {
+    std::string method;
+    std::map<std::string, std::string, std::less<>> settings;  ///< by axis, where the method has it
+    std::size_t machine = 0;
+    std::vector<const StoredRun*> done;  ///< by repetition
+    std::size_t failed = 0;
+    std::map<std::string, MedianInterval, std::less<>> values;  ///< by column of summary.csv
+};
+
+/// ms = a + b·N^k through the runs of cells that are equal but for the load N.
+struct ReportFit {
+    std::string axis, column, method;
+    std::map<std::string, std::string, std::less<>> settings;  ///< without that of `axis`
+    std::size_t machine = 0;
+    CostFit fit;
+};
+
+/// A number that a paper's text gives.
+struct PublishedPoint {
+    std::string axis;  ///< with x; empty: holds along the whole chart
+    double x = 0;
+    std::string column;
+    double least = 0, greatest = 0;
+    std::string what;  ///< on which machine, of what
+};
+
+struct Experiment {
+    std::string id;  ///< of its suite, `-quick` behind it where it is the short form; `other`
+    std::string suite, title, summary, paper;
+    std::vector<ReportAxis> axes;
+    std::vector<ReportCell> cells;
+    std::vector<ReportFit> fits;
+    std::vector<PublishedPoint> published;
+};
+
+/// Frame times of one run: all of them as a histogram, few of them as a trace.
+struct FrameTimes {
+    std::string runId, experiment, label;
+    std::size_t frames = 0;
+    double leastMs = 0, binMs = 0;
+    std::vector<int> bins;
+    /// Of each stretch of frames the shortest and the longest, in their order, so that no spike is lost.
+    std::vector<std::pair<std::size_t, double>> trace;
+};
+
+/// One picture of a run, as it goes into the page.
+struct ReportPicture {
+    std::string label;   ///< `billboard soft=on`, `exact`
+    std::string method;  ///< empty for the exact one
+    bool difference = false;
+    std::string source;  ///< data URL, or path relative to the page
+};
+
+/// All pictures of one world at one frame.
+struct PictureSet {
+    std::string experiment, world;
+    int frame = 0;
+    int width = 0, height = 0;
+    std::vector<ReportPicture> pictures;
+};
+
+struct NotDone {
+    std::string runId, status, reason;
+};
+
+/// Of one kind: they differ in their numbers at most.
+struct RunWarnings {
+    std::string warning;  ///< the first
+    std::vector<std::string> runs;
+};
+
+/// To be moved, not copied: experiments point into `runs`.
+struct ReportData {
+    std::string folder;      ///< its name, for the title
+    std::string writtenUtc;  ///< ISO 8601
+    StoredRuns runs;
+    std::vector<std::string> problems;  ///< what is missing or in doubt, a sentence each
+    /// Fields of the provenance of each machine that took part.
+    std::vector<std::map<std::string, std::string, std::less<>>> machines;
+    std::vector<Paper> papers;
+    std::vector<Experiment> experiments;
+    std::vector<JudgedClaim> claims;
+    std::vector<FrameTimes> frameTimes;
+    std::size_t runsWithoutFrameTimes = 0;  ///< left out, so that the page stays small
+    std::vector<PictureSet> pictureSets;
+    std::size_t linkedPictures = 0;  ///< not in the page itself, but beside it
+    std::vector<NotDone> notDone;
+    std::vector<RunWarnings> warnings;
+};
+
+}  // namespace dustbench::bench

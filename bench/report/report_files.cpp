@@ -1,0 +1,97 @@
+#include "bench/report/report_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "methods/shared/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct VegaModule {
+    const char *name, *file;  // what others require it by, and the file that Debian has it in
+};
+/// Debian ships Vega in its parts, which require each other by name. What maps and text clouds need is left out.
+constexpr std::array<VegaModule, 20> vegaModules{{{"util", "util"},
+                                                  {"statistics", "statistics"},
+                                                  {"time", "time"},
+                                                  {"format", "format"},
+                                                  {"loader", "loader"},
+                                                  {"dataflow", "dataflow"},
+                                                  {"scale", "scale"},
+                                                  {"canvas", "canvas"},
+                                                  {"scenegraph", "scenegraph"},
+                                                  {"transforms", "transforms"},
+                                                  {"view-transforms", "view-transforms"},
+                                                  {"encode", "encode"},
+                                                  {"expression", "expression"},
+                                                  {"selections", "selection"},
+                                                  {"event-selector", "event-selector"},
+                                                  {"functions", "functions"},
+                                                  {"runtime", "runtime"},
+                                                  {"view", "view"},
+                                                  {"parser", "parser"},
+                                                  {"interpreter", "interpreter"}}};
+
+std::string textOf(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw InputError(fmt::format("'{}': cannot be read", file.string()));
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+std::string reportFile(std::string_view name) {
+    return textOf(fs::path(DUSTBENCH_REPORT_FOLDER) / name);
+}
+
+std::string schemaText() {
+    return textOf(fs::path(DUSTBENCH_REPORTS_FOLDER) / "SCHEMA.md");
+}
+
+std::string vegaLicence() {
+    const fs::path file = "/usr/share/doc/libjs-vega/copyright";
+    // A system that was stripped of its documentation has the name at least.
+    return fs::exists(file) ? textOf(file) : "Vega: copyright 2015-2021 UW Interactive Data Lab, BSD-3-Clause licence.";
+}
+
+std::string chartSpecifications() {
+    std::vector<fs::path> specifications;
+    for (const auto& entry : fs::directory_iterator(fs::path(DUSTBENCH_REPORT_FOLDER) / "charts"))
+        if (entry.path().extension() == ".json") specifications.push_back(entry.path());
+    std::ranges::sort(specifications);
+    std::string all;
+    for (const fs::path& file : specifications)
+        all += fmt::format("{}\"{}\":{}", all.empty() ? "{" : ",", file.stem().string(), textOf(file));
+    return all + "}";
+}
+
+std::string chartScript() {
+    return reportFile("chart_style.js") + reportFile("chart_data.js") + reportFile("charts.js");
+}
+
+std::string pageScript() {
+    return reportFile("elements.js") + reportFile("pictures.js") + reportFile("claims.js") + reportFile("page.js");
+}
+
+std::string vegaScript() {
+    std::string script = "const vegaParts = {};\n";
+    for (const auto& [name, file] : vegaModules) {
+        const fs::path path = fs::path(DUSTBENCH_VEGA_FOLDER) / fmt::format("vega-{}.min.js", file);
+        if (!fs::exists(path))
+            throw InputError(
+                fmt::format("'{}' is missing, expected from the Debian package libjs-vega", path.string()));
+        script +=
+            fmt::format("vegaParts['vega-{}'] = function (exports, require, module) {{\n{}\n}};\n", name, textOf(path));
+    }
+    return script + reportFile("vega.js");
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,187 @@
+#include "bench/report/report_json.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/measure/provenance.h"
+#include "bench/report/experiments.h"
+#include "bench/suite/catalogue.h"
+
+namespace dustbench::bench {
+namespace {
+
+using nlohmann::json;
+
+/// Six digits are more than any chart shows, and keep the page small; null where it is no number.
+json number(double value) {
+    if (!std::isfinite(value)) return nullptr;
+    return std::stod(fmt::format("{:.6g}", value));
+}
+
+using RunIndex = std::map<std::string, std::size_t, std::less<>>;
+
+json indices(const RunIndex& index, const std::vector<std::string>& ids) {
+    json list = json::array();
+    for (const std::string& id : ids)
+        if (const auto found = index.find(id); found != index.end()) list.push_back(found->second);
+    return list;
+}
+
+json axisJson(const ReportAxis& axis) {
+    return {{"name", axis.name},   {"unit", axis.unit},       {"help", axis.help},
+            {"world", axis.world}, {"numeric", axis.numeric}, {"values", axis.values}};
+}
+
+json cellJson(const Experiment& experiment, const ReportCell& cell, const RunIndex& index) {
+    json values = json::object();
+    for (const auto& [column, interval] : cell.values)
+        values[column] = interval.values == 1
+                             ? json(number(interval.median))
+                             : json{number(interval.median), number(interval.low), number(interval.high)};
+    std::vector<std::string> ids;
+    for (const StoredRun* run : cell.done) ids.push_back(run->runId);
+    const double probability = cell.values.empty() ? 0 : cell.values.begin()->second.probability;
+    return {{"method", cell.method},
+            {"variant", variantLabel(experiment, cell)},
+            {"world", worldLabel(experiment, cell)},
+            {"settings", cell.settings},
+            {"machine", cell.machine},
+            {"failed", cell.failed},
+            {"probability", number(probability)},
+            {"runs", indices(index, ids)},
+            {"values", std::move(values)}};
+}
+
+json fitJson(const ReportFit& entry) {
+    const CostFit& fit = entry.fit;
+    return {{"axis", entry.axis},
+            {"column", entry.column},
+            {"method", entry.method},
+            {"settings", entry.settings},
+            {"machine", entry.machine},
+            {"a", {number(fit.fixedMs.value), number(fit.fixedMs.plusMinus)}},
+            {"b", {number(fit.factor.value), number(fit.factor.plusMinus)}},
+            {"k", {number(fit.exponent.value), number(fit.exponent.plusMinus)}},
+            {"loads", fit.loads},
+            {"runs", fit.runs},
+            {"scatter", number(fit.relativeError)}};
+}
+
+json publishedJson(const PublishedPoint& point) {
+    return {{"axis", point.axis},
+            {"x", number(point.x)},
+            {"column", point.column},
+            {"least", number(point.least)},
+            {"greatest", number(point.greatest)},
+            {"what", point.what}};
+}
+
+json experimentJson(const Experiment& experiment, const RunIndex& index) {
+    json axes = json::array(), cells = json::array(), fits = json::array(), published = json::array();
+    for (const ReportAxis& axis : experiment.axes) axes.push_back(axisJson(axis));
+    for (const ReportCell& cell : experiment.cells) cells.push_back(cellJson(experiment, cell, index));
+    for (const ReportFit& fit : experiment.fits) fits.push_back(fitJson(fit));
+    for (const PublishedPoint& point : experiment.published) published.push_back(publishedJson(point));
+    return {{"id", experiment.id},           {"suite", experiment.suite}, {"title", experiment.title},
+            {"summary", experiment.summary}, {"paper", experiment.paper}, {"axes", std::move(axes)},
+            {"cells", std::move(cells)},     {"fits", std::move(fits)},   {"published", std::move(published)}};
+}
+
+json claimJson(const JudgedClaim& judged, const RunIndex& index) {
+    const auto& [paper, claim, result] = judged;
+    return {{"id", claim.id},
+            {"paper", paper},
+            {"text", claim.text},
+            {"suite", claim.suite},
+            {"column", claim.quantity == Quantity::value ? claim.column : ""},
+            {"verdict", verdictName(result.verdict)},
+            {"measured", number(result.measured)},
+            {"low", number(result.low)},
+            {"high", number(result.high)},
+            {"least", claim.least ? number(*claim.least) : json()},
+            {"greatest", claim.greatest ? number(*claim.greatest) : json()},
+            {"expected", claim.expected()},
+            {"note", result.note},
+            {"runs", indices(index, result.runs)}};
+}
+
+json frameTimesJson(const FrameTimes& times, const RunIndex& index) {
+    json trace = json::array();
+    for (const auto& [frame, ms] : times.trace) trace.push_back({frame, number(ms)});
+    return {{"run", index.at(times.runId)}, {"experiment", times.experiment},   {"label", times.label},
+            {"frames", times.frames},       {"leastMs", number(times.leastMs)}, {"binMs", number(times.binMs)},
+            {"bins", times.bins},           {"trace", std::move(trace)}};
+}
+
+json pictureSetJson(const PictureSet& set) {
+    json pictures = json::array();
+    for (const ReportPicture& picture : set.pictures)
+        pictures.push_back({{"label", picture.label},
+                            {"method", picture.method},
+                            {"difference", picture.difference},
+                            {"source", picture.source}});
+    return {{"experiment", set.experiment}, {"world", set.world},   {"frame", set.frame},
+            {"width", set.width},           {"height", set.height}, {"pictures", std::move(pictures)}};
+}
+
+template <typename List, typename ToJson>
+json each(const List& list, const ToJson& toJson) {
+    json result = json::array();
+    for (const auto& item : list) result.push_back(toJson(item));
+    return result;
+}
+
+}  // namespace
+
+std::string reportJson(const ReportData& data) {
+    RunIndex index;
+    json runs = json::array();
+    for (const auto& [id, run] : data.runs) {
+        index[id] = runs.size();
+        runs.push_back(id);
+    }
+    json root{{"folder", data.folder},
+              {"written", data.writtenUtc},
+              {"version", buildFacts().version},
+              {"problems", data.problems},
+              {"machines", data.machines},
+              {"runs", std::move(runs)},
+              {"framesLeftOut", data.runsWithoutFrameTimes},
+              {"linkedPictures", data.linkedPictures}};
+    // All that this build has, so that a method has the same colour in every report.
+    root["methods"] = each(catalogue("methods"), [](const CatalogueItem& item) {
+        return json{{"id", item.id}, {"title", item.title}};
+    });
+    root["papers"] = each(data.papers, [](const Paper& paper) {
+        return json{{"id", paper.id},
+                    {"title", paper.title},
+                    {"authors", paper.authors},
+                    {"year", paper.year},
+                    {"venue", paper.venue}};
+    });
+    root["experiments"] = each(data.experiments, [&](const Experiment& item) { return experimentJson(item, index); });
+    root["claims"] = each(data.claims, [&](const JudgedClaim& item) { return claimJson(item, index); });
+    root["frames"] = each(data.frameTimes, [&](const FrameTimes& item) { return frameTimesJson(item, index); });
+    root["pictures"] = each(data.pictureSets, pictureSetJson);
+    root["notDone"] = each(data.notDone, [](const NotDone& item) {
+        return json{{"run", item.runId}, {"status", item.status}, {"reason", item.reason}};
+    });
+    root["warnings"] = each(data.warnings, [&](const RunWarnings& item) {
+        return json{{"warning", item.warning}, {"runs", indices(index, item.runs)}};
+    });
+
+    const std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace);
+    std::string safe;
+    safe.reserve(text.size());
+    for (const char letter : text) {
+        if (letter == '<')
+            safe += "\\u003c";  // only ever within a JSON string
+        else
+            safe += letter;
+    }
+    return safe;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,173 @@
+#include "bench/report/report_reader.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <regex>
+#include <set>
+
+#include "bench/report/experiments.h"
+#include "bench/report/frame_times.h"
+#include "bench/report/picture_sets.h"
+#include "bench/report/published.h"
+#include "bench/results/measured_on.h"
+#include "bench/results/summary.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/files/csv.h"
+
+namespace dustbench::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As readStoredRuns, but what is damaged is named and left out.
+void readRuns(const fs::path& folder, ReportData& data) {
+    std::error_code error;
+    fs::directory_iterator entry(folder / "runs", error);
+    if (error) {
+        data.problems.push_back("there is no folder 'runs': nothing was measured here, or this is no results folder");
+        return;
+    }
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (name.starts_with('.') || !fs::is_directory(entry->path())) continue;
+        try {
+            StoredRun run = readRunFile(entry->path() / "run.json");
+            if (run.runId != name)
+                data.problems.push_back(fmt::format("runs/{} holds the run {}: left out", name, run.runId));
+            else
+                data.runs.emplace(name, std::move(run));
+        } catch (const InputError& fault) {
+            data.problems.push_back(fmt::format("left out: {}", fault.what()));
+        }
+    }
+    if (data.runs.empty()) data.problems.push_back("the folder 'runs' holds no run");
+}
+
+std::string provenanceOf(const StoredRun& run, std::string_view field) {
+    const auto found = run.provenance.find(field);
+    return found == run.provenance.end() ? std::string() : found->second;
+}
+
+MachineOfRun findMachines(ReportData& data) {
+    MachineOfRun machineOf;
+    std::vector<std::vector<std::string>> keys;
+    for (const auto& [id, run] : data.runs) {
+        std::vector<std::string> key;
+        for (const std::string_view field : machineFields()) key.push_back(provenanceOf(run, field));
+        auto found = std::ranges::find(keys, key);
+        if (found == keys.end()) {
+            found = keys.insert(keys.end(), key);
+            data.machines.push_back(run.provenance);
+        }
+        machineOf[id] = static_cast<std::size_t>(found - keys.begin());
+    }
+    if (data.machines.size() > 1)
+        data.problems.push_back(fmt::format(
+            "the runs are of {} different machines or kinds of build: their times stand apart, and are not to be "
+            "compared",
+            data.machines.size()));
+    return machineOf;
+}
+
+/// Another build may well be what is compared, but should be known.
+void noteBuilds(ReportData& data) {
+    for (const std::string_view field : {"git_commit", "compiler", "gl_version"}) {
+        std::set<std::string> values;
+        for (const auto& [id, run] : data.runs) values.insert(provenanceOf(run, field));
+        if (values.size() > 1)
+            data.problems.push_back(fmt::format("the runs differ in {}: {}", field, fmt::join(values, ", ")));
+    }
+}
+
+void noteWhatIsNotDone(ReportData& data) {
+    // Those that differ in their numbers alone are of one kind.
+    static const std::regex number("[0-9]+(\\.[0-9]+)?");
+    std::map<std::string, RunWarnings> byKind;
+    for (const auto& [id, run] : data.runs) {
+        if (run.status != RunStatus::done)
+            data.notDone.push_back({id, std::string(statusName(run.status)), run.reason});
+        for (const std::string& warning : run.warnings) {
+            RunWarnings& kind = byKind[std::regex_replace(warning, number, "0")];
+            if (kind.warning.empty()) kind.warning = warning;
+            kind.runs.push_back(id);
+        }
+    }
+    for (auto& [kind, warnings] : byKind) data.warnings.push_back(std::move(warnings));
+    std::ranges::stable_sort(data.warnings, std::greater(), [](const RunWarnings& entry) { return entry.runs.size(); });
+    if (!data.notDone.empty())
+        data.problems.push_back(fmt::format("{} of {} runs are not done", data.notDone.size(), data.runs.size()));
+}
+
+void noteUnknownColumns(ReportData& data) {
+    std::set<std::string> known, unknown;
+    for (const auto* list : {&columnsBeforeParameters(), &columnsAfterParameters()})
+        known.insert(list->begin(), list->end());
+    for (const auto& [id, run] : data.runs)
+        for (const auto& [column, text] : run.cells)
+            if (!known.contains(column) && !column.starts_with("p.")) unknown.insert(column);
+    if (!unknown.empty())
+        data.problems.push_back(
+            fmt::format("columns that this version does not know, and leaves out: {}", fmt::join(unknown, ", ")));
+}
+
+/// A paper's experiments as the paper lists them, the quick form behind the whole one.
+void inOrderOf(const Paper& paper, std::vector<Experiment>& experiments) {
+    const auto place = [&paper](const Experiment& experiment) {
+        return std::pair(std::ranges::find(paper.suites, experiment.suite) - paper.suites.begin(), experiment.id);
+    };
+    const auto isOurs = [&paper](const Experiment& experiment) { return experiment.paper == paper.id; };
+    const auto rest = std::ranges::stable_partition(experiments, isOurs);
+    std::ranges::sort(experiments.begin(), rest.begin(), {}, place);
+}
+
+void readPapers(const fs::path& folder, ReportData& data) {
+    std::set<std::string> ids;
+    for (const Experiment& experiment : data.experiments)
+        if (!experiment.paper.empty()) ids.insert(experiment.paper);
+    if (ids.empty()) return;
+    const fs::path summary = folder / "summary.csv";
+    if (!fs::exists(summary))
+        data.problems.push_back("summary.csv is missing, so no claim is tested: the suite's command writes it again");
+    for (const std::string& id : ids) {
+        try {
+            data.papers.push_back(loadPaper(id));
+            inOrderOf(data.papers.back(), data.experiments);
+            const auto published = readPublished(id);
+            for (Experiment& experiment : data.experiments)
+                if (const auto found = published.find(experiment.suite); found != published.end())
+                    experiment.published = found->second;
+            if (!fs::exists(summary)) continue;
+            for (JudgedClaim& claim : judgeClaims(id, files::CsvTable::parseFile(summary), readFindings(folder)))
+                data.claims.push_back(std::move(claim));
+        } catch (const InputError& fault) {
+            data.problems.push_back(fmt::format("paper {}: {}", id, fault.what()));
+        }
+    }
+}
+
+}  // namespace
+
+ReportData readReport(const fs::path& folder, std::int64_t mostPictureBytes) {
+    if (!fs::is_directory(folder))
+        throw InputError(
+            fmt::format("'{}': is no folder, expected one that `suite`, `run` or `reproduce` wrote", folder.string()));
+    ReportData data;
+    const fs::path whole = fs::absolute(folder).lexically_normal();
+    data.folder = (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();
+    data.writtenUtc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
+    readRuns(folder, data);
+    const MachineOfRun machineOf = findMachines(data);
+    noteBuilds(data);
+    noteWhatIsNotDone(data);
+    noteUnknownColumns(data);
+    data.experiments = sortIntoExperiments(data.runs, machineOf, data.problems);
+    readPapers(folder, data);
+    readFrameTimes(folder, data);
+    collectPictures(folder, mostPictureBytes, data);
+    return data;
+}
+
+}  // namespace dustbench::bench

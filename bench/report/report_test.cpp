@@ -1,0 +1,274 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+
+#include "bench/report/experiments.h"
+#include "bench/report/frame_times.h"
+#include "bench/report/page.h"
+#include "bench/report/picture_sets.h"
+#include "bench/report/published.h"
+#include "bench/report/report_json.h"
+#include "bench/report/report_reader.h"
+#include "methods/shared/errors.h"
+#include "methods/shared/pictures/picture_library.h"
+
+namespace dustbench::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An empty folder that goes with the object.
+class Folder {
+ public:
+    Folder() : path_(fs::path(testing::TempDir()) / fmt::format("report-{}-{}", getpid(), ++made)) {
+        fs::create_directories(path_);
+    }
+    ~Folder() { fs::remove_all(path_); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    [[nodiscard]] const fs::path& path() const { return path_; }
+    void write(const std::string& name, const std::string& text) const {
+        fs::create_directories((path_ / name).parent_path());
+        std::ofstream(path_ / name) << text;
+    }
+
+ private:
+    inline static int made = 0;
+    fs::path path_;
+};
+
+StoredRun run(const std::string& method, int particles, int repetition, double ms, const std::string& sort = "") {
+    StoredRun made;
+    made.runId = fmt::format("{}-{}-{}-{}", method, particles, sort, repetition);
+    made.parameters["particles"] = std::to_string(particles);
+    if (!sort.empty()) made.parameters["sort"] = sort;
+    made.cells = {{"method", method},
+                  {"scene", "plain"},
+                  {"repetition", std::to_string(repetition)},
+                  {"frames", "30"},
+                  {"frame_ms_median", fmt::format("{}", ms)}};
+    return made;
+}
+
+std::string unreasonable(const ReportData& data) {
+    return fmt::format("{}", fmt::join(data.problems, "\n"));
+}
+
+}  // namespace
+
+TEST(MedianInterval, HasTheProbabilityOfTheSignTest) {
+    const MedianInterval six = medianInterval({4, 6, 1, 5, 2, 3});
+    EXPECT_DOUBLE_EQ(six.median, 3.5);
+    EXPECT_EQ(six.low, 1);
+    EXPECT_EQ(six.high, 6);
+    EXPECT_DOUBLE_EQ(six.probability, 1 - 2.0 / 64);
+
+    // 9 values: 1 − 2·(1 + 9)/512 has 95 % still, 1 − 2·(1 + 9 + 36)/512 has not.
+    const MedianInterval nine = medianInterval({1, 2, 3, 4, 5, 6, 7, 8, 9});
+    EXPECT_EQ(nine.low, 2);
+    EXPECT_EQ(nine.high, 8);
+    EXPECT_DOUBLE_EQ(nine.probability, 1 - 20.0 / 512);
+
+    EXPECT_EQ(medianInterval({7}).low, 7);
+    EXPECT_EQ(medianInterval({7}).probability, 0);
+    EXPECT_TRUE(std::isnan(medianInterval({}).median));
+}
+
+TEST(FrameTimes, KeepsEveryFrameInTheHistogramAndEverySpikeInTheTrace) {
+    std::vector<double> frames(10000, 16.0);
+    for (std::size_t frame = 0; frame < frames.size(); ++frame)
+        frames[frame] += 0.0001 * static_cast<double>(frame % 7);
+    frames[4321] = 250;
+    const FrameTimes times = condense(frames);
+    EXPECT_EQ(std::accumulate(times.bins.begin(), times.bins.end(), 0), 10000);
+    EXPECT_EQ(times.bins.back(), 1);
+    EXPECT_LE(times.trace.size(), mostTracePoints);
+    EXPECT_TRUE(std::ranges::any_of(times.trace,
+                                    [](const auto& point) { return point == std::pair(std::size_t{4321}, 250.0); }));
+    EXPECT_TRUE(std::ranges::is_sorted(times.trace));
+    EXPECT_EQ(condense(std::vector<double>(5, 3.0)).bins, std::vector<int>{5});
+}
+
+TEST(Experiments, PutRepetitionsIntoOneCellAndNameWhatDiffers) {
+    StoredRuns runs;
+    for (const int particles : {1000, 100})
+        for (const int repetition : {1, 2}) {
+            for (const StoredRun& made : {run("haze", particles, repetition, particles * 0.01 + repetition, "radix"),
+                                          run("haze", particles, repetition, particles * 0.02 + repetition, "none"),
+                                          run("mist", particles, repetition, 3)})
+                runs.emplace(made.runId, made);
+        }
+    runs.begin()->second.status = RunStatus::failed;
+    std::vector<const StoredRun*> all;
+    for (const auto& [id, made] : runs) all.push_back(&made);
+    const Experiment experiment = makeExperiment(all, {});
+
+    ASSERT_EQ(experiment.axes.size(), 2u);
+    EXPECT_EQ(experiment.axes[0].name, "particles");
+    EXPECT_TRUE(experiment.axes[0].world && experiment.axes[0].numeric);
+    EXPECT_EQ(experiment.axes[0].values, (std::vector<std::string>{"100", "1000"}));
+    EXPECT_EQ(experiment.axes[1].name, "sort");
+    EXPECT_FALSE(experiment.axes[1].world);
+    ASSERT_EQ(experiment.cells.size(), 6u);
+    std::size_t done = 0, failed = 0;
+    for (const ReportCell& cell : experiment.cells) {
+        done += cell.done.size();
+        failed += cell.failed;
+    }
+    EXPECT_EQ(done, 11u);
+    EXPECT_EQ(failed, 1u);
+    const auto cell = std::ranges::find_if(experiment.cells, [&](const ReportCell& one) {
+        return variantLabel(experiment, one) == "haze sort=radix" && worldLabel(experiment, one) == "particles=1000";
+    });
+    ASSERT_NE(cell, experiment.cells.end());
+    EXPECT_DOUBLE_EQ(cell->values.at("frame_ms_median").median, 11.5);
+}
+
+TEST(Experiments, FindTheExponentOfACost) {
+    StoredRuns runs;
+    for (const int particles : {100, 200, 400, 800, 1600})
+        for (const int repetition : {1, 2}) {
+            const StoredRun made = run("haze", particles, repetition, 5 + 0.001 * std::pow(particles, 1.5));
+            runs.emplace(made.runId, made);
+        }
+    std::vector<const StoredRun*> all;
+    for (const auto& [id, made] : runs) all.push_back(&made);
+    const Experiment experiment = makeExperiment(all, {});
+    ASSERT_EQ(experiment.fits.size(), 1u);
+    EXPECT_EQ(experiment.fits[0].column, "frame_ms_median");
+    EXPECT_NEAR(experiment.fits[0].fit.exponent.value, 1.5, 0.01);
+    EXPECT_NEAR(experiment.fits[0].fit.fixedMs.value, 5, 0.05);
+}
+
+TEST(ReportJson, LetsNoTextBecomeMarkup) {
+    ReportData data;
+    data.folder = "</script><script>alert(1)</script>";
+    data.problems = {"<!-- \xff\xfe not UTF-8"};
+    StoredRun made = run("haze", 100, 1, 3);
+    made.runId = "<b>";
+    data.runs.emplace(made.runId, made);
+    const std::string json = reportJson(data);
+    EXPECT_EQ(json.find('<'), std::string::npos);
+    EXPECT_NE(json.find("\\u003c/script>"), std::string::npos);
+
+    const std::string page = pageOf(data);
+    EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+    EXPECT_NE(page.find("&lt;script>alert(1)"), std::string::npos);
+}
+
+TEST(ReportPage, ComesWithoutAnyRunAndSaysSo) {
+    const Folder folder;
+    const ReportData data = readReport(folder.path(), 0);
+    ASSERT_EQ(data.problems.size(), 1u) << unreasonable(data);
+    EXPECT_NE(data.problems[0].find("no folder 'runs'"), std::string::npos);
+    EXPECT_TRUE(fs::exists(writePage(folder.path(), data)));
+    EXPECT_TRUE(fs::exists(writePage(folder.path(), data))) << "a page of ours is written over";
+    EXPECT_THROW((void)readReport(folder.path() / "nowhere", 0), InputError);
+}
+
+TEST(ReportPage, LeavesAPageOfSomebodyElseAlone) {
+    const Folder folder;
+    folder.write("index.html", "<html>my garden</html>");
+    EXPECT_THROW(writePage(folder.path(), readReport(folder.path(), 0)), InputError);
+}
+
+TEST(ReportPage, NamesWhatIsDamagedAndGoesOn) {
+    const Folder folder;
+    folder.write("runs/broken/run.json", "{\"run_id\": ");
+    folder.write("runs/other/run.json",
+                 R"({"run_id": "mine", "status": "failed", "reason": "it rained", "parameters": {},
+        "summary": {"method": "haze", "moon_phase": 3}, "warnings": [], "state_hash": "", "method_hash": null,
+        "provenance": {"cpu": "one", "inputs": []}})");
+    fs::rename(folder.path() / "runs/other", folder.path() / "runs/mine");
+    folder.write("runs/stray/run.json", "[]");
+    const ReportData data = readReport(folder.path(), 0);
+    EXPECT_EQ(data.runs.size(), 1u);
+    const std::string said = unreasonable(data);
+    for (const char* part : {"broken", "stray", "1 of 1 runs are not done", "moon_phase"})
+        EXPECT_NE(said.find(part), std::string::npos) << part << " in\n" << said;
+    ASSERT_EQ(data.notDone.size(), 1u);
+    EXPECT_EQ(data.notDone[0].reason, "it rained");
+}
+
+TEST(ReportPictures, AreBase64) {
+    EXPECT_EQ(dataUrl("image/png", "hello!"), "data:image/png;base64,aGVsbG8h");
+    EXPECT_EQ(dataUrl("image/png", "hell"), "data:image/png;base64,aGVsbA==");
+}
+
+/// One judged run with a picture of 24 x 16 pixels; gives its data, of which the folder holds the files.
+ReportData pictured(const Folder& folder) {
+    ReportData data;
+    StoredRun made = run("haze", 100, 1, 3);
+    made.cells["FILE_image"] = "runs/" + made.runId + "/images/f000030.png";
+    made.cells["metric_reference"] = "exact";
+    const fs::path images = folder.path() / "runs" / made.runId / "images";
+    fs::create_directories(images);
+    const std::vector<std::uint8_t> grey(std::size_t{24} * 16 * 3, 128);
+    for (const char* name : {"f000030.png", "f000030_reference.png", "f000030_difference.png"})
+        EXPECT_EQ(pictures::pictureLibrary().writePng(images / name, 24, 16, 3, grey), "");
+    data.runs.emplace(made.runId, made);
+    data.experiments.push_back(makeExperiment({&data.runs.begin()->second}, {}));
+    return data;
+}
+
+TEST(ReportPictures, AreInThePageOrBesideItAsTheBudgetAllows) {
+    const Folder folder;
+    for (const std::int64_t budget : {std::int64_t{100'000}, std::int64_t{0}}) {
+        ReportData data = pictured(folder);
+        collectPictures(folder.path(), budget, data);
+        ASSERT_EQ(data.pictureSets.size(), 1u);
+        const PictureSet& set = data.pictureSets[0];
+        EXPECT_EQ(set.frame, 30);
+        ASSERT_EQ(set.pictures.size(), 3u);
+        EXPECT_EQ(set.pictures[0].label, "exact");
+        EXPECT_EQ(set.pictures[1].label, "haze");
+        EXPECT_TRUE(set.pictures[2].difference);
+        EXPECT_EQ(data.linkedPictures, budget > 0 ? 0u : 3u);
+        for (const ReportPicture& picture : set.pictures)
+            EXPECT_TRUE(picture.source.starts_with(budget > 0 ? "data:image/" : "runs/haze-")) << picture.source;
+        EXPECT_EQ(set.width, budget > 0 ? 24 : 0) << "a linked picture is not opened";
+    }
+}
+
+TEST(ReportPictures, AreMissedAndNamedWhereTheyAreDamaged) {
+    const Folder folder;
+    ReportData data = pictured(folder);
+    folder.write("runs/" + data.runs.begin()->first + "/images/f000030_reference.png", "no picture");
+    collectPictures(folder.path(), 100'000, data);
+    ASSERT_EQ(data.problems.size(), 1u);
+    EXPECT_NE(data.problems[0].find("f000030_reference.png"), std::string::npos);
+    EXPECT_EQ(data.pictureSets.at(0).pictures.size(), 2u);
+
+    fs::remove_all(folder.path() / "runs");
+    ReportData gone = pictured(folder);
+    fs::remove_all(folder.path() / "runs");
+    collectPictures(folder.path(), 100'000, gone);
+    EXPECT_NE(unreasonable(gone).find("the pictures of 1 run are missing"), std::string::npos);
+}
+
+TEST(Published, ReadsBandsAndRefusesThoseUpsideDown) {
+    const Folder folder;
+    folder.write(
+        "papers/dust/published.csv",
+        "suite,axis,x,column,least,greatest,what\nfig,,,fps_avg,10,15,a laptop\nfig,particles,40,fps_avg,3,3,it\n");
+    folder.write("papers/mud/published.csv", "suite,axis,x,column,least,greatest,what\nfig,,,fps_avg,15,10,it\n");
+    const char* before = std::getenv("DUSTBENCH_DATA");
+    const std::string old = before ? before : "";
+    setenv("DUSTBENCH_DATA", folder.path().c_str(), 1);
+    const auto points = readPublished("dust");
+    EXPECT_THROW((void)readPublished("mud"), InputError);
+    EXPECT_TRUE(readPublished("air").empty());
+    before ? setenv("DUSTBENCH_DATA", old.c_str(), 1) : unsetenv("DUSTBENCH_DATA");
+    ASSERT_EQ(points.at("fig").size(), 2u);
+    EXPECT_EQ(points.at("fig")[1].x, 40);
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,48 @@
+#include "bench/report/small_picture.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "methods/shared/errors.h"
+#include "methods/shared/pictures/picture_library.h"
+
+namespace dustbench::bench {
+namespace {
+
+/// Traces of compression stay below what a screen shows; numbers come from the EXR files.
+constexpr int jpegQuality = 80;
+
+/// Red, green and blue of each pixel, as the file has them.
+std::vector<std::uint8_t> colourBytes(const pictures::StoredPicture& picture) {
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    std::vector<std::uint8_t> bytes;
+    for (std::size_t pixel = 0; pixel < picture.values.size(); pixel += channels)
+        for (std::size_t colour = 0; colour < 3; ++colour)
+            bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * picture.values[pixel + colour])));
+    return bytes;
+}
+
+}  // namespace
+
+SmallPicture makeSmall(const std::filesystem::path& png) {
+    const pictures::PictureLibrary& library = pictures::pictureLibrary();
+    pictures::StoredPicture picture;
+    std::string fault = library.read(png, picture);
+    if (fault.empty() && picture.channels < 3) fault = "it has no colours";
+    if (!fault.empty()) throw InputError("'" + png.string() + "': cannot be read as a picture: " + fault);
+
+    std::ifstream stream(png, std::ios::binary);
+    SmallPicture small{"image/png", {std::istreambuf_iterator<char>(stream), {}}, picture.width, picture.height};
+    std::vector<std::uint8_t> jpeg;
+    // Where there is no JPEG, there is the file itself.
+    if (library.encodeJpeg(picture.width, picture.height, colourBytes(picture), jpegQuality, jpeg).empty() &&
+        jpeg.size() < small.bytes.size()) {
+        small.mediaType = "image/jpeg";
+        small.bytes.assign(jpeg.begin(), jpeg.end());
+    }
+    return small;
+}
+
+}  // namespace dustbench::bench

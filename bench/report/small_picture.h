@@ -1,0 +1,18 @@
+// A picture file made small for a page.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace dustbench::bench {
+
+struct SmallPicture {
+    std::string mediaType;  ///< `image/png`, `image/jpeg`
+    std::string bytes;
+    int width = 0, height = 0;
+};
+
+/// The file as it is, or as JPEG where that is smaller. Throws InputError where it cannot be read.
+[[nodiscard]] SmallPicture makeSmall(const std::filesystem::path& png);
+
+}  // namespace dustbench::bench

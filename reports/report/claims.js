@@ -1,0 +1,55 @@
+// The rows of the table of claims.
+const claimTable = (() => {
+    const { element, put, plural } = pageKit;
+
+    /// Where the measured interval lies to the values in which the claim is true, as a small picture.
+    const claimRange = claim => {
+        if (claim.measured === null || (claim.least === null && claim.greatest === null)) return '';
+        const marks = [claim.measured, claim.low, claim.high, claim.least, claim.greatest].filter(value => value !== null);
+        let [low, high] = [Math.min(...marks), Math.max(...marks)];
+        const log = low > 0 && high / low > 4;
+        const bend = value => (log ? Math.log(value) : value);
+        [low, high] = [bend(low), bend(high)];
+        const room = (high - low) * 0.12 || 1;
+        const at = value => 150 * (bend(value) - low + room) / (high - low + 2 * room);
+        const shape = (tag, attributes) => {
+            const made = document.createElementNS('http://www.w3.org/2000/svg', tag);
+            for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+            return made;
+        };
+        const svg = shape('svg', { viewBox: '0 0 150 22', class: 'claim-range', role: 'img' });
+        const [from, to] = [claim.least === null ? 0 : at(claim.least), claim.greatest === null ? 150 : at(claim.greatest)];
+        put(svg, shape('title', {}), shape('rect', { x: from, y: 2, width: Math.max(to - from, 1), height: 18, fill: 'var(--good)', 'fill-opacity': 0.2 }));
+        svg.firstChild.textContent = `green: ${claim.expected}; measured ${chartKit.fourDigits(claim.measured)}`;
+        for (const bound of [claim.least, claim.greatest])
+            if (bound !== null) put(svg, shape('line', { x1: at(bound), x2: at(bound), y1: 2, y2: 20, stroke: 'var(--good)', 'stroke-width': 1.5 }));
+        if (claim.low !== null) put(svg, shape('line', { x1: at(claim.low), x2: at(claim.high), y1: 11, y2: 11, stroke: 'var(--ink)', 'stroke-width': 2 }));
+        put(svg, shape('circle', { cx: at(claim.measured), cy: 11, r: 4, fill: 'var(--ink)' }));
+        return svg;
+    };
+    const expectedOf = ({ least, greatest, expected }, number) => {
+        if (least !== null && greatest !== null) return `${number(least)} to ${number(greatest)}`;
+        return least !== null ? `${number(least)} or more` : greatest !== null ? `${number(greatest)} or less` : expected;
+    };
+    const verdictMarks = { confirmed: '✓', refuted: '✗', unresolved: '?', 'not-tested': '–' };
+
+    /// `runLinks`: makes links to runs by their indices.
+    const row = (report, claim, runLinks) => {
+        const experiment = report.data.experiments.find(item => item.suite === claim.suite);
+        const isBytes = claim.column && chartKit.columnOf(report, claim.column).unit === 'bytes';
+        const number = value => (isBytes ? chartKit.withUnit(value, 'bytes') : chartKit.fourDigits(value));
+        const interval = claim.low === null ? '' : ` [${number(claim.low)}, ${number(claim.high)}]`;
+        const text = element('div', {}, [claim.text]);
+        if (claim.note) put(text, element('div', { className: 'muted', textContent: claim.note }));
+        const links = element('div');
+        if (experiment) put(links, element('a', { href: `#experiment-${experiment.id}`, textContent: experiment.suite }));
+        if (claim.runs.length) put(links, runLinks(claim.runs, plural(claim.runs.length, 'run')));
+        return [
+            element('b', { textContent: claim.id }),
+            element('span', { className: `verdict ${claim.verdict}`, textContent: `${verdictMarks[claim.verdict]} ${claim.verdict}` }),
+            text, claim.measured === null ? '' : `${number(claim.measured)}${interval}`, expectedOf(claim, number), claimRange(claim), links.children.length ? links : '',
+        ];
+    };
+    const heads = [['claim'], ['verdict'], ['what the paper says', 'wide'], ['measured [interval]', 'number', 'measured'], ['true if', '', 'true if'], [''], ['chart, runs']];
+    return { row, heads };
+})();

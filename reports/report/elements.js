@@ -1,0 +1,27 @@
+// Makes the elements of the page. All texts go in as text, none as markup.
+const pageKit = (() => {
+    /// element('td', { className: 'number', textContent: '3' }, [children])
+    const element = (tag, properties = {}, children = []) => {
+        const made = document.createElement(tag);
+        for (const [name, value] of Object.entries(properties)) {
+            if (name === 'dataset') Object.assign(made.dataset, value);
+            else if (name === 'attributes') for (const [key, text] of Object.entries(value)) made.setAttribute(key, text);
+            else made[name] = value;
+        }
+        made.append(...children);
+        return made;
+    };
+    const put = (parent, ...children) => parent.append(...children);
+    const paragraph = (text, className = '') => element('p', { textContent: text, className });
+    const plural = (count, one, many) => `${count} ${count === 1 ? one : many || one + 's'}`;
+    /// A head is [text, class of its column, name of the value where a narrow screen stacks the cells].
+    const table = (heads, rows, className = '') => element('div', { className: 'table-scroll' }, [element('table', { className }, [
+        element('thead', {}, [element('tr', {}, heads.map(([text, kind]) => element('th', { textContent: text, className: kind || '' })))]),
+        element('tbody', {}, rows.map(row => element('tr', {}, row.map((cell, index) => {
+            const td = element('td', { className: heads[index][1] || '', dataset: heads[index][2] ? { name: heads[index][2] } : {} });
+            td.append(cell ?? '');
+            return td;
+        })))),
+    ])]);
+    return { element, put, paragraph, plural, table };
+})();
