@@ -38,11 +38,11 @@ TEST(SamplingExperiment, IntervalsHoldTheClosedForms) {
         {"cone90", distanceInCone(0, 90)},    {"nested20_30", distanceInCone(20, 30)}};
     int misses = 0;
     std::map<std::string, Finding> found;
-    for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    for (const std::uint64_t seed : {1u, 2u}) {
         found = sampled(seed);
         for (const auto& [name, truth] : truths) misses += truth < found.at(name).low || truth > found.at(name).high;
     }
-    EXPECT_LE(misses, 3) << "of 24 intervals, of which 5 % miss";
+    EXPECT_LE(misses, 2) << "of 12 intervals, of which 5 % miss";
     EXPECT_DOUBLE_EQ(found.at("tries_per_point").value * found.at("acceptance").value, 1);
     // Density grows as the cube of the distance to the cube's surface: 3√3 at the very corner, less over a cap.
     EXPECT_GT(found.at("corner_over_face_cube").low, 4);
