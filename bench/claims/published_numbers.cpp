@@ -28,16 +28,17 @@ std::optional<double> sumOf(const ResultRows& rows, std::size_t row, const std::
 
 }  // namespace
 
-TextRows tabulatePublished(const files::CsvTable& published, const files::CsvTable& summary, bool anyRun) {
+TextRows tabulatePublished(const files::CsvTable& published, const files::CsvTable& summary) {
     TextRows table{{"what", "paper", "formula", "measured", "measured/formula"}, {}};
     for (std::size_t line = 0; line < published.rows(); ++line) {
         const std::string where = published.where(line), columns = published.cell(line, "columns");
         const Selection of = parseSelection(published.cell(line, "of"), where + "of");
         std::istringstream names(columns);
         for (std::string name; names >> name;) requireColumn(where, name);
+        const std::string& suite = published.cell(line, "suite");
         std::set<std::string> runs;
-        if (!anyRun) runs = runIdsOf(published.cell(line, "suite"), summary);
-        const ResultRows rows(summary, anyRun ? nullptr : &runs);
+        if (!suite.empty()) runs = runIdsOf(suite, summary);
+        const ResultRows rows(summary, suite.empty() ? nullptr : &runs);
         std::vector<double> sums;
         for (const std::size_t row : rows.select(of))
             if (const auto sum = sumOf(rows, row, columns)) sums.push_back(*sum);

@@ -1,7 +1,8 @@
 // The numbers that a paper prints, beside ours: `data/papers/<id>/numbers.csv`.
 //
-// Its columns: `what` in words; `suite` and `of`, the runs; `columns` of summary.csv whose sum is ours, with blanks
-// between; `published`, as printed; `formula`, what the paper's formula gives when worked out, or empty.
+// Its columns: `what` in words; `suite`, whose runs count (empty: all), and `of` them; `columns` of summary.csv whose
+// sum is ours, with blanks between; `published`, as printed; `formula`, what the paper's formula gives when worked out,
+// or empty.
 #pragma once
 
 #include <string>
@@ -16,7 +17,6 @@ namespace dustbench::bench {
 /// there is none) and measured/formula. No rows where the paper has no such file. Throws InputError with file and line.
 [[nodiscard]] TextRows tabulatePublished(const std::string& paper, const files::CsvTable& summary);
 /// The same of a table that was read already.
-[[nodiscard]] TextRows tabulatePublished(const files::CsvTable& published, const files::CsvTable& summary,
-                                         bool anyRun = false);
+[[nodiscard]] TextRows tabulatePublished(const files::CsvTable& published, const files::CsvTable& summary);
 
 }  // namespace dustbench::bench

@@ -98,6 +98,19 @@ def sphere():
             file.write(f"f {a + 1} {b + 1} {c + 1}\n")
 
 
+def write_quads(name, comment, vertices, faces):
+    """Vertices: a point and a colour in bytes; faces: four numbers of vertices each."""
+    with open(path(name), "w", newline="") as file:
+        file.write(f"ply\nformat ascii 1.0\ncomment {comment}\n")
+        file.write(f"element vertex {len(vertices)}\nproperty float x\nproperty float y\nproperty float z\n")
+        file.write("property uchar red\nproperty uchar green\nproperty uchar blue\n")
+        file.write(f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+        for (x, y, z), (r, g, b) in vertices:
+            file.write(f"{x:.3f} {y:.3f} {z:.3f} {r} {g} {b}\n")
+        for face in faces:
+            file.write("4 " + " ".join(str(i) for i in face) + "\n")
+
+
 def crate():
     """A wooden crate of 1 m: five planks a side between two battens."""
     vertices, faces = [], []
@@ -133,15 +146,7 @@ def crate():
             block((-0.4, y, z), (0.4, y + 0.09, z + 0.08), batten)
         for x in (-0.5, 0.42):
             block((x, y, -0.4), (x + 0.08, y + 0.09, 0.4), batten)
-    with open(path("crate.ply"), "w", newline="") as file:
-        file.write("ply\nformat ascii 1.0\ncomment a wooden crate of one metre\n")
-        file.write(f"element vertex {len(vertices)}\nproperty float x\nproperty float y\nproperty float z\n")
-        file.write("property uchar red\nproperty uchar green\nproperty uchar blue\n")
-        file.write(f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
-        for (x, y, z), (r, g, b) in vertices:
-            file.write(f"{x:.3f} {y:.3f} {z:.3f} {r} {g} {b}\n")
-        for face in faces:
-            file.write("4 " + " ".join(str(i) for i in face) + "\n")
+    write_quads("crate.ply", "a wooden crate of one metre", vertices, faces)
 
 
 def wall():
@@ -171,15 +176,7 @@ def wall():
         shade = (150 + 9 * (j % 3), 74 + 5 * (j % 3), 56 + 4 * (j % 3))
         quad([(-thick / 2, y0, 0), (thick / 2, y0, 0), (thick / 2, y1, 0), (-thick / 2, y1, 0)], shade)
         quad([(-thick / 2, y0, -6), (-thick / 2, y1, -6), (thick / 2, y1, -6), (thick / 2, y0, -6)], shade)
-    with open(path("wall.ply"), "w") as file:
-        file.write("ply\nformat ascii 1.0\ncomment a wall of bricks\n")
-        file.write(f"element vertex {len(vertices)}\nproperty float x\nproperty float y\nproperty float z\n")
-        file.write("property uchar red\nproperty uchar green\nproperty uchar blue\n")
-        file.write(f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
-        for (x, y, z), (r, g, b) in vertices:
-            file.write(f"{x:.3f} {y:.3f} {z:.3f} {r} {g} {b}\n")
-        for face in faces:
-            file.write("4 " + " ".join(str(i) for i in face) + "\n")
+    write_quads("wall.ply", "a wall of bricks", vertices, faces)
 
 
 def marker_post():

@@ -32,16 +32,9 @@ Cubes::Cubes(gpu::Device& device)
 
 void Cubes::draw(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer) {
     if (count() == 0) return;
-    const glm::mat4 eyeToClip = view.eyeToClip();
     gpu::Program& program = this->program(view);
-    program.set("projection", glm::vec3(eyeToClip[0][0], eyeToClip[1][1], view.camera.nearMetres));
     if (!layoutOfAll().coloured) program.set("colourOfAll", colourOfAll);
-
-    gpu::DrawState state;
-    state.blend = gpu::Blend::premultiplied;
-    state.depthTest = true;
-    layer.bindWithSceneDepth();
-    drawInstances(program, state);
+    drawWithinScene(program, view, layer);
 }
 
 }  // namespace dustbench::draw

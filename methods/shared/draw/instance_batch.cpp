@@ -62,4 +62,14 @@ void InstanceBatch::drawInstances(const gpu::Program& program, const gpu::DrawSt
                      static_cast<int>((count_ + shape_.atOnce - 1) / shape_.atOnce));
 }
 
+void InstanceBatch::drawWithinScene(gpu::Program& program, const scene::View& view, const gpu::Layer& layer) {
+    const glm::mat4 eyeToClip = view.eyeToClip();
+    program.set("projection", glm::vec3(eyeToClip[0][0], eyeToClip[1][1], view.camera.nearMetres));
+    gpu::DrawState state;
+    state.blend = gpu::Blend::premultiplied;
+    state.depthTest = true;
+    layer.bindWithSceneDepth();
+    drawInstances(program, state);
+}
+
 }  // namespace dustbench::draw

@@ -17,6 +17,7 @@
 
 #include "methods/shared/gpu/buffer.h"
 #include "methods/shared/gpu/draw_call.h"
+#include "methods/shared/gpu/layer.h"
 #include "methods/shared/gpu/program.h"
 #include "methods/shared/gpu/shader_file.h"
 #include "methods/shared/gpu/vertex_array.h"
@@ -59,6 +60,8 @@ class InstanceBatch {
     [[nodiscard]] gpu::Program& program(const scene::View& view);
     /// Draws what was mapped last into the target that is bound.
     void drawInstances(const gpu::Program& program, const gpu::DrawState& state);
+    /// The same, blended into `layer` where nothing of the scene is nearer; `projection` is set for it.
+    void drawWithinScene(gpu::Program& program, const scene::View& view, const gpu::Layer& layer);
     [[nodiscard]] const InstanceLayout& layoutOfAll() const { return layout_; }
 
  private:

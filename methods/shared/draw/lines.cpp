@@ -28,15 +28,9 @@ Lines::Lines(gpu::Device& device, const LineStyle& style)
 
 void Lines::draw(const scene::View& view, const gpu::Layer& layer) {
     if (count() == 0) return;
-    const glm::mat4 eyeToClip = view.eyeToClip();
     gpu::Program& program = this->program(view);
-    program.set("projection", glm::vec3(eyeToClip[0][0], eyeToClip[1][1], view.camera.nearMetres));
     program.set("seconds", style_.seconds);
-    gpu::DrawState state;
-    state.blend = gpu::Blend::premultiplied;
-    state.depthTest = true;
-    layer.bindWithSceneDepth();
-    drawInstances(program, state);
+    drawWithinScene(program, view, layer);
 }
 
 }  // namespace dustbench::draw

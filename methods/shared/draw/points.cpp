@@ -30,16 +30,10 @@ Points::Points(gpu::Device& device, const PointStyle& style)
 
 void Points::draw(const scene::View& view, const gpu::Layer& layer) {
     if (count() == 0) return;
-    const glm::mat4 eyeToClip = view.eyeToClip();
     gpu::Program& program = this->program(view);
-    program.set("projection", glm::vec3(eyeToClip[0][0], eyeToClip[1][1], view.camera.nearMetres));
     program.set("pixels", style_.pixels);
     program.set("halfHeight", static_cast<float>(view.height) / 2);
-    gpu::DrawState state;
-    state.blend = gpu::Blend::premultiplied;
-    state.depthTest = true;
-    layer.bindWithSceneDepth();
-    drawInstances(program, state);
+    drawWithinScene(program, view, layer);
 }
 
 }  // namespace dustbench::draw
