@@ -5,54 +5,12 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <numeric>
 #include <set>
 
-#include "bench/suite/suite_axes.h"
-#include "bench/suite/suite_comparison.h"
+#include "bench/suite/cell_groups.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::bench {
-namespace {
-
-/// Scene, drive, size and the world's parameters.
-std::string worldKey(const RunSpec& spec) {
-    std::string key = fmt::format("{}\n{}\n{}x{}\n", spec.scene, spec.drive, spec.size.width, spec.size.height);
-    for (const auto& [name, text] : spec.parameters)
-        if (isOfTheWorld(name)) key += fmt::format("{}={}\n", name, text);
-    return key;
-}
-
-/// Disjoint sets of cells, each known by the first of its cells.
-class CellGroups {
- public:
-    explicit CellGroups(std::size_t cells) : parents_(cells) { std::iota(parents_.begin(), parents_.end(), 0); }
-    [[nodiscard]] std::size_t firstOf(std::size_t cell) const {
-        while (parents_[cell] != cell) cell = parents_[cell];
-        return cell;
-    }
-    void join(std::size_t a, std::size_t b) {
-        const auto [first, later] = std::minmax({firstOf(a), firstOf(b)});
-        parents_[later] = first;
-    }
-
- private:
-    std::vector<std::size_t> parents_;
-};
-
-CellGroups groupCells(const Suite& suite) {
-    CellGroups groups(suite.cells.size());
-    std::map<std::string, std::size_t> firstOfWorld;
-    for (std::size_t i = 0; i < suite.cells.size(); ++i)
-        groups.join(i, firstOfWorld.emplace(worldKey(suite.cells[i].spec), i).first->second);
-    for (const PlannedComparison& comparison : suite.comparisons)
-        for (const CellPair& pair : matchCells(suite, comparison).pairs)
-            groups.join(static_cast<std::size_t>(pair.of - suite.cells.data()),
-                        static_cast<std::size_t>(pair.with - suite.cells.data()));
-    return groups;
-}
-
-}  // namespace
 
 Shard parseShard(std::string_view text) {
     Shard shard{0, 0};
@@ -68,9 +26,9 @@ Shard parseShard(std::string_view text) {
 }
 
 std::vector<int> shardOfCells(const Suite& suite, int count) {
-    const CellGroups groups = groupCells(suite);
+    const std::vector<std::size_t> groups = groupCells(suite);
     std::map<std::size_t, std::size_t> sizes;  // by a group's first cell
-    for (std::size_t i = 0; i < suite.cells.size(); ++i) ++sizes[groups.firstOf(i)];
+    for (const std::size_t group : groups) ++sizes[group];
     std::vector<std::pair<std::size_t, std::size_t>> largestFirst(sizes.begin(), sizes.end());
     std::ranges::stable_sort(largestFirst, std::ranges::greater(), [](const auto& entry) { return entry.second; });
 
@@ -84,7 +42,7 @@ std::vector<int> shardOfCells(const Suite& suite, int count) {
         shardOfGroup[first] = shard;
     }
     std::vector<int> shards;
-    for (std::size_t i = 0; i < suite.cells.size(); ++i) shards.push_back(shardOfGroup.at(groups.firstOf(i)));
+    for (const std::size_t group : groups) shards.push_back(shardOfGroup.at(group));
     return shards;
 }
 

@@ -1,8 +1,8 @@
 // A suite in parts, for several machines: `--shard 2/3`.
 //
-// Runs that are compared with each other belong on one machine, so what is shared out are groups of cells: all methods
-// and repetitions of one world, and the worlds that a comparison of the suite brings together. The largest group goes
-// first, each to the shard that has the fewest runs. This depends on the suite alone; run ids do not depend on it.
+// Runs that are compared with each other belong on one machine, so what is shared out are groups of cells
+// (cell_groups.h) with all their repetitions. The largest group goes first, each to the shard that has the fewest runs.
+// This depends on the suite alone; run ids do not depend on it.
 #pragma once
 
 #include <cstddef>

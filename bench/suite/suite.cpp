@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
+#include "bench/suite/cell_groups.h"
 #include "bench/suite/suite_comparison.h"
 #include "bench/suite/suite_draft.h"
 #include "bench/suite/suite_fit.h"
@@ -91,12 +93,32 @@ Suite readSuite(files::TomlReader file, std::string id, bool quick) {
     return suite;
 }
 
-/// Fisher-Yates with the round's own random numbers.
-void shuffle(std::vector<PlannedRun>& runs, std::size_t first, std::uint64_t seed, std::uint32_t round) {
-    for (std::size_t i = runs.size() - 1; i > first; --i) {
-        const std::size_t choice = maths::randomWords(seed, round, i)[0] % (i - first + 1);
-        std::swap(runs[i], runs[first + choice]);
+/// A round's own random order of things.
+class RoundShuffle {
+ public:
+    RoundShuffle(std::uint64_t seed, int round) : seed_(seed), round_(static_cast<std::uint32_t>(round)) {}
+
+    /// Fisher-Yates.
+    template <typename Thing>
+    void operator()(std::vector<Thing>& things) {
+        for (std::size_t left = things.size(); left > 1; --left)
+            std::swap(things[left - 1], things[maths::randomWords(seed_, round_, draws_++)[0] % left]);
     }
+
+ private:
+    std::uint64_t seed_;
+    std::uint32_t round_;
+    std::uint64_t draws_ = 0;
+};
+
+/// Numbers of cells, group by group.
+std::vector<std::vector<std::size_t>> listGroups(const Suite& suite) {
+    std::map<std::size_t, std::vector<std::size_t>> members;
+    const std::vector<std::size_t> groups = groupCells(suite);
+    for (std::size_t i = 0; i < groups.size(); ++i) members[groups[i]].push_back(i);
+    std::vector<std::vector<std::size_t>> list;
+    for (auto& [first, cells] : members) list.push_back(std::move(cells));
+    return list;
 }
 
 }  // namespace
@@ -176,11 +198,15 @@ std::vector<PlannedRun> planRuns(const Suite& suite) {
             for (int repetition = 1; repetition <= suite.repetitions; ++repetition) add(cell, repetition);
         return plan;
     }
+    if (suite.cells.empty()) return plan;
+    std::vector<std::vector<std::size_t>> groups = listGroups(suite);
     for (int repetition = 1; repetition <= suite.repetitions; ++repetition) {
-        const std::size_t first = plan.size();
-        for (const PlannedRun& cell : suite.cells) add(cell, repetition);
-        if (plan.size() > first)
-            shuffle(plan, first, suite.cells.front().spec.seed, static_cast<std::uint32_t>(repetition));
+        RoundShuffle shuffle(suite.cells.front().spec.seed, repetition);
+        shuffle(groups);
+        for (std::vector<std::size_t>& cells : groups) {
+            shuffle(cells);
+            for (const std::size_t cell : cells) add(suite.cells[cell], repetition);
+        }
     }
     return plan;
 }

@@ -19,8 +19,9 @@ struct PlannedRun {
     std::string label;  ///< the parameters that the suite sets: `particles=1000 speed=20`
 };
 
-/// interleaved: every repetition is a round over all cells, each round in its own seeded random order, so that a drift
-/// of the machine hits all alike. batch: all repetitions of a cell, then the next cell.
+/// interleaved: every repetition is a round over all cells, each round in its own seeded random order: groups of cells
+/// (cell_groups.h), and the cells of each group one after the other, so that a drift of the machine hits alike what is
+/// compared. batch: all repetitions of a cell, then the next cell.
 enum class Order { interleaved, batch };
 /// Throws InputError.
 [[nodiscard]] Order parseOrder(std::string_view text);

@@ -105,6 +105,32 @@ TEST(Suite, InterleavedRoundsHoldEveryCellOnceInSeededOrder) {
     EXPECT_NE(labels, otherLabels);
 }
 
+TEST(Suite, WhatIsComparedStandsSideBySideInEveryRoundAndTakesTurnsToBeFirst) {
+    const Suite suite = parseSuite(R"(
+methods = ["null_method"]
+scenes = ["plain"]
+drives = ["straight"]
+sizes = ["64x48"]
+repetitions = 6
+[parameters]
+speed = "1:5:1"
+entry = ["first", "second"]
+)",
+                                   "turns", false);
+    const auto plan = planRuns(suite);
+    ASSERT_EQ(plan.size(), 60u);
+    std::set<std::string> worlds, earlier;
+    for (std::size_t i = 0; i < plan.size(); i += 2) {
+        const ParameterTexts &a = plan[i].spec.parameters, &b = plan[i + 1].spec.parameters;
+        EXPECT_EQ(a.at("speed"), b.at("speed")) << i;
+        EXPECT_NE(a.at("entry"), b.at("entry")) << i;
+        if (i < 10) worlds.insert(a.at("speed"));
+        earlier.insert(a.at("entry"));
+    }
+    EXPECT_EQ(worlds.size(), 5u);
+    EXPECT_EQ(earlier.size(), 2u);
+}
+
 TEST(Suite, BatchOrderKeepsTheRepetitionsOfACellTogether) {
     Suite suite = parseSuite(sweep, "sweep", false);
     suite.order = Order::batch;

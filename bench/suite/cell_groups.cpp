@@ -1,0 +1,56 @@
+#include "bench/suite/cell_groups.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "bench/suite/suite_axes.h"
+#include "bench/suite/suite_comparison.h"
+
+namespace dustbench::bench {
+namespace {
+
+/// Scene, drive, size and the world's parameters.
+std::string worldKey(const RunSpec& spec) {
+    std::string key = fmt::format("{}\n{}\n{}x{}\n", spec.scene, spec.drive, spec.size.width, spec.size.height);
+    for (const auto& [name, text] : spec.parameters)
+        if (isOfTheWorld(name)) key += fmt::format("{}={}\n", name, text);
+    return key;
+}
+
+/// Disjoint sets of cells, each known by the first of its cells.
+class CellGroups {
+ public:
+    explicit CellGroups(std::size_t cells) : parents_(cells) { std::iota(parents_.begin(), parents_.end(), 0); }
+    [[nodiscard]] std::size_t firstOf(std::size_t cell) const {
+        while (parents_[cell] != cell) cell = parents_[cell];
+        return cell;
+    }
+    void join(std::size_t a, std::size_t b) {
+        const auto [first, later] = std::minmax({firstOf(a), firstOf(b)});
+        parents_[later] = first;
+    }
+
+ private:
+    std::vector<std::size_t> parents_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> groupCells(const Suite& suite) {
+    CellGroups groups(suite.cells.size());
+    std::map<std::string, std::size_t> firstOfWorld;
+    for (std::size_t i = 0; i < suite.cells.size(); ++i)
+        groups.join(i, firstOfWorld.emplace(worldKey(suite.cells[i].spec), i).first->second);
+    for (const PlannedComparison& comparison : suite.comparisons)
+        for (const CellPair& pair : matchCells(suite, comparison).pairs)
+            groups.join(static_cast<std::size_t>(pair.of - suite.cells.data()),
+                        static_cast<std::size_t>(pair.with - suite.cells.data()));
+    std::vector<std::size_t> firsts;
+    for (std::size_t i = 0; i < suite.cells.size(); ++i) firsts.push_back(groups.firstOf(i));
+    return firsts;
+}
+
+}  // namespace dustbench::bench
