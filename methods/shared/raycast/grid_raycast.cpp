@@ -1,16 +1,6 @@
 #include "methods/shared/raycast/grid_raycast.h"
 
-#include <string>
-
 namespace dustbench::raycast {
-namespace {
-
-bool isSoftware(const gpu::Device& device) {
-    const std::string& renderer = device.info().renderer;
-    return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
-}
-
-}  // namespace
 
 Reflected cloudColour(const glm::vec3& albedo, const scene::Lights& lights) {
     const glm::vec3 often = albedo / (1.0f - albedo / 2.0f);
@@ -28,7 +18,7 @@ GridRaycast::GridRaycast(gpu::Device& device, const RaycastSettings& settings, c
         splats_.emplace(device, settings, ledger);
     } else if (settings.renderer == Renderer::isosurface) {
         surface_.emplace(device, settings, lights);
-    } else if (settings.backend == Backend::cpu || (settings.backend == Backend::automatic && isSoftware(device))) {
+    } else if (settings.backend == Backend::cpu || (settings.backend == Backend::automatic && device.isSoftware())) {
         cpu_.emplace(settings, ledger);
         composite_.emplace(device);
     } else {
