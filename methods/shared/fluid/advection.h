@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "methods/shared/fluid/cell_field.h"
 
@@ -39,7 +38,7 @@ class Advection {
     struct Pass;
     /// Where a cell of the whole field lies in the window.
     [[nodiscard]] std::size_t inWindow(std::size_t at) const {
-        return windowSlabs_[at / layout_.slab] + at % layout_.slab;
+        return at / layout_.slab % heldSlabs_ * layout_.slab + at % layout_.slab;
     }
     void predict(const Pass& pass, int firstSlab, int lastSlab);
     void correct(const Pass& pass, int firstSlab, int lastSlab);
@@ -47,7 +46,7 @@ class Advection {
     CellLayout layout_;
     LedgerVector<float> window_;  ///< first guesses of the slabs in work
     LedgerVector<float> places_;  ///< for each of these cells, where its air comes from: x, y, z
-    std::vector<std::uint32_t> fieldSlabs_, windowSlabs_;
+    std::size_t heldSlabs_ = 1;
 };
 
 }  // namespace dustbench::fluid

@@ -1,8 +1,11 @@
-// Trilinear look-up of whole records, and the path that a cell's air has come along. Private to the kernels.
+// Trilinear look-up of whole records, for a strip of cells at a time. Private to the kernels.
 //
+// Where the look-ups of all cells begin comes first, four cells in a vector; then cell by cell what is found there, six
+// quantities in a vector, so that many reads are in flight at once.
 // Frame: cells from the first ghost cell's centre, so that the centre of cell (i, j, k) is at (i + 1, j + 1, k + 1).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -11,71 +14,122 @@
 
 namespace dustbench::fluid {
 
-/// Records as a look-up sees them. `slabs[k]` is where slab k begins, in floats, so that a window of slabs can stand
-/// for the whole.
+/// So many cells of a row are taken together.
+inline constexpr std::size_t stripCells = 64;
+
+/// A place for each cell: x, y, z, and a number that means nothing.
+using Places = std::array<Float4, stripCells>;
+/// Four of them, from number `i` on.
+[[gnu::always_inline]] inline Float16 fourPlaces(const Places& places, std::size_t i) {
+    return load<Float16>(reinterpret_cast<const float*>(&places[i]));
+}
+[[gnu::always_inline]] inline Float16 fourTimes(const Float4& v) {
+    return __builtin_shufflevector(v, v, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
+}
+[[gnu::always_inline]] inline Int16 fourTimes(const Int4& v) {
+    return __builtin_shufflevector(v, v, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
+}
+
+/// A field in memory: whole, or as a ring of slabs, in which slab k is number k mod `slabs`.
 struct RecordView {
     const float* base;
-    std::size_t row;             ///< floats from one row to the next
-    const std::uint32_t* slabs;  ///< in floats / lanes
+    int slabs;
 };
 
-/// The eight cells around a place.
-struct Corners {
-    const float *low, *high;  ///< the cell at the least corner, and that in the next slab
-    Float4 fraction;          ///< of the way to the next cell, 0…1
+/// The eight cells around each place of a strip.
+template <bool ring>
+class CornerStrip {
+ public:
+    CornerStrip(const RecordView& view, const CellLayout& layout)
+        : view_(view),
+          row_(layout.row * lanes),
+          slab_(layout.slab * lanes),
+          lastCorner_(fourTimes(Int4{layout.nx, layout.ny, layout.nz, 0})),
+          strides_(fourTimes(Int4{1, static_cast<int>(layout.row), static_cast<int>(layout.slab), 0})),
+          slabs_(fourTimes(Int4{0, 0, view.slabs, 0})) {}
+
+    /// Of a ring: slabs from here on will be looked at, no more than there are.
+    void lookFrom(int slab) { shift_ = fourTimes(Int4{0, 0, slab % view_.slabs - slab, 0}); }
+
+    /// All places must lie within `0…last`, the centres of the outermost ghost cells. Those up to the next multiple of
+    /// four are looked at.
+    [[gnu::always_inline]] void find(const Places& places, std::size_t count) {
+        for (std::size_t i = 0; i < count; i += 4) {
+            const Float16 place = fourPlaces(places, i);
+            const Int16 corner = atMost(__builtin_convertvector(place, Int16), lastCorner_);
+            store(reinterpret_cast<float*>(&fractions_[i]), place - __builtin_convertvector(corner, Float16));
+            if constexpr (ring) {
+                const Int16 low = corner + shift_;
+                store(&low_[i], recordsOf(inRing(low)));
+                store(&high_[i], recordsOf(inRing(low + nextSlab)));
+            } else {
+                store(&low_[i], recordsOf(corner));
+            }
+        }
+    }
+
+    /// Six quantities at place `i`, and two numbers that mean nothing.
+    [[gnu::always_inline]] Float8 sample(std::size_t i) const {
+        const float fx = fractions_[i][0], fy = fractions_[i][1], fz = fractions_[i][2];
+        const auto along = [&](const auto& c) { return mix(mix(c.a, c.b, fy), mix(c.c, c.d, fy), fz); };
+        if constexpr (sixteenAtOnce) {
+            const Float16 both = along(column<Float16>(i, 0));
+            return mix(firstOf(both), secondOf(both), fx);
+        } else {
+            return mix(along(column<Float8>(i, 0)), along(column<Float8>(i, lanes)), fx);
+        }
+    }
+    /// Least and greatest value of the eight cells, quantity by quantity.
+    [[gnu::always_inline]] void extrema(std::size_t i, Float8& least, Float8& most) const {
+        const auto leastOf = [](const auto& c) { return atMost(atMost(c.a, c.b), atMost(c.c, c.d)); };
+        const auto mostOf = [](const auto& c) { return atLeast(atLeast(c.a, c.b), atLeast(c.c, c.d)); };
+        if constexpr (sixteenAtOnce) {
+            const auto both = column<Float16>(i, 0);
+            const Float16 low = leastOf(both), high = mostOf(both);
+            least = atMost(firstOf(low), secondOf(low));
+            most = atLeast(firstOf(high), secondOf(high));
+        } else {
+            const auto first = column<Float8>(i, 0), second = column<Float8>(i, lanes);
+            least = atMost(leastOf(first), leastOf(second));
+            most = atLeast(mostOf(first), mostOf(second));
+        }
+    }
+
+ private:
+    static constexpr Int16 nextSlab{0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
+
+    /// Four records of equal x, those of larger y second, of larger z last; in a Float16 each with its neighbour in x,
+    /// which lies beside it.
+    template <typename Vector>
+    struct Column {
+        Vector a, b, c, d;
+    };
+    template <typename Vector>
+    [[gnu::always_inline]] Column<Vector> column(std::size_t i, std::size_t from) const {
+        const float* low = view_.base + std::size_t{low_[i]} * lanes + from;
+        const float* high = ring ? view_.base + std::size_t{high_[i]} * lanes + from : low + slab_;
+        return {load<Vector>(low), load<Vector>(low + row_), load<Vector>(high), load<Vector>(high + row_)};
+    }
+    [[gnu::always_inline]] static Float8 firstOf(const Float16& both) {
+        return __builtin_shufflevector(both, both, 0, 1, 2, 3, 4, 5, 6, 7);
+    }
+    [[gnu::always_inline]] static Float8 secondOf(const Float16& both) {
+        return __builtin_shufflevector(both, both, 6, 7, 8, 9, 10, 11, 12, 13);
+    }
+    [[gnu::always_inline]] Int16 inRing(const Int16& cell) const { return cell - ((cell >= slabs_) & slabs_); }
+    /// x + y·row + z·slab of four cells.
+    [[gnu::always_inline]] Int4 recordsOf(const Int16& cell) const {
+        Int16 sum = cell * strides_;
+        sum += __builtin_shufflevector(sum, sum, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14);
+        sum += __builtin_shufflevector(sum, sum, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13);
+        return __builtin_shufflevector(sum, sum, 0, 4, 8, 12);
+    }
+
+    RecordView view_;
+    std::size_t row_, slab_;
+    Int16 lastCorner_, strides_, slabs_, shift_{};
+    std::array<Float4, stripCells> fractions_{};  ///< of the way to the next cell, 0…1
+    std::array<std::uint32_t, stripCells> low_{}, high_{};
 };
-
-/// `place` must lie within `0…last`, the centres of the outermost ghost cells.
-[[gnu::always_inline]] inline Corners cornersAround(const RecordView& view, const Float4& place, const Int4& lastCorner,
-                                                    const CellLayout& layout) {
-    Int4 whole = __builtin_convertvector(place, Int4);
-    whole = whole < lastCorner ? whole : lastCorner;
-    const auto x = static_cast<std::uint32_t>(whole[0]);
-    const auto y = static_cast<std::uint32_t>(whole[1]);
-    const auto z = static_cast<std::uint32_t>(whole[2]);
-    const std::size_t inSlab = y * layout.row + x;
-    Corners corners;
-    corners.low = view.base + (view.slabs[z] + inSlab) * lanes;
-    corners.high = view.base + (view.slabs[z + 1] + inSlab) * lanes;
-    corners.fraction = place - __builtin_convertvector(whole, Float4);
-    return corners;
-}
-
-/// Two neighbours in x lie side by side: four reads bring all eight.
-struct CornerPairs {
-    [[gnu::always_inline]] CornerPairs(const Corners& corners, std::size_t row)
-        : a(load<Float16>(corners.low)),
-          b(load<Float16>(corners.low + row)),
-          c(load<Float16>(corners.high)),
-          d(load<Float16>(corners.high + row)) {}
-    Float16 a, b, c, d;
-};
-
-/// The first of two neighbours, and the second.
-[[gnu::always_inline]] inline Float8 firstOf(const Float16& pair) {
-    return __builtin_shufflevector(pair, pair, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-[[gnu::always_inline]] inline Float8 secondOf(const Float16& pair) {
-    return __builtin_shufflevector(pair, pair, 6, 7, 8, 9, 10, 11, 12, 13);
-}
-
-/// Six lanes of the record at a place, and two more that mean nothing.
-[[gnu::always_inline]] inline Float8 sample(const Corners& corners, std::size_t row) {
-    const CornerPairs pairs(corners, row);
-    const float fx = corners.fraction[0], fy = corners.fraction[1], fz = corners.fraction[2];
-    const Float16 nearSlab = pairs.a * (1 - fy) + pairs.b * fy;
-    const Float16 farSlab = pairs.c * (1 - fy) + pairs.d * fy;
-    const Float16 both = nearSlab * (1 - fz) + farSlab * fz;
-    return firstOf(both) * (1 - fx) + secondOf(both) * fx;
-}
-
-/// Least and greatest value of the eight cells, lane by lane.
-[[gnu::always_inline]] inline void extrema(const Corners& corners, std::size_t row, Float8& least, Float8& most) {
-    const CornerPairs pairs(corners, row);
-    const Float16 low = atMost(atMost(pairs.a, pairs.b), atMost(pairs.c, pairs.d));
-    const Float16 high = atLeast(atLeast(pairs.a, pairs.b), atLeast(pairs.c, pairs.d));
-    least = atMost(firstOf(low), secondOf(low));
-    most = atLeast(firstOf(high), secondOf(high));
-}
 
 }  // namespace dustbench::fluid
