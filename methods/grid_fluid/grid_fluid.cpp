@@ -9,7 +9,6 @@
 #include "methods/grid_fluid/fluid_place.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/maths/transmittance.h"
-#include "methods/shared/parallel/for_each_block.h"
 #include "methods/shared/scene/scene.h"
 #include "methods/shared/volume.h"
 
@@ -20,7 +19,6 @@ namespace {
 constexpr float mostCellsPerStep = 100;
 /// A vehicle this far from the box moves none of its cells.
 constexpr double vehicleReachMetres = 8;
-constexpr std::size_t rowsInABlock = 64;
 
 bool vehicleIsNear(const fluid::FluidBox& box, const scene::SceneState& state) {
     const glm::dvec3 place = state.vehicle.position;
@@ -29,16 +27,10 @@ bool vehicleIsNear(const fluid::FluidBox& box, const scene::SceneState& state) {
     return glm::distance(place, nearest) < vehicleReachMetres;
 }
 
-/// One quantity of all cells, x fastest, without ghosts.
-void gather(const fluid::FluidSolver& solver, fluid::Lane lane, float* to) {
-    const fluid::CellLayout& layout = solver.layout();
-    const auto width = static_cast<std::size_t>(layout.nx);
-    parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
-        for (std::size_t r = first; r < first + count; ++r) {
-            const float* record = solver.cells().cell(layout.at(0, layout.rowJ(r), layout.rowK(r)));
-            for (std::size_t i = 0; i < width; ++i) to[r * width + i] = record[i * fluid::lanes + lane];
-        }
-    });
+/// Whether the fluid is solved on the GPU, for a picture that is made where it says.
+bool isSolvedOnGpu(SolverBackend wanted, raycast::Backend picture, const gpu::Device& device) {
+    if (wanted != SolverBackend::automatic) return wanted == SolverBackend::openGl;
+    return picture != raycast::Backend::cpu && !device.isSoftware();
 }
 
 }  // namespace
@@ -55,7 +47,7 @@ void GridFluid::prepare(const scene::Scene& scene, gpu::Device& device) {
     solver.sides = fluid::withWind(fluid::openOverFloor, scene.wind);
     if (!settings_.setup.followsVehicle)
         solver.box.originMetres = wantedOrigin(settings_.setup, solver.box, scene.terrain, {});
-    solver_.emplace(solver, ledger_);
+    solver_.emplace(solver, isSolvedOnGpu(settings_.solverBackend, settings_.picture.backend, device), device, ledger_);
     solids_.emplace(scene, solver.box.cells, ledger_.account("solids"));
     emitters_.emplace(settings_.setup.sources, scene, settings_.seed);
     if (!settings_.setup.followsVehicle) requireSourcesInside({});
@@ -132,8 +124,8 @@ void GridFluid::placeSolids(const scene::SceneState& state) {
 }
 
 raycast::ShownGrid GridFluid::shownGrid() {
-    gather(*solver_, fluid::density, density_.data());
-    if (!reaction_.empty()) gather(*solver_, fluid::reaction, reaction_.data());
+    solver_->gather(fluid::density, density_);
+    if (!reaction_.empty()) solver_->gather(fluid::reaction, reaction_);
     const fluid::FluidBox& box = solver_->box();
     return {box.cells, box.spacingMetres, box.originMetres, density_, reaction_};
 }
@@ -144,7 +136,6 @@ void GridFluid::draw(const Frame& frame, gpu::Layer& layer) {
 
 void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
     const fluid::FluidBox& box = solver_->box();
-    const fluid::CellLayout& layout = solver_->layout();
     const std::size_t count = box.cellCount();
     std::vector<float> extinction(density_.begin(), density_.end());
     for (float& value : extinction) value *= static_cast<float>(settings_.setup.look.extinctionPerMetre);
@@ -152,15 +143,13 @@ void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
     for (std::size_t n = 0; n < lanes.size(); ++n) {
         constexpr std::array from{fluid::velocityX, fluid::velocityY, fluid::velocityZ, fluid::temperature};
         lanes[n].resize(count);
-        gather(*solver_, from[n], lanes[n].data());
+        solver_->gather(from[n], lanes[n]);
     }
-    std::vector<float> velocity, reaction(count), pressure, solids;
-    gather(*solver_, fluid::reaction, reaction.data());
+    const std::vector<float> pressure = solver_->pressuresM2PerS2();
+    std::vector<float> velocity, reaction(count), solids;
+    solver_->gather(fluid::reaction, reaction);
     for (std::size_t c = 0; c < count; ++c)
         for (std::size_t axis = 0; axis < 3; ++axis) velocity.push_back(lanes[axis][c]);
-    for (std::size_t r = 0; r < layout.rows(); ++r)
-        for (int i = 0; i < layout.nx; ++i)
-            pressure.push_back(solver_->pressureM2PerS2(i, layout.rowJ(r), layout.rowK(r)));
     for (const std::uint8_t body : solids_->bodies()) solids.push_back(body != 0 ? 1.0f : 0.0f);
     const std::array<GridField, 6> fields{{{"density", "1", 1, density_},
                                            {"temperature", "K above the air", 1, lanes[3]},
@@ -190,6 +179,7 @@ std::optional<double> GridFluid::massKept(const Frame& frame) const {
 MemoryReport GridFluid::memory() const {
     MemoryReport report;
     for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
+    if (solver_) std::ranges::move(solver_->gpuMemory(), std::back_inserter(report));
     if (picture_) report.push_back({"picture", 0, picture_->gpuBytes()});
     return report;
 }

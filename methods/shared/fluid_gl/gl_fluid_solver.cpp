@@ -49,8 +49,11 @@ GlFluidSolver::GlFluidSolver(const fluid::FluidSettings& settings, gpu::Device& 
       divergence_(device, {grid_glsl, level_glsl, kinds_glsl, face_speed_glsl, divergence_comp}),
       gradient_(device, {grid_glsl, level_glsl, kinds_glsl, face_speed_glsl, gradient_comp}),
       greatest_(device, {grid_glsl, greatest_comp}),
-      scroll_(device, {grid_glsl, scroll_comp}) {
-    for (Kernel* kernel : {&divergence_, &gradient_, &greatest_, &scroll_}) kernel->set("cells", settings.box.cells);
+      scroll_(device, {grid_glsl, scroll_comp}),
+      gather_(device, {grid_glsl, gather_comp}),
+      gatherTexture_(device, {grid_glsl, gather_comp}, {{"TEXTURE", ""}}) {
+    for (Kernel* kernel : {&divergence_, &gradient_, &greatest_, &scroll_, &gather_, &gatherTexture_})
+        kernel->set("cells", settings.box.cells);
     scroll_.set("wind", settings.windMetresPerSecond);
     if (settings.keepsDensity) density_.emplace(device, settings.box.cells);
     move(settings.box.cells);  // by all that the box has: nothing is left but the wind
@@ -202,6 +205,22 @@ void GlFluidSolver::readCells(fluid::CellField& state) const {
         record[fluid::temperature] = carried[at].x;
         record[fluid::reaction] = carried[at].y;
     }
+}
+
+void GlFluidSolver::gather(fluid::Lane lane, std::span<float> to) const {
+    // First guesses are of use within a step alone.
+    cells_.bind(1);
+    guess_.moving.bindStorage(3);
+    gather_.set("lane", static_cast<int>(lane));
+    gather_.run(settings_.box.cells);
+    guess_.moving.read(to);
+}
+
+void GlFluidSolver::gather(fluid::Lane lane, const gpu::Texture& to) const {
+    cells_.bind(1);
+    to.bindImage(0, false, true);
+    gatherTexture_.set("lane", static_cast<int>(lane));
+    gatherTexture_.run(settings_.box.cells);
 }
 
 std::vector<float> GlFluidSolver::pressuresM2PerS2() const {

@@ -19,6 +19,7 @@
 #include "methods/shared/fluid_gl/pressure_on_gpu.h"
 #include "methods/shared/fluid_gl/solids_on_gpu.h"
 #include "methods/shared/fluid_gl/sources_on_gpu.h"
+#include "methods/shared/gpu/texture.h"
 #include "methods/shared/stage_clock.h"
 
 namespace dustbench::fluid_gl {
@@ -49,8 +50,10 @@ class GlFluidSolver {
     [[nodiscard]] std::vector<float> pressuresM2PerS2() const;
     /// Of all records, as fluid::FluidSolver::stateHash has it.
     [[nodiscard]] std::uint64_t stateHash() const;
-    /// The state as it lies on the GPU, for who draws it there.
-    [[nodiscard]] const CellsOnGpu& cells() const { return cells_; }
+    /// One of the numbers that cells hold, x fastest, without ghosts (waits for the GPU).
+    void gather(fluid::Lane lane, std::span<float> to) const;
+    /// The same into an R32F texture of the box's cells, for who draws it there.
+    void gather(fluid::Lane lane, const gpu::Texture& to) const;
     [[nodiscard]] MemoryReport memory() const;
 
  private:
@@ -74,6 +77,7 @@ class GlFluidSolver {
     ForcesOnGpu forces_;
     PressureOnGpu pressure_;
     Kernel divergence_, gradient_, greatest_, scroll_;
+    mutable Kernel gather_, gatherTexture_;  ///< they change nothing here but their own uniforms
     bool operatorKnown_ = false, speedsKnown_ = false, stateUnseen_ = false;
     std::int64_t steps_ = 0;
     double lastStepSeconds_ = 0;
