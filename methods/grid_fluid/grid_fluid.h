@@ -50,12 +50,13 @@ class GridFluid final : public Method {
     void simulate(const Frame& frame);
     void placeSolids(const scene::SceneState& state);
     void requireSourcesInside(const scene::SceneState& state);
-    [[nodiscard]] raycast::ShownGrid shownGrid();
+    void show();
 
     GridFluidSettings settings_;
     const scene::Scene* scene_ = nullptr;
     MemoryLedger ledger_;
-    LedgerVector<float> density_, reaction_;  ///< as the picture wants them
+    LedgerVector<float> density_, reaction_;         ///< as the picture wants them
+    gpu::Texture densityTexture_, reactionTexture_;  ///< the same where they stay on the GPU
     std::optional<FlowSolver> solver_;
     std::optional<FluidSolids> solids_;
     std::optional<Emitters> emitters_;
