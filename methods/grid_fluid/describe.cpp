@@ -55,6 +55,7 @@ GridFluidSettings settingsOf(const ParameterValues& values) {
     solver.jacobiSweeps = static_cast<int>(values.integer("sweeps"));
     solver.divergencePerStep = static_cast<float>(values.real("tolerance"));
     fluid::check(solver.box);
+    settings.solverBackend = values.choiceAs<SolverBackend>("solver");
     settings.framesPerStep = static_cast<int>(values.integer("frames_per_step"));
     settings.seed = static_cast<std::uint64_t>(values.integer("fluid_seed"));
 
@@ -93,6 +94,8 @@ MethodInfo describe() {
                 "uncorrected value")
         .choice("pressure", "multigrid", {"jacobi", "multigrid"},
                 "the paper's sweeps, or cycles over coarser and coarser grids until the tolerance is met")
+        .choice("solver", "auto", {"auto", "cpu", "opengl"},
+                "who computes the flow; auto: the GPU where OpenGL has one and the rays are cast there, else the CPU")
         .integer("sweeps", 40, 0, 100'000, "", "of pressure=jacobi")
         .real("tolerance", 0.001, 1e-7, 10, "",
               "of pressure=multigrid: the share of its volume that a cell may gain in a step")

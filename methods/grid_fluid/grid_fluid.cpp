@@ -9,7 +9,6 @@
 #include "methods/grid_fluid/fluid_place.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/maths/transmittance.h"
-#include "methods/shared/parallel/for_each_block.h"
 #include "methods/shared/scene/scene.h"
 #include "methods/shared/volume.h"
 
@@ -20,7 +19,6 @@ namespace {
 constexpr float mostCellsPerStep = 100;
 /// A vehicle this far from the box moves none of its cells.
 constexpr double vehicleReachMetres = 8;
-constexpr std::size_t rowsInABlock = 64;
 
 bool vehicleIsNear(const fluid::FluidBox& box, const scene::SceneState& state) {
     const glm::dvec3 place = state.vehicle.position;
@@ -29,16 +27,10 @@ bool vehicleIsNear(const fluid::FluidBox& box, const scene::SceneState& state) {
     return glm::distance(place, nearest) < vehicleReachMetres;
 }
 
-/// One quantity of all cells, x fastest, without ghosts.
-void gather(const fluid::FluidSolver& solver, fluid::Lane lane, float* to) {
-    const fluid::CellLayout& layout = solver.layout();
-    const auto width = static_cast<std::size_t>(layout.nx);
-    parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
-        for (std::size_t r = first; r < first + count; ++r) {
-            const float* record = solver.cells().cell(layout.at(0, layout.rowJ(r), layout.rowK(r)));
-            for (std::size_t i = 0; i < width; ++i) to[r * width + i] = record[i * fluid::lanes + lane];
-        }
-    });
+/// Whether the fluid is solved on the GPU, for a picture that is made where it says.
+bool isSolvedOnGpu(SolverBackend wanted, raycast::Backend picture, const gpu::Device& device) {
+    if (wanted != SolverBackend::automatic) return wanted == SolverBackend::openGl;
+    return picture != raycast::Backend::cpu && !device.isSoftware();
 }
 
 }  // namespace
@@ -55,14 +47,24 @@ void GridFluid::prepare(const scene::Scene& scene, gpu::Device& device) {
     solver.sides = fluid::withWind(fluid::openOverFloor, scene.wind);
     if (!settings_.setup.followsVehicle)
         solver.box.originMetres = wantedOrigin(settings_.setup, solver.box, scene.terrain, {});
-    solver_.emplace(solver, ledger_);
+    solver_.emplace(solver, isSolvedOnGpu(settings_.solverBackend, settings_.picture.backend, device), device, ledger_);
     solids_.emplace(scene, solver.box.cells, ledger_.account("solids"));
     emitters_.emplace(settings_.setup.sources, scene, settings_.seed);
     if (!settings_.setup.followsVehicle) requireSourcesInside({});
-    density_.resize(solver.box.cellCount());
-    if (!settings_.setup.look.fire.empty()) reaction_.resize(solver.box.cellCount());
     settings_.picture.smokeColour = settings_.setup.look.albedo.value_or(scene.dustAlbedo);
     picture_.emplace(device, settings_.picture, scene.lights, ledger_);
+    const bool burns = !settings_.setup.look.fire.empty();
+    if (solver_->onGpu() && picture_->takesTextures()) {
+        const glm::ivec3 cells = solver.box.cells;
+        const auto make = [&](gpu::Texture& texture) {
+            texture = gpu::Texture::make3D(device, "grid shown", gpu::Format::r32F, cells.x, cells.y, cells.z);
+        };
+        make(densityTexture_);
+        if (burns) make(reactionTexture_);
+    } else {
+        density_.resize(solver.box.cellCount());
+        if (burns) reaction_.resize(solver.box.cellCount());
+    }
 }
 
 void GridFluid::requireSourcesInside(const scene::SceneState& state) {
@@ -91,7 +93,7 @@ void GridFluid::update(const Frame& frame) {
         if (framesDue_ >= settings_.framesPerStep) simulate(frame);
     }
     const auto timing = frame.clock.measure(Stage::upload);
-    picture_->upload(shownGrid());
+    show();
 }
 
 void GridFluid::simulate(const Frame& frame) {
@@ -131,11 +133,19 @@ void GridFluid::placeSolids(const scene::SceneState& state) {
     solidsStandStill_ = !moving;
 }
 
-raycast::ShownGrid GridFluid::shownGrid() {
-    gather(*solver_, fluid::density, density_.data());
-    if (!reaction_.empty()) gather(*solver_, fluid::reaction, reaction_.data());
+void GridFluid::show() {
     const fluid::FluidBox& box = solver_->box();
-    return {box.cells, box.spacingMetres, box.originMetres, density_, reaction_};
+    if (densityTexture_.bytes() > 0) {
+        const bool burns = reactionTexture_.bytes() > 0;
+        solver_->gather(fluid::density, densityTexture_);
+        if (burns) solver_->gather(fluid::reaction, reactionTexture_);
+        picture_->take(
+            {box.cells, box.spacingMetres, box.originMetres, &densityTexture_, burns ? &reactionTexture_ : nullptr});
+        return;
+    }
+    solver_->gather(fluid::density, density_);
+    if (!reaction_.empty()) solver_->gather(fluid::reaction, reaction_);
+    picture_->upload({box.cells, box.spacingMetres, box.originMetres, density_, reaction_});
 }
 
 void GridFluid::draw(const Frame& frame, gpu::Layer& layer) {
@@ -144,25 +154,24 @@ void GridFluid::draw(const Frame& frame, gpu::Layer& layer) {
 
 void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
     const fluid::FluidBox& box = solver_->box();
-    const fluid::CellLayout& layout = solver_->layout();
     const std::size_t count = box.cellCount();
-    std::vector<float> extinction(density_.begin(), density_.end());
+    std::vector<float> density(count);
+    solver_->gather(fluid::density, density);
+    std::vector<float> extinction = density;
     for (float& value : extinction) value *= static_cast<float>(settings_.setup.look.extinctionPerMetre);
     std::array<std::vector<float>, 4> lanes;
     for (std::size_t n = 0; n < lanes.size(); ++n) {
         constexpr std::array from{fluid::velocityX, fluid::velocityY, fluid::velocityZ, fluid::temperature};
         lanes[n].resize(count);
-        gather(*solver_, from[n], lanes[n].data());
+        solver_->gather(from[n], lanes[n]);
     }
-    std::vector<float> velocity, reaction(count), pressure, solids;
-    gather(*solver_, fluid::reaction, reaction.data());
+    const std::vector<float> pressure = solver_->pressuresM2PerS2();
+    std::vector<float> velocity, reaction(count), solids;
+    solver_->gather(fluid::reaction, reaction);
     for (std::size_t c = 0; c < count; ++c)
         for (std::size_t axis = 0; axis < 3; ++axis) velocity.push_back(lanes[axis][c]);
-    for (std::size_t r = 0; r < layout.rows(); ++r)
-        for (int i = 0; i < layout.nx; ++i)
-            pressure.push_back(solver_->pressureM2PerS2(i, layout.rowJ(r), layout.rowK(r)));
     for (const std::uint8_t body : solids_->bodies()) solids.push_back(body != 0 ? 1.0f : 0.0f);
-    const std::array<GridField, 6> fields{{{"density", "1", 1, density_},
+    const std::array<GridField, 6> fields{{{"density", "1", 1, density},
                                            {"temperature", "K above the air", 1, lanes[3]},
                                            {"reaction", "1", 1, reaction},
                                            {"velocity", "m/s", 3, velocity},
@@ -172,8 +181,10 @@ void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
 }
 
 double GridFluid::opticalMassSquareMetres() const {
+    std::vector<float> density(solver_->box().cellCount());
+    solver_->gather(fluid::density, density);
     double sum = 0;
-    for (const float value : density_) sum += static_cast<double>(value);
+    for (const float value : density) sum += static_cast<double>(value);
     return sum * settings_.setup.look.extinctionPerMetre * std::pow(settings_.solver.box.spacingMetres, 3);
 }
 
@@ -190,6 +201,9 @@ std::optional<double> GridFluid::massKept(const Frame& frame) const {
 MemoryReport GridFluid::memory() const {
     MemoryReport report;
     for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
+    if (solver_) std::ranges::move(solver_->gpuMemory(), std::back_inserter(report));
+    if (const std::size_t bytes = densityTexture_.bytes() + reactionTexture_.bytes(); bytes > 0)
+        report.push_back({"grid shown", 0, bytes});
     if (picture_) report.push_back({"picture", 0, picture_->gpuBytes()});
     return report;
 }

@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "methods/grid_fluid/emitters.h"
+#include "methods/grid_fluid/flow_solver.h"
 #include "methods/grid_fluid/fluid_setup.h"
 #include "methods/grid_fluid/fluid_solids.h"
-#include "methods/shared/fluid/fluid_solver.h"
 #include "methods/shared/method.h"
 #include "methods/shared/raycast/grid_raycast.h"
 
@@ -21,6 +21,7 @@ namespace dustbench::grid_fluid {
 struct GridFluidSettings {
     FluidSetup setup;
     fluid::FluidSettings solver;  ///< its box without a place
+    SolverBackend solverBackend = SolverBackend::cpu;
     int framesPerStep = 1;
     std::uint64_t seed = 1;
     raycast::RaycastSettings picture;
@@ -41,7 +42,7 @@ class GridFluid final : public Method {
     [[nodiscard]] std::optional<FlowExtremes> flow() const override { return flow_; }
     [[nodiscard]] bool wantsPreroll() const override { return true; }
 
-    [[nodiscard]] const fluid::FluidSolver& solver() const { return *solver_; }
+    [[nodiscard]] const FlowSolver& solver() const { return *solver_; }
     /// ∫ extinction dV.
     [[nodiscard]] double opticalMassSquareMetres() const;
 
@@ -49,13 +50,14 @@ class GridFluid final : public Method {
     void simulate(const Frame& frame);
     void placeSolids(const scene::SceneState& state);
     void requireSourcesInside(const scene::SceneState& state);
-    [[nodiscard]] raycast::ShownGrid shownGrid();
+    void show();
 
     GridFluidSettings settings_;
     const scene::Scene* scene_ = nullptr;
     MemoryLedger ledger_;
-    LedgerVector<float> density_, reaction_;  ///< as the picture wants them
-    std::optional<fluid::FluidSolver> solver_;
+    LedgerVector<float> density_, reaction_;         ///< as the picture wants them
+    gpu::Texture densityTexture_, reactionTexture_;  ///< the same where they stay on the GPU
+    std::optional<FlowSolver> solver_;
     std::optional<FluidSolids> solids_;
     std::optional<Emitters> emitters_;
     std::optional<raycast::GridRaycast> picture_;

@@ -235,6 +235,42 @@ TEST(GridFluid, IsTheSameAgainAndFollowsItsSeed) {
     EXPECT_NE(hashOf(1), hashOf(2));
 }
 
+TEST(GridFluid, IsDrawnAlikeByEitherSolver) {
+    const auto pictureOf = [](SolverBackend solver, raycast::Backend backend, double& mass) {
+        TestMoment moment(0, 64, 64, {0, 1.2, 4}, {0, 0, -1});
+        moment.scene.solids = {{"hare", std::make_shared<scene::Mesh>(ball(8))}};
+        moment.scene.solidPoses = {{glm::mat4(placed({0, 0.8, 0}, 0.5)), {}, {}}};
+        GridFluidSettings settings = settingsOf("fire", {24, 32, 24});
+        settings.setup.look.fire = "";  // smoke, and its shadow
+        settings.setup.look.extinctionPerMetre = 20;
+        settings.picture.extinctionPerMetre = 20;
+        settings.picture.shadowCells = 2;
+        settings.picture.backend = backend;
+        settings.solverBackend = solver;
+        GridFluid method(settings);
+        method.prepare(moment.scene, TestMoment::device());
+        EXPECT_EQ(method.solver().onGpu(), solver == SolverBackend::openGl);
+        for (int step = 0; step < 8; ++step) method.update(moment.frame());
+        EXPECT_EQ(method.solver().steps(), 8);
+        mass = method.opticalMassSquareMetres();
+        return moment.draw(method);
+    };
+    for (const raycast::Backend backend : {raycast::Backend::cpu, raycast::Backend::gl}) {
+        double mass = 0, massOnGpu = 0;
+        const draw::Image expected = pictureOf(SolverBackend::cpu, backend, mass);
+        const draw::Image picture = pictureOf(SolverBackend::openGl, backend, massOnGpu);
+        EXPECT_NEAR(massOnGpu, mass, 1e-4 * mass);
+        float most = 0, off = 0;
+        for (std::size_t p = 0; p < expected.pixels.size(); ++p) {
+            most = std::max(most, expected.pixels[p].a);
+            const glm::vec4 difference = glm::abs(picture.pixels[p] - expected.pixels[p]);
+            off = std::max({off, difference.r, difference.g, difference.b, difference.a});
+        }
+        EXPECT_GT(most, 0.1f);
+        EXPECT_LE(off, 1e-3f);
+    }
+}
+
 TEST(GridFluid, RefusesWhatCannotFlow) {
     TestMoment moment(0, 32, 32, {0, 2, 8}, {0, 0, -1});
     moment.scene.id = "bare";

@@ -5,42 +5,19 @@
 #include <cmath>
 #include <cstring>
 #include <mutex>
-#include <stdexcept>
 
 #include "methods/shared/available_memory.h"
-#include "methods/shared/errors.h"
 #include "methods/shared/fluid/density_balance.h"
 #include "methods/shared/fluid/lanes.h"
+#include "methods/shared/fluid/source_reach.h"
 #include "methods/shared/maths/hash.h"
 #include "methods/shared/parallel/for_each_block.h"
 
 namespace dustbench::fluid {
 namespace {
 
-constexpr std::array<std::string_view, lanes> laneNames{"velocity x", "velocity y",  "velocity z",
-                                                        "density",    "temperature", "reaction"};
-
-void requireAtLeastNothing(const char* name, float value) {
-    if (!(value >= 0) || !std::isfinite(value))
-        throw InputError(std::string(name) + ": got " + std::to_string(value) + ", allowed: 0 or more");
-}
-
 const FluidSettings& checked(const FluidSettings& settings) {
-    check(settings.box);
-    const ForceSettings& forces = settings.forces;
-    requireAtLeastNothing("confinement", forces.confinementPerSecond);
-    requireAtLeastNothing("decay of the density", forces.densityDecayPerSecond);
-    requireAtLeastNothing("cooling", forces.coolingPerSecond);
-    requireAtLeastNothing("loss of the reaction", forces.reactionLossPerSecond);
-    requireAtLeastNothing("viscosity", forces.viscosityM2PerSecond);
-    for (int axis = 0; axis < 3; ++axis)
-        if (!std::isfinite(settings.windMetresPerSecond[axis]))
-            throw InputError("wind: got " + std::to_string(settings.windMetresPerSecond[axis]) +
-                             ", allowed: metres per second");
-    if (!(settings.divergencePerStep > 0))
-        throw InputError("divergence: got " + std::to_string(settings.divergencePerStep) + ", allowed: more than 0");
-    if (settings.jacobiSweeps < 0)
-        throw InputError("jacobi sweeps: got " + std::to_string(settings.jacobiSweeps) + ", allowed: 0 or more");
+    check(settings);
     // All of it at once, so that nothing is half allocated.
     const CellLayout layout(settings.box.cells);
     requireAvailable("grid of the fluid", layout.padded() * (2 * lanes * sizeof(float) + 1));
@@ -76,8 +53,7 @@ void FluidSolver::fill(GhostUse use) {
 }
 
 StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> sources, const StageClock& clock) {
-    if (!(stepSeconds > 0) || !std::isfinite(stepSeconds))
-        throw InputError("step: got " + std::to_string(stepSeconds) + " s, allowed: more than 0");
+    checkStep(stepSeconds);
     if (!speedsKnown_) findGreatestSpeeds();
     const auto seconds = static_cast<float>(stepSeconds);
     const auto spacing = static_cast<float>(settings_.box.spacingMetres);
@@ -134,30 +110,14 @@ PressureResult FluidSolver::project(float seconds) {
 void FluidSolver::addSources(std::span<const FluidSource> sources, float seconds) {
     const FluidBox& box = settings_.box;
     for (const FluidSource& source : sources) {
-        if (!(source.radiusMetres > 0))
-            throw InputError("source: got a radius of " + std::to_string(source.radiusMetres) +
-                             " m, allowed: more than 0");
-        const glm::dvec3 centre = (source.centreMetres - box.originMetres) / box.spacingMetres - 0.5;
-        // A smaller one could fall between the cells.
-        const double radiusCells = std::max(source.radiusMetres / box.spacingMetres, 0.5);
-        const double reach = 3 * radiusCells;
-        // What lies outside the box has no cells; clamped first, so that far away is no overflow.
-        const auto bound = [&](double cell, int axis) {
-            return static_cast<int>(std::clamp(cell, -1.0, static_cast<double>(box.cells[axis])));
-        };
-        glm::ivec3 first, last;
-        for (int axis = 0; axis < 3; ++axis) {
-            first[axis] = std::max(0, bound(std::ceil(centre[axis] - reach), axis));
-            last[axis] = std::min(box.cells[axis] - 1, bound(std::floor(centre[axis] + reach), axis));
-        }
+        const SourceReach reach = reachOf(source, box);
         const auto forFluidInReach = [&](const auto& take) {
-            const auto perRadius = static_cast<float>(1 / radiusCells);
-            for (int k = first.z; k <= last.z; ++k)
-                for (int j = first.y; j <= last.y; ++j)
-                    for (int i = first.x; i <= last.x; ++i) {
+            for (int k = reach.first.z; k <= reach.last.z; ++k)
+                for (int j = reach.first.y; j <= reach.last.y; ++j)
+                    for (int i = reach.first.x; i <= reach.last.x; ++i) {
                         const std::size_t at = layout_.at(i, j, k);
                         if (solids_.conductance()[at] != 1) continue;
-                        const glm::vec3 d = glm::vec3(glm::dvec3(i, j, k) - centre) * perRadius;
+                        const glm::vec3 d = glm::vec3(glm::dvec3(i, j, k) - reach.centreCells) * reach.perRadius;
                         take(cells_.cell(at), std::exp(-0.5f * (d.x * d.x + d.y * d.y + d.z * d.z)));
                     }
         };
@@ -183,15 +143,10 @@ void FluidSolver::addSources(std::span<const FluidSource> sources, float seconds
 void FluidSolver::diffuseVelocity(float seconds) {
     const auto spacing = static_cast<float>(settings_.box.spacingMetres);
     const float diffusion = settings_.forces.viscosityM2PerSecond * seconds / (spacing * spacing);
-    if (diffusion == 0) return;
-    const float parts = std::ceil(diffusion * 8);
-    if (parts > 1000)
-        throw InputError(
-            "viscosity: got " + std::to_string(settings_.forces.viscosityM2PerSecond) + " m2/s, allowed: up to " +
-            std::to_string(settings_.forces.viscosityM2PerSecond * 1000 / parts) + " at this step and spacing");
-    for (float part = 0; part < parts; ++part) {
+    const int parts = diffusionParts(settings_, seconds);
+    for (int part = 0; part < parts; ++part) {
         fill(GhostUse::lookUp);
-        diffuse(cells_, layout_, solids_.conductance(), diffusion / parts, borrowed());
+        diffuse(cells_, layout_, solids_.conductance(), diffusion / static_cast<float>(parts), borrowed());
     }
 }
 
@@ -227,23 +182,11 @@ void FluidSolver::findGreatestSpeeds() {
             lost |= !(zero[p / 16][p % 16] == 0);
         }
     });
-    if (lost) throwLostNumber();
+    if (lost) throwLostNumber(cells_, layout_, steps_);
     for (int axis = 0; axis < 3; ++axis)
         greatestSpeeds_[axis] =
             std::max(greatest[static_cast<std::size_t>(axis)], std::fabs(settings_.windMetresPerSecond[axis]));
     speedsKnown_ = true;
-}
-
-void FluidSolver::throwLostNumber() const {
-    for (int k = 0; k < layout_.nz; ++k)
-        for (int j = 0; j < layout_.ny; ++j)
-            for (int i = 0; i < layout_.nx; ++i)
-                for (std::size_t lane = 0; lane < lanes; ++lane)
-                    if (!std::isfinite(cells_.cell(layout_.at(i, j, k))[lane]))
-                        throw std::runtime_error("fluid: after step " + std::to_string(steps_) + " the " +
-                                                 std::string(laneNames[lane]) + " of cell " + std::to_string(i) + ", " +
-                                                 std::to_string(j) + ", " + std::to_string(k) + " is not a number");
-    throw std::logic_error("fluid: a number was lost and is there again");
 }
 
 void FluidSolver::scroll(glm::ivec3 by) {

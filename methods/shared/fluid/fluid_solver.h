@@ -8,46 +8,18 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "methods/shared/fluid/advection.h"
 #include "methods/shared/fluid/box_ghosts.h"
 #include "methods/shared/fluid/cell_field.h"
-#include "methods/shared/fluid/fluid_box.h"
+#include "methods/shared/fluid/fluid_settings.h"
 #include "methods/shared/fluid/fluid_source.h"
-#include "methods/shared/fluid/forces.h"
-#include "methods/shared/fluid/pressure_solver.h"
 #include "methods/shared/fluid/projection.h"
 #include "methods/shared/fluid/solid_cells.h"
 #include "methods/shared/stage_clock.h"
 
 namespace dustbench::fluid {
-
-struct FluidSettings {
-    FluidBox box;
-    Sides sides = openOverFloor;
-    glm::vec3 windMetresPerSecond{0};  ///< blows in where a side is an inflow, and everywhere at first
-    bool noSlip = false;               ///< solids and walls hold the air; else it glides along them
-    AdvectionRule advection;
-    /// Takes off, everywhere in proportion, what advection makes of nothing, and gives back what it loses and what
-    /// solids cover.
-    bool keepsDensity = false;
-    ForceSettings forces;
-    PressureMethod pressure = PressureMethod::multigrid;
-    int jacobiSweeps = 20;
-    int mostCycles = 30;
-    /// Multigrid stops where |∇·u|·Δt, the share of its volume that a cell gains in a step, is nowhere greater.
-    float divergencePerStep = 0.001f;
-};
-
-/// What a step came to.
-struct StepReport {
-    PressureResult pressure;      ///< in metres per second
-    float divergencePerStep = 0;  ///< |∇·u|·Δt, the greatest of all cells, as the pressure solver leaves it
-    float cellsPerStep = 0;       ///< the greatest speed along an axis, in cells: the CFL number
-};
 
 class FluidSolver {
  public:
@@ -78,13 +50,11 @@ class FluidSolver {
     [[nodiscard]] std::uint64_t stateHash() const;
 
  private:
-    void checkSettings() const;
     void addSources(std::span<const FluidSource> sources, float stepSeconds);
     void diffuseVelocity(float stepSeconds);
     void advect(float stepSeconds);
     PressureResult project(float stepSeconds);
     void findGreatestSpeeds();
-    [[noreturn]] void throwLostNumber() const;
     [[nodiscard]] std::size_t floatsToLend() const;
     [[nodiscard]] std::span<float> borrowed() { return {spare_.data(), spare_.floats()}; }
     void fill(GhostUse use);

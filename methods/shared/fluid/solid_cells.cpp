@@ -2,20 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <numeric>
-#include <string>
 
-#include "methods/shared/errors.h"
 #include "methods/shared/parallel/for_each_block.h"
 
 namespace dustbench::fluid {
 namespace {
-
-std::uint8_t beyond(Side side) {
-    return side == Side::open ? 2 : 0;
-}
 
 /// The six neighbours of a cell.
 std::array<std::ptrdiff_t, 6> around(const CellLayout& layout) {
@@ -27,38 +20,14 @@ std::array<std::ptrdiff_t, 6> around(const CellLayout& layout) {
 
 SolidCells::SolidCells(const CellLayout& layout, const Sides& sides, MemoryAccount& account)
     : layout_(layout), conductance_(account) {
-    conductance_.assign(layout.padded(), 0);
-    const auto fill = [&](int i0, int i1, int j0, int j1, int k0, int k1, std::uint8_t value) {
-        for (int k = k0; k < k1; ++k)
-            for (int j = j0; j < j1; ++j)
-                std::memset(conductance_.data() + layout.at(i0, j, k), value, static_cast<std::size_t>(i1 - i0));
-    };
-    const int nx = layout.nx, ny = layout.ny, nz = layout.nz;
-    fill(0, nx, 0, ny, 0, nz, 1);
-    fill(-1, 0, 0, ny, 0, nz, beyond(sides[0]));
-    fill(nx, nx + 1, 0, ny, 0, nz, beyond(sides[1]));
-    fill(0, nx, -1, 0, 0, nz, beyond(sides[2]));
-    fill(0, nx, ny, ny + 1, 0, nz, beyond(sides[3]));
-    fill(0, nx, 0, ny, -1, 0, beyond(sides[4]));
-    fill(0, nx, 0, ny, nz, nz + 1, beyond(sides[5]));
-    rimOfSlab_.resize(static_cast<std::size_t>(nz));
-    besideOfSlab_.resize(static_cast<std::size_t>(nz));
+    conductance_.resize(layout.padded());
+    conductEverywhere(layout, sides, conductance_);
+    rimOfSlab_.resize(static_cast<std::size_t>(layout.nz));
+    besideOfSlab_.resize(static_cast<std::size_t>(layout.nz));
 }
 
 double SolidCells::set(const SolidMask& mask, CellField& cells) {
-    const std::size_t count = layout_.rows() * static_cast<std::size_t>(layout_.nx);
-    if (!mask.body.empty() && mask.body.size() != count)
-        throw InputError("solids: got " + std::to_string(mask.body.size()) +
-                         " cells, allowed: " + std::to_string(count) + ", as many as the grid has");
-    if (!mask.body.empty() && std::find(mask.body.begin(), mask.body.end(), 0) == mask.body.end())
-        throw InputError("solids: got a box filled by them, allowed: one with room for the fluid");
-    for (std::size_t n = 0; n < mask.motions.size(); ++n) {
-        const BodyMotion& motion = mask.motions[n];
-        const glm::vec3 all = motion.velocity + motion.turnPerCell + motion.centreCells;
-        if (!std::isfinite(all.x + all.y + all.z))
-            throw InputError("solids: got a motion of solid " + std::to_string(n + 1) +
-                             " that is not finite, allowed: metres per second");
-    }
+    check(mask, layout_);
     const auto width = static_cast<std::size_t>(layout_.nx);
     std::vector<float> covered(layout_.rows());
     parallel::forEachBlock(layout_.rows(), 64, [&](std::size_t first, std::size_t rows) {

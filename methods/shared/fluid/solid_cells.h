@@ -11,25 +11,9 @@
 
 #include "methods/shared/fluid/cell_field.h"
 #include "methods/shared/fluid/fluid_box.h"
+#include "methods/shared/fluid/solid_mask.h"
 
 namespace dustbench::fluid {
-
-/// How a solid moves, as it is seen from the grid.
-struct BodyMotion {
-    glm::vec3 velocity{0};     ///< metres per second, at `centreCells`
-    glm::vec3 turnPerCell{0};  ///< metres per second for each cell of distance: angular velocity times spacing
-    glm::vec3 centreCells{0};  ///< from the least corner of the box
-
-    [[nodiscard]] glm::vec3 velocityAt(int i, int j, int k) const {
-        return velocity + glm::cross(turnPerCell, glm::vec3(i, j, k) + 0.5f - centreCells);
-    }
-};
-
-/// Solids as a voxeliser gives them: a number for each cell, x fastest, without ghosts.
-struct SolidMask {
-    std::span<const std::uint8_t> body;   ///< 0: fluid; n: the n-th solid
-    std::span<const BodyMotion> motions;  ///< of the solids, from the first on; those beyond the last are at rest
-};
 
 class SolidCells {
  public:

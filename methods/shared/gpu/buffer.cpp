@@ -45,6 +45,15 @@ void Buffer::readBytes(void* data, std::size_t bytes) const {
     if (bytes > 0) glGetNamedBufferSubData(name_.get(), 0, static_cast<GLsizeiptr>(bytes), data);
 }
 
+void Buffer::clear() {
+    const std::uint32_t zero = 0;
+    if (bytes() % sizeof(zero) == 0)
+        glClearNamedBufferData(name_.get(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    else
+        glClearNamedBufferData(name_.get(), GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &zero);
+    throwOnDebugOutput("clearing a buffer");
+}
+
 void* Buffer::mapForWriting(std::size_t bytes) {
     requireFit(bytes, this->bytes());
     void* memory = glMapNamedBufferRange(name_.get(), 0, static_cast<GLsizeiptr>(bytes),

@@ -37,6 +37,9 @@ class Buffer {
         readBytes(data.data(), data.size_bytes());
     }
 
+    /// All bytes become 0.
+    void clear();
+
     /// Hands out `bytes` of memory to fill; the old contents are given up, so nothing waits for draws still queued.
     /// The memory is write-only and valid until `unmap`.
     [[nodiscard]] void* mapForWriting(std::size_t bytes);

@@ -141,6 +141,16 @@ std::optional<std::int64_t> Device::driverFreeBytes() const {
     return std::int64_t{kibibytes[0]} * 1024;
 }
 
+std::size_t Device::mostStorageBytes() const {
+    GLint64 bytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+    return static_cast<std::size_t>(bytes);
+}
+
+bool Device::isSoftware() const {
+    return info_.renderer.find("llvmpipe") != std::string::npos || info_.renderer.find("softpipe") != std::string::npos;
+}
+
 void Device::finish() {
     glFinish();
     throwOnDebugOutput("finish");

@@ -34,6 +34,10 @@ class Device {
     [[nodiscard]] MemoryLedger& ledger() { return ledger_; }
     /// What the driver says is free on the GPU, for all of the machine's programs; empty where it does not tell.
     [[nodiscard]] std::optional<std::int64_t> driverFreeBytes() const;
+    /// The largest buffer that a shader may store into.
+    [[nodiscard]] std::size_t mostStorageBytes() const;
+    /// True where OpenGL runs on the CPU (Mesa's llvmpipe and softpipe).
+    [[nodiscard]] bool isSoftware() const;
     /// Blocks until all queued work is done.
     void finish();
 

@@ -59,6 +59,10 @@ TEST(Buffer, GivesBackWhatWasWrittenByEitherWay) {
     mapped.read(std::span<float>(second));
     EXPECT_EQ(first, values);
     EXPECT_EQ(second, values);
+    mapped.clear();
+    mapped.read(std::span<float>(second));
+    EXPECT_EQ(second, std::vector<float>(1000, 0));
+    EXPECT_GE(device.mostStorageBytes(), std::size_t{1} << 27);  // what OpenGL 4.5 promises
 }
 
 TEST(Buffer, RefusesMoreThanItHolds) {

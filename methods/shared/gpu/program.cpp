@@ -84,6 +84,10 @@ void Program::set(std::string_view uniform, int value) {
     glProgramUniform1i(name_.get(), location(uniform), value);
 }
 
+void Program::set(std::string_view uniform, glm::ivec3 value) {
+    glProgramUniform3iv(name_.get(), location(uniform), 1, glm::value_ptr(value));
+}
+
 void Program::set(std::string_view uniform, glm::vec2 value) {
     glProgramUniform2fv(name_.get(), location(uniform), 1, glm::value_ptr(value));
 }

@@ -29,6 +29,7 @@ class Program {
     /// Sets a uniform. Throws std::invalid_argument where the program has none of that name.
     void set(std::string_view uniform, float value);
     void set(std::string_view uniform, int value);
+    void set(std::string_view uniform, glm::ivec3 value);
     void set(std::string_view uniform, glm::vec2 value);
     void set(std::string_view uniform, glm::vec3 value);
     void set(std::string_view uniform, glm::vec4 value);

@@ -15,6 +15,14 @@ void GlMarch::upload(const ShownGrid& grid, const BrickMap& bricks, const LightV
     most_ = bricks.most();
     fitTexture(bricks_, device_, "ray cast bricks", gpu::Format::r8, bricks.bricks(), gpu::Filter::nearest);
     bricks_.write(bricks.occupied());
+    takenBricks_ = nullptr;
+}
+
+void GlMarch::take(const ShownTextures& grid, const BricksOnGpu& bricks, const LightOnGpu* light) {
+    grid_.take(grid, light);
+    least_ = bricks.least();
+    most_ = bricks.most();
+    takenBricks_ = &bricks.texture();
 }
 
 gpu::Program& GlMarch::program() {
@@ -42,7 +50,7 @@ void GlMarch::draw(const PixelRays& rays, const PixelRectangle& pixels, const Re
     if (settings_.skipEmpty) {
         program.set("least", glm::vec3(least_));
         program.set("most", glm::vec3(most_));
-        bricks_.bind(2);
+        (takenBricks_ ? *takenBricks_ : bricks_).bind(2);
     }
     program.set("eye", rays.eye);
     program.set("rayCorner", rays.corner);

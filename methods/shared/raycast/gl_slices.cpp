@@ -48,6 +48,12 @@ void GlSlices::upload(const ShownGrid& grid, const BrickMap& bricks, const Light
     most_ = settings_.skipEmpty ? bricks.most() : grid.cells;
 }
 
+void GlSlices::take(const ShownTextures& grid, const BricksOnGpu& bricks, const LightOnGpu* light) {
+    grid_.take(grid, light);
+    least_ = settings_.skipEmpty ? bricks.least() : glm::ivec3(0);
+    most_ = settings_.skipEmpty ? bricks.most() : grid.cells;
+}
+
 gpu::Program& GlSlices::program() {
     std::optional<gpu::Program>& made = grid_.burning() ? withFire_ : smokeAlone_;
     if (!made)

@@ -11,6 +11,7 @@
 #include "methods/shared/gpu/layer.h"
 #include "methods/shared/gpu/vertex_array.h"
 #include "methods/shared/raycast/brick_map.h"
+#include "methods/shared/raycast/bricks_on_gpu.h"
 #include "methods/shared/raycast/grid_on_gpu.h"
 #include "methods/shared/raycast/pixel_rays.h"
 
@@ -22,6 +23,8 @@ class GlSlices {
 
     /// `light`: null where the cloud casts no shadow on itself.
     void upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light);
+    /// What lies on the GPU already.
+    void take(const ShownTextures& grid, const BricksOnGpu& bricks, const LightOnGpu* light);
     /// Returns how many planes there were.
     int draw(const PixelRays& rays, const scene::View& view, const Reflected& reflected, const gpu::Layer& layer);
 

@@ -9,6 +9,7 @@
 
 #include "methods/shared/gpu/program.h"
 #include "methods/shared/gpu/texture.h"
+#include "methods/shared/raycast/light_on_gpu.h"
 #include "methods/shared/raycast/light_volume.h"
 #include "methods/shared/raycast/raycast_settings.h"
 
@@ -20,6 +21,8 @@ class GridOnGpu {
 
     /// `light`: null where the cloud casts no shadow on itself.
     void upload(const ShownGrid& grid, const LightVolume* light);
+    /// Takes what is there already. `light`: null likewise.
+    void take(const ShownTextures& grid, const LightOnGpu* light);
 
     [[nodiscard]] bool burning() const { return burning_; }
     [[nodiscard]] std::map<std::string, std::string> definitions() const;
@@ -29,13 +32,24 @@ class GridOnGpu {
     [[nodiscard]] std::size_t gpuBytes() const;
 
  private:
+    void takePlace(const glm::ivec3& cells, double spacingMetres, bool burning);
+
     gpu::Device& device_;
     RaycastSettings settings_;
     gpu::Texture density_, reaction_, fire_, light_;
+    /// What is looked into where it is somebody else's.
+    const gpu::Texture *takenDensity_ = nullptr, *takenReaction_ = nullptr, *takenLight_ = nullptr;
     glm::ivec3 cells_{0}, lightCells_{0};
     float extinctionPerCell_ = 0;
     bool burning_ = false;
 };
+
+/// The transfer function, and what shaders must know of it.
+[[nodiscard]] gpu::Texture makeFireTable(gpu::Device& device, const RaycastSettings& settings);
+[[nodiscard]] std::map<std::string, std::string> fireDefinitions();
+
+/// Runs a program with groups of 4×4×4 threads, one for each texel.
+void dispatchForTexels(const gpu::Program& program, const glm::ivec3& texels);
 
 /// Makes a 3D texture anew where it has not the size already.
 void fitTexture(gpu::Texture& texture, gpu::Device& device, const char* label, gpu::Format format,

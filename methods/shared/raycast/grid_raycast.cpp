@@ -1,13 +1,11 @@
 #include "methods/shared/raycast/grid_raycast.h"
 
-#include <string>
-
 namespace dustbench::raycast {
 namespace {
 
-bool isSoftware(const gpu::Device& device) {
-    const std::string& renderer = device.info().renderer;
-    return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
+/// Cells that a sample sees beyond its own.
+int reachOf(Filter filter) {
+    return filter == Filter::cubic ? 2 : 1;
 }
 
 }  // namespace
@@ -19,7 +17,11 @@ Reflected cloudColour(const glm::vec3& albedo, const scene::Lights& lights) {
 
 GridRaycast::GridRaycast(gpu::Device& device, const RaycastSettings& settings, const scene::Lights& lights,
                          MemoryLedger& ledger)
-    : settings_(settings), reflected_(cloudColour(settings.smokeColour, lights)), bricks_(ledger) {
+    : device_(device),
+      settings_(settings),
+      reflected_(cloudColour(settings.smokeColour, lights)),
+      toSun_(lights.toSun),
+      bricks_(ledger) {
     check(settings);
     if (settings.shadowCells > 0) light_.emplace(settings, lights.toSun, ledger);
     if (settings.renderer == Renderer::slices) {
@@ -28,7 +30,7 @@ GridRaycast::GridRaycast(gpu::Device& device, const RaycastSettings& settings, c
         splats_.emplace(device, settings, ledger);
     } else if (settings.renderer == Renderer::isosurface) {
         surface_.emplace(device, settings, lights);
-    } else if (settings.backend == Backend::cpu || (settings.backend == Backend::automatic && isSoftware(device))) {
+    } else if (settings.backend == Backend::cpu || (settings.backend == Backend::automatic && device.isSoftware())) {
         cpu_.emplace(settings, ledger);
         composite_.emplace(device);
     } else {
@@ -39,7 +41,9 @@ GridRaycast::GridRaycast(gpu::Device& device, const RaycastSettings& settings, c
 void GridRaycast::upload(const ShownGrid& grid) {
     drawable_ = false;
     check(grid);
-    bricks_.set(grid, settings_.filter == Filter::cubic ? 2 : 1);
+    bricks_.set(grid, reachOf(settings_.filter));
+    least_ = bricks_.least();
+    most_ = bricks_.most();
     grid_ = {grid.cells, grid.spacingMetres, grid.originMetres, {}, {}};
     if (bricks_.empty()) return;
     if (light_) light_->set(grid);
@@ -49,6 +53,29 @@ void GridRaycast::upload(const ShownGrid& grid) {
     if (slices_) slices_->upload(grid, bricks_, light);
     if (splats_) splats_->upload(grid, reflected_, light);
     if (surface_) surface_->upload(grid);
+    drawable_ = true;
+}
+
+void GridRaycast::take(const ShownTextures& grid) {
+    drawable_ = false;
+    check(grid);
+    if (!bricksOnGpu_) bricksOnGpu_.emplace(device_);
+    if (!bricksOnGpu_->set(grid, reachOf(settings_.filter))) {
+        // It says where.
+        const std::vector<float> density = grid.density->readFloats();
+        bricks_.set({grid.cells, grid.spacingMetres, grid.originMetres, density, {}}, 0);
+    }
+    least_ = bricksOnGpu_->least();
+    most_ = bricksOnGpu_->most();
+    grid_ = {grid.cells, grid.spacingMetres, grid.originMetres, {}, {}};
+    if (bricksOnGpu_->empty()) return;
+    if (settings_.shadowCells > 0) {
+        if (!lightOnGpu_) lightOnGpu_.emplace(device_, settings_, toSun_);
+        lightOnGpu_->set(grid);
+    }
+    const LightOnGpu* const light = lightOnGpu_ ? &*lightOnGpu_ : nullptr;
+    if (gl_) gl_->take(grid, *bricksOnGpu_, light);
+    if (slices_) slices_->take(grid, *bricksOnGpu_, light);
     drawable_ = true;
 }
 
@@ -70,7 +97,7 @@ void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer) {
         primitives_ = slices_->draw(rays, view, reflected_, layer);
         return;
     }
-    const PixelRectangle pixels = pixelsOf(grid_, bricks_.least(), bricks_.most(), view);
+    const PixelRectangle pixels = pixelsOf(grid_, least_, most_, view);
     if (pixels.empty()) return;
     primitives_ = static_cast<std::int64_t>(pixels.width()) * pixels.height();
     if (gl_) {
@@ -85,7 +112,8 @@ void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer) {
 
 std::size_t GridRaycast::gpuBytes() const {
     const auto bytesOf = [](const auto& part) { return part ? part->gpuBytes() : std::size_t{0}; };
-    return bytesOf(gl_) + bytesOf(composite_) + bytesOf(slices_) + bytesOf(splats_) + bytesOf(surface_);
+    return bytesOf(bricksOnGpu_) + bytesOf(lightOnGpu_) + bytesOf(gl_) + bytesOf(composite_) + bytesOf(slices_) +
+           bytesOf(splats_) + bytesOf(surface_);
 }
 
 }  // namespace dustbench::raycast

@@ -64,6 +64,48 @@ TEST(GridRaycast, ShowsTheSameOnCpuAndGpu) {
     }
 }
 
+TEST(GridRaycast, ShowsWhatLiesOnTheGpuAsWhatIsUploaded) {
+    Canvas canvas;
+    canvas.setWall(9.5, 70);
+    canvas.lookFrom({3, 2, 4}, {-3, -2, -4});
+    for (const bool burning : {false, true})
+        for (const Renderer renderer : {Renderer::raycast, Renderer::slices}) {
+            const TestGrid grid = lumps(burning);
+            const auto onGpu = [&](const std::vector<float>& values) {
+                gpu::Texture texture = gpu::Texture::make3D(Canvas::device(), "test", gpu::Format::r32F, grid.cells.x,
+                                                            grid.cells.y, grid.cells.z);
+                texture.write(std::span<const float>(values));
+                return texture;
+            };
+            gpu::Texture density = onGpu(grid.density), reaction = onGpu(burning ? grid.reaction : grid.density);
+            const ShownTextures textures{grid.cells, grid.spacingMetres, grid.originMetres, &density,
+                                         burning ? &reaction : nullptr};
+            RaycastSettings settings = settingsOf(Backend::gl);
+            settings.renderer = renderer;
+            settings.extinctionPerMetre = 4;
+            settings.shadowCells = 3;
+            MemoryLedger ledger;
+            GridRaycast raycast(Canvas::device(), settings, canvas.lights, ledger);
+            ASSERT_TRUE(raycast.takesTextures());
+            raycast.take(textures);
+            const draw::Image image =
+                canvas.TestCanvas::picture([&](const gpu::Layer& layer) { raycast.draw(canvas.view, layer); });
+            EXPECT_LT(greatestDifference(image, canvas.picture(grid, settings)), 2e-4) << burning;
+            EXPECT_GT(meanAlpha(image), 0.001);
+
+            // What was taken last counts, whichever way it came.
+            raycast.upload(TestGrid(grid.cells, 1, {0, 0, 0}, [](const glm::dvec3&) { return 0.0; }).shown());
+            raycast.upload(grid.shown());
+            EXPECT_EQ(canvas.TestCanvas::picture([&](const gpu::Layer& l) { raycast.draw(canvas.view, l); }).pixels,
+                      canvas.picture(grid, settings).pixels);
+            std::vector<float> negative = grid.density;
+            negative[5] = -0.25f;
+            density.write(std::span<const float>(negative));
+            EXPECT_NE(inputError([&] { raycast.take(textures); }).find("-0.250000 in cell (5, 0, 0)"),
+                      std::string::npos);
+        }
+}
+
 TEST_P(GridRaycastOn, LosesNothingBySkippingAndLittleByStoppingEarly) {
     Canvas canvas;
     for (const bool burning : {false, true})

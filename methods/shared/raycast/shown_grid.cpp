@@ -4,6 +4,7 @@
 #include <string>
 
 #include "methods/shared/errors.h"
+#include "methods/shared/gpu/texture.h"
 
 namespace dustbench::raycast {
 namespace {
@@ -16,9 +17,8 @@ void checkCount(const char* name, std::size_t got, std::size_t allowed) {
                          ", allowed: " + std::to_string(allowed));
 }
 
-}  // namespace
-
-void check(const ShownGrid& grid) {
+template <typename Grid>
+void checkPlace(const Grid& grid) {
     for (int axis = 0; axis < 3; ++axis) {
         if (grid.cells[axis] < 1 || grid.cells[axis] > mostCells)
             throw InputError("shown grid: got " + std::to_string(grid.cells[axis]) +
@@ -29,8 +29,23 @@ void check(const ShownGrid& grid) {
     if (!(grid.spacingMetres > 0) || !std::isfinite(grid.spacingMetres))
         throw InputError("shown grid: got a spacing of " + std::to_string(grid.spacingMetres) +
                          " m, allowed: more than 0");
+}
+
+}  // namespace
+
+void check(const ShownGrid& grid) {
+    checkPlace(grid);
     checkCount("density", grid.density.size(), grid.cellCount());
     if (!grid.reaction.empty()) checkCount("reaction", grid.reaction.size(), grid.cellCount());
+}
+
+void check(const ShownTextures& grid) {
+    checkPlace(grid);
+    for (const gpu::Texture* texture : {grid.density, grid.reaction})
+        if (texture && glm::ivec3(texture->width(), texture->height(), texture->depth()) != grid.cells)
+            throw InputError("shown grid: got a texture of " + std::to_string(texture->width()) + "x" +
+                             std::to_string(texture->height()) + "x" + std::to_string(texture->depth()) +
+                             " texels, allowed: one for each cell");
 }
 
 }  // namespace dustbench::raycast

@@ -7,6 +7,10 @@
 #include <glm/glm.hpp>
 #include <span>
 
+namespace dustbench::gpu {
+class Texture;
+}
+
 namespace dustbench::raycast {
 
 /// Cell averages, x fastest, no ghosts.
@@ -23,8 +27,19 @@ struct ShownGrid {
     }
 };
 
+/// The same with its values on the GPU already: R32F textures of one texel for each cell, looked up linearly. They must
+/// last, unchanged, until another grid is shown.
+struct ShownTextures {
+    glm::ivec3 cells{0};
+    double spacingMetres = 0;
+    glm::dvec3 originMetres{0};
+    const gpu::Texture* density = nullptr;
+    const gpu::Texture* reaction = nullptr;  ///< null: smoke alone
+};
+
 /// Throws InputError for a grid without cells or spacing, or with spans of another size. Values are looked at when they
 /// are sorted into bricks.
 void check(const ShownGrid& grid);
+void check(const ShownTextures& grid);
 
 }  // namespace dustbench::raycast

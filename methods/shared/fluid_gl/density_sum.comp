@@ -1,0 +1,37 @@
+// Sums of densities over columns of cells along z, one for each group of threads; always in the same order.
+layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
+layout(std430, binding = 2) restrict writeonly buffer Sums { double sums[]; };
+uniform int what;             // 0: all there is; 1: less what leaves through open sides in a step; 2: what is in solids
+uniform float cellsPerSpeed;  // dt/h
+
+shared double columns[GROUP];
+
+float leaving(ivec3 c, int cell, vec4 record) {
+    float sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        float outward = record[axis] * cellsPerSpeed;
+        if (c[axis] == 0 && conductance(cell - stepAlong(axis)) == 2u) sum += max(-outward, 0.0);
+        if (c[axis] == cells[axis] - 1 && conductance(cell + stepAlong(axis)) == 2u) sum += max(outward, 0.0);
+    }
+    return sum * record.w;
+}
+
+void main() {
+    ivec3 c = ivec3(gl_GlobalInvocationID.xy, 0);
+    float sum = 0.0;
+    if (inside(c))
+        for (; c.z < cells.z; ++c.z) {
+            int cell = at(c);
+            vec4 record = moving[cell];
+            if (what == 2 && isFluid(cell)) continue;
+            sum += record.w;
+            if (what == 1) sum -= leaving(c, cell, record);
+        }
+    uint own = gl_LocalInvocationIndex;
+    columns[own] = double(sum);
+    for (uint width = GROUP / 2; width > 0u; width /= 2u) {
+        barrier();
+        if (own < width) columns[own] += columns[own + width];
+    }
+    if (own == 0u) sums[gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y] = columns[0];
+}

@@ -1,0 +1,25 @@
+// u -= h grad q in all cells of fluid, as fluid::Projection does it: a cell takes the mean of what its faces change by.
+layout(std430, binding = 2) restrict writeonly buffer MovingThen { vec4 movingThen[]; };
+layout(std430, binding = 5) restrict readonly buffer Pressure { float pressure[]; };
+
+void main() {
+    ivec3 c = ivec3(gl_GlobalInvocationID);
+    if (!inside(c)) return;
+    int cell = at(c);
+    vec4 record = moving[cell];
+    if (isFluid(cell)) {
+        float q = pressure[place(c)];
+        for (int axis = 0; axis < 3; ++axis) {
+            int next = stepAlong(axis);
+            ivec3 apart = ivec3(0);
+            apart[axis] = 1;
+            uint before = conductance(cell - next), behind = conductance(cell + next);
+            float change = float(before) * (pressure[place(c - apart)] - q) +
+                           float(behind) * (q - pressure[place(c + apart)]);
+            if (before == 0u || behind == 0u)
+                record[axis] = 0.5 * (faceSpeed(cell, -next, axis) + faceSpeed(cell, next, axis));
+            record[axis] += 0.5 * change;
+        }
+    }
+    movingThen[cell] = record;
+}

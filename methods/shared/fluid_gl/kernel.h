@@ -1,0 +1,50 @@
+// A compute program with a thread for each item of a grid.
+//
+// Threads: the OpenGL thread's.
+#pragma once
+
+#include <initializer_list>
+#include <iterator>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "methods/shared/fluid/fluid_box.h"
+#include "methods/shared/gpu/program.h"
+
+namespace dustbench::fluid_gl {
+
+/// What lies beyond the six sides, as an array in a shader.
+[[nodiscard]] inline std::string sidesText(const fluid::Sides& sides) {
+    std::string text = "int[6](";
+    for (std::size_t side = 0; side < sides.size(); ++side)
+        text += (side > 0 ? ", " : "") + std::to_string(static_cast<int>(sides[side]));
+    return text + ")";
+}
+
+class Kernel {
+ public:
+    static constexpr glm::ivec3 group{32, 4, 1};  ///< threads that work together, as grid.glsl says
+
+    /// The last file is the program's own; its pieces come before.
+    Kernel(gpu::Device& device, std::initializer_list<gpu::ShaderFile> files,
+           const std::map<std::string, std::string>& definitions = {})
+        : program_(device, std::prev(files.end())->name, files, definitions) {}
+
+    template <typename Value>
+    void set(std::string_view uniform, const Value& value) {
+        program_.set(uniform, value);
+    }
+    /// How many groups of threads take so many items, along each axis.
+    [[nodiscard]] static glm::ivec3 groupsFor(const glm::ivec3& items) { return (items + group - 1) / group; }
+    void run(const glm::ivec3& items) const {
+        const glm::ivec3 groups = groupsFor(items);
+        program_.dispatch(groups.x, groups.y, groups.z);
+    }
+    void runGroups(int count) const { program_.dispatch(count, 1, 1); }
+
+ private:
+    gpu::Program program_;
+};
+
+}  // namespace dustbench::fluid_gl

@@ -1,0 +1,23 @@
+// What a cell's equation is off by, and the greatest of all that as bits, which have the order of the values.
+layout(std430, binding = 4) restrict readonly buffer RightSide { float rightSide[]; };
+
+float residual(ivec3 c) {
+    float weight = diagonal(c);
+    return weight > 0.0 ? rightSide[place(c)] - (neighbours(c) - weight * pressure[place(c)]) : 0.0;
+}
+
+#ifdef FINEST
+layout(std430, binding = 7) restrict buffer Report { uint report[]; };
+uniform int slot;
+
+shared uint most;
+
+// By all threads of a group.
+void tell(float magnitude) {
+    if (gl_LocalInvocationIndex == 0u) most = 0u;
+    barrier();
+    atomicMax(most, floatBitsToUint(magnitude) & 0x7fffffffu);
+    barrier();
+    if (gl_LocalInvocationIndex == 0u) atomicMax(report[slot], most);
+}
+#endif
