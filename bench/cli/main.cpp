@@ -9,6 +9,7 @@
 #include "bench/cli/exit_codes.h"
 #include "bench/measure/provenance.h"
 #include "methods/shared/errors.h"
+#include "methods/shared/simulation_error.h"
 
 namespace dustbench::cli {
 namespace {
@@ -36,6 +37,9 @@ int main(int argc, char** argv) {
     } catch (const InputError& error) {
         std::cerr << "dustbench: " << cli::oneLine(error.what()) << '\n';
         return cli::exitBadInput;
+    } catch (const SimulationError& error) {
+        std::cerr << "dustbench: " << cli::oneLine(error.what()) << '\n';
+        return cli::exitRunFailed;
     } catch (const std::exception& error) {
         std::cerr << "dustbench: internal error: " << cli::oneLine(error.what()) << '\n';
         return cli::exitInternal;

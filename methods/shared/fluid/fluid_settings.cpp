@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "methods/shared/errors.h"
+#include "methods/shared/simulation_error.h"
 
 namespace dustbench::fluid {
 namespace {
@@ -60,9 +61,9 @@ void throwLostNumber(const CellField& cells, const CellLayout& layout, std::int6
             for (int i = 0; i < layout.nx; ++i)
                 for (std::size_t lane = 0; lane < lanes; ++lane)
                     if (!std::isfinite(cells.cell(layout.at(i, j, k))[lane]))
-                        throw std::runtime_error("fluid: after step " + std::to_string(steps) + " the " +
-                                                 std::string(laneNames[lane]) + " of cell " + std::to_string(i) + ", " +
-                                                 std::to_string(j) + ", " + std::to_string(k) + " is not a number");
+                        throw SimulationError("fluid: after step " + std::to_string(steps) + " the " +
+                                              std::string(laneNames[lane]) + " of cell " + std::to_string(i) + ", " +
+                                              std::to_string(j) + ", " + std::to_string(k) + " is not a number");
     throw std::logic_error("fluid: a number was lost and is there again");
 }
 

@@ -28,7 +28,7 @@ class FluidSolver {
 
     /// From the next step on. The mask covers the box where it stands now.
     void setSolids(const SolidMask& mask);
-    /// Advances by a step. Throws std::runtime_error with step, field and cell where a number gets lost.
+    /// Advances by a step. Throws SimulationError with step, field and cell where a number gets lost.
     StepReport step(double stepSeconds, std::span<const FluidSource> sources, const StageClock& clock = StageClock());
     /// Moves the box by whole cells; what is in them stays where it is in the world. The solids must be set anew.
     void scroll(glm::ivec3 cells);

@@ -1,11 +1,11 @@
 #include "methods/shared/octree/cell_kernel.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "methods/shared/errors.h"
 #include "methods/shared/octree/cell_entry.h"
+#include "methods/shared/simulation_error.h"
 
 namespace dustbench::octree {
 
@@ -20,8 +20,8 @@ void checkPositions(const particles::ParticleStore& store) {
 
 void checkPosition(const particles::ParticleStore& store, std::size_t particle) {
     if (std::isnan(store.x[particle]) || std::isnan(store.y[particle]) || std::isnan(store.z[particle]))
-        throw std::runtime_error("octree: the position of the particle with serial " +
-                                 std::to_string(store.serial[particle]) + " is not a number");
+        throw SimulationError("octree: the position of the particle with serial " +
+                              std::to_string(store.serial[particle]) + " is not a number");
 }
 
 void checkCount(const particles::ParticleStore& store) {

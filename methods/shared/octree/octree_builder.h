@@ -13,7 +13,7 @@ namespace dustbench::octree {
 class OctreeBuilder {
  public:
     virtual ~OctreeBuilder() = default;
-    /// Gives how many particles lie outside the world and are in no voxel. Throws std::runtime_error where a position
+    /// Gives how many particles lie outside the world and are in no voxel. Throws SimulationError where a position
     /// is not a number.
     virtual std::int64_t build(const particles::ParticleStore& store, const Lattice& lattice,
                                const OctreeSettings& settings, Octree& tree) = 0;
