@@ -271,6 +271,26 @@ TEST(GridFluid, IsDrawnAlikeByEitherSolver) {
     }
 }
 
+TEST(GridFluid, IsSolvedWhereThePictureIsMadeUnlessToldOtherwise) {
+    TestMoment moment(0, 8, 8, {0, 2, 8}, {0, 0, -1});
+    const bool hardware = !TestMoment::device().isSoftware();
+    for (const raycast::Backend backend : {raycast::Backend::automatic, raycast::Backend::cpu, raycast::Backend::gl}) {
+        GridFluidSettings settings = settingsOf("plume", {16, 16, 16});
+        settings.picture.backend = backend;
+        settings.solverBackend = SolverBackend::automatic;
+        GridFluid method(settings);
+        method.prepare(moment.scene, TestMoment::device());
+        EXPECT_EQ(method.solver().onGpu(), hardware && backend != raycast::Backend::cpu);
+    }
+    GridFluidSettings settings = settingsOf("plume", {16, 16, 16});
+    settings.solverBackend = SolverBackend::openGl;
+    GridFluid method(settings);
+    method.prepare(moment.scene, TestMoment::device());
+    std::size_t onGpu = 0;
+    for (const MemoryUse& use : method.memory()) onGpu += use.gpuBytes;
+    EXPECT_GE(onGpu, 16u * 16 * 16 * (3 * 24 + 4 + 12 + 4));  // three fields, kinds, pressure and what is shown
+}
+
 TEST(GridFluid, RefusesWhatCannotFlow) {
     TestMoment moment(0, 32, 32, {0, 2, 8}, {0, 0, -1});
     moment.scene.id = "bare";

@@ -3,6 +3,7 @@
 // Cells of the flow lie as in fluid::CellLayout: x runs fastest, with a ghost at either end of each axis.
 layout(local_size_x = 32, local_size_y = 4, local_size_z = 1) in;
 #define GROUP 128
+#define COLUMN 16  // cells along z that a thread takes where groups of threads gather something
 
 uniform ivec3 cells;
 
