@@ -23,3 +23,8 @@ int at(ivec3 c) {
 int stepAlong(int axis) {
     return axis == 0 ? 1 : axis == 1 ? cells.x + 2 : (cells.x + 2) * (cells.y + 2);
 }
+
+// The number of this group of threads, which may be one too many.
+int groupNumber() {
+    return int(gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y);
+}

@@ -3,6 +3,7 @@
 // Threads: the OpenGL thread's.
 #pragma once
 
+#include <algorithm>
 #include <initializer_list>
 #include <iterator>
 #include <map>
@@ -46,7 +47,11 @@ class Kernel {
         const glm::ivec3 groups = groupsFor(items);
         program_.dispatch(groups.x, groups.y, groups.z);
     }
-    void runGroups(int count) const { program_.dispatch(count, 1, 1); }
+    /// In rows of groups: OpenGL takes no more than 65,535 side by side. There may be some too many.
+    void runGroups(int count) const {
+        constexpr int most = 32768;
+        program_.dispatch(std::min(count, most), (count + most - 1) / most, 1);
+    }
 
  private:
     gpu::Program program_;
