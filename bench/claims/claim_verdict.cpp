@@ -1,6 +1,7 @@
 #include "bench/claims/claim_verdict.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -131,15 +132,27 @@ ClaimVerdict verdictOf(const Claim& claim, const ClaimResult& result) {
     return below || above ? ClaimVerdict::refuted : ClaimVerdict::unresolved;
 }
 
+/// Which cells they are, where it can be said in a line; `keys`: of all cells.
+std::string listed(const std::vector<std::string>& cells, const std::vector<std::string>& keys, const char* intro,
+                   const ResultRows& rows) {
+    constexpr std::size_t mostListed = 3;
+    if (cells.size() > mostListed) return "";
+    std::vector<std::string> texts;
+    for (const std::string& cell : cells) texts.push_back(rows.cellText(cell, keys));
+    return fmt::format(": {} {}", intro, fmt::join(texts, "; "));
+}
+
 /// The range over the cells, and their mean.
-void judgeExact(const Claim& claim, const Samples& samples, bool logarithmic, ClaimResult& result) {
+void judgeExact(const Claim& claim, const Samples& samples, bool logarithmic, const ResultRows& rows,
+                ClaimResult& result) {
     std::map<std::string, double> byCell;  // the same in every repetition
     for (const Sample& sample : samples.list) byCell.try_emplace(sample.cell, sample.value);
     std::vector<double> list;
-    std::size_t holds = 0;
+    std::vector<std::string> keys, holding, failing;
     for (const auto& [cell, value] : byCell) {
         list.push_back(value);
-        holds += isTrueAt(claim, value) ? 1 : 0;
+        keys.push_back(cell);
+        (isTrueAt(claim, value) ? holding : failing).push_back(cell);
     }
     const auto [low, high] = std::ranges::minmax(list);
     result.low = low;
@@ -149,9 +162,11 @@ void judgeExact(const Claim& claim, const Samples& samples, bool logarithmic, Cl
     result.measured = sum / static_cast<double>(list.size());
     if (logarithmic) result.measured = low > 0 ? std::exp(result.measured) : median(list);
     result.verdict = verdictOf(claim, result);
-    if (holds > 0 && holds < list.size()) {
+    if (!holding.empty() && !failing.empty()) {
         result.verdict = ClaimVerdict::unresolved;
-        result.note = fmt::format("true in {} of {} cells", holds, list.size());
+        result.note = fmt::format("true in {} of {} cells{}", holding.size(), list.size(),
+                                  failing.size() <= holding.size() ? listed(failing, keys, "not with", rows)
+                                                                   : listed(holding, keys, "only with", rows));
     }
 }
 
@@ -255,7 +270,7 @@ ClaimResult judgeClaim(const Claim& claim, const ResultRows& rows) {
     }
     if (claim.quantity != Quantity::exponent) {
         if (claim.exact)
-            judgeExact(claim, samples, logarithmic, result);
+            judgeExact(claim, samples, logarithmic, rows, result);
         else
             judgeRepeated(claim, samples, logarithmic, result);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <sstream>
 
 namespace dustbench::bench {
 namespace {
@@ -68,8 +69,24 @@ bool ResultRows::correspond(std::size_t a, std::size_t b, const std::set<std::st
 std::string ResultRows::cellKey(std::size_t row, std::string_view except) const {
     std::string key;
     for (const std::string& column : identity_)
-        if (column != except) key.append(table_.cell(row, column)).append(1, '\n');
+        key.append(column != except ? table_.cell(row, column) : "").append(1, '\n');
     return key;
+}
+
+std::string ResultRows::cellText(const std::string& key, const std::vector<std::string>& keys) const {
+    std::vector<std::istringstream> others(keys.begin(), keys.end());
+    std::istringstream own(key);
+    std::string text;
+    for (const std::string& column : identity_) {
+        std::string value, other;
+        std::getline(own, value);
+        bool differs = false;
+        for (std::istringstream& stream : others) differs |= std::getline(stream, other) && other != value;
+        if (!differs) continue;
+        const std::string name = column.starts_with("p.") ? column.substr(2) : column;
+        text.append(text.empty() ? "" : " ").append(name).append("=").append(value);
+    }
+    return text;
 }
 
 }  // namespace dustbench::bench

@@ -31,6 +31,8 @@ class ResultRows {
     [[nodiscard]] bool correspond(std::size_t a, std::size_t b, const std::set<std::string>& named) const;
     /// What a row's cell is known by, without the column `except`.
     [[nodiscard]] std::string cellKey(std::size_t row, std::string_view except) const;
+    /// What tells a cell from the others, by their keys: `particles=500 speed=40`.
+    [[nodiscard]] std::string cellText(const std::string& key, const std::vector<std::string>& keys) const;
 
  private:
     const files::CsvTable& table_;

@@ -56,15 +56,19 @@ bench::ParameterTexts singleValues(const std::vector<std::string>& texts) {
     return values;
 }
 
-/// Runs that were not judged, such as those of methods with a simulation of their own, have no place on the sheet.
+/// Of all runs that are done; the exact pictures come from those that are judged.
 void writeSheet(const bench::Suite& suite, const bench::ResultsFolder& results) {
     std::vector<bench::SheetRun> runs;
     for (const bench::PlannedRun& cell : suite.cells) {
         const std::string id = bench::runId(bench::inRepetition(cell.spec, 1));
-        if (bench::doneRun(cell, 1, results.runs()) && std::filesystem::exists(results.runFolder(id) / "metrics.csv"))
-            runs.push_back({id, cell.spec.method + (cell.label.empty() ? "" : " " + cell.label)});
+        if (bench::doneRun(cell, 1, results.runs()))
+            runs.push_back({id, cell.spec.method + (cell.label.empty() ? "" : " " + cell.label),
+                            std::filesystem::exists(results.runFolder(id) / "metrics.csv")});
     }
-    if (runs.empty()) return;
+    if (std::ranges::none_of(runs, &bench::SheetRun::judged)) {
+        std::cout << "no contact sheet: none of the runs could be held against exact pictures\n";
+        return;
+    }
     const std::filesystem::path file = results.path() / "contact_sheet.png";
     draw::writeImage(bench::drawSheet(bench::comparisonSheet(results, runs, suite.title)), file);
     std::cout << file.string() << "\n";

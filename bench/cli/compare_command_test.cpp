@@ -44,6 +44,23 @@ TEST_F(CompareCommand, WritesMetricsSummaryAndContactSheetAndGoesOnWhereItWas) {
     EXPECT_EQ(again.out, first.out);
 }
 
+TEST_F(CompareCommand, ShowsAMethodWithASimulationOfItsOwnBesideTheJudged) {
+    if (std::ranges::none_of(methods(), [](const MethodInfo& info) { return info.id == "grid_fluid"; }))
+        GTEST_SKIP() << "no fluid here";
+    const Called called = compare(
+        "grid_fluid:grid=16x8x8 billboard --size 96x72 --frames 6 --warmup 1 --repetitions 1 -P preroll=0.1 "
+        "-P particles=50");
+    ASSERT_EQ(called.code, 0) << called.err;
+    const draw::Image sheet = draw::readImage(fs::path(out()) / "contact_sheet.png");
+    // Exact, both methods, and the difference of one.
+    EXPECT_GT(sheet.width, 4 * 400);
+    EXPECT_LT(sheet.width, 5 * 400);
+    const auto summary = files::CsvTable::parseFile(fs::path(out()) / "summary.csv");
+    ASSERT_EQ(summary.rows(), 2u);
+    for (std::size_t row = 0; row < 2; ++row)
+        EXPECT_TRUE(fs::exists(fs::path(out()) / summary.cell(row, "FILE_image")));
+}
+
 TEST_F(CompareCommand, RefusesInOneLine) {
     const auto refused = [&](const std::string& more) {
         const Called called = compare(more);

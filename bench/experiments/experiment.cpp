@@ -4,21 +4,24 @@
 
 #include <algorithm>
 
+#include "bench/experiments/obstacle_experiment.h"
 #include "bench/experiments/sampling_experiment.h"
+#include "bench/experiments/sight_experiment.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/files/csv.h"
 
 namespace dustbench::bench {
 
 const std::vector<std::string>& experimentNames() {
-    static const std::vector<std::string> names{"sampling"};
+    static const std::vector<std::string> names{"sampling", "obstacles", "sight"};
     return names;
 }
 
 std::vector<Finding> runExperiment(std::string_view name, std::uint64_t seed) {
     if (std::ranges::find(experimentNames(), name) == experimentNames().end())
         throw unknownName("experiment", std::string(name), experimentNames());
-    return sampleDirections(seed);
+    if (name == "obstacles") return blowAtObstacles();
+    return name == "sight" ? lookAtABox() : sampleDirections(seed);
 }
 
 std::string findingsCsv(const std::vector<Finding>& findings) {

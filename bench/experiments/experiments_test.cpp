@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "bench/experiments/experiment.h"
+#include "bench/experiments/obstacle_experiment.h"
+#include "bench/experiments/sight_experiment.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/test_folder.h"
 
@@ -56,6 +58,30 @@ TEST(SamplingExperiment, IsAFunctionOfItsSeed) {
     const std::string first = findingsCsv(runExperiment("sampling", 1));
     EXPECT_EQ(findingsCsv(runExperiment("sampling", 1)), first);
     EXPECT_NE(findingsCsv(runExperiment("sampling", 2)), first);
+}
+
+TEST(ObstacleExperiment, TellsAnObstacleFromNoneAndFromOneThatSwallowsTheStream) {
+    const ObstacleReport holds = blowAtAnObstacle({});
+    EXPECT_LT(holds.swallowed, 0.02);
+    EXPECT_EQ(holds.smokeInside, 0);
+    ObstacleSettings settings;
+    settings.isSolid = false;
+    EXPECT_GT(blowAtAnObstacle(settings).smokeInside, 0.5);
+    // Without a pressure nothing turns the stream aside.
+    settings = {fluid::PressureMethod::jacobi, 0};
+    EXPECT_GT(blowAtAnObstacle(settings).swallowed, 0.3);
+}
+
+TEST(SightExperiment, FindsWhatIsDrawnWrong) {
+    std::map<std::string, double> errors;
+    for (const Finding& finding : runExperiment("sight")) errors[finding.quantity] = finding.value;
+    ASSERT_EQ(errors.size(), 6u);
+    for (const auto& [name, error] : errors) EXPECT_LT(error, 2e-3) << name;
+    // A ray that ends at an alpha of a half leaves the other half out.
+    gpu::Device device;
+    raycast::RaycastSettings settings;
+    settings.stopAlpha = 0.5;
+    EXPECT_GT(greatestSightError(device, settings, {{{0, 0, 9}, {0, 0, -1}, {}}}), 0.1);
 }
 
 TEST(Findings, AreReadAsTheyWereWritten) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
 
 #include "bench/measure/image/flip.h"
 #include "bench/measure/image/heat_map.h"
@@ -13,16 +15,16 @@ namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
-struct JudgedPicture {
+struct ShownPicture {
     draw::Image picture;
-    Plane difference;
+    std::optional<Plane> difference;  ///< from the exact picture; none: there is none for this run
     std::string caption;
 };
 
 struct Moment {
     std::string frame, timeSeconds;
     draw::Image reference;
-    std::vector<JudgedPicture> pictures;  ///< one a run
+    std::vector<ShownPicture> pictures;  ///< one a run
 };
 
 std::string captionOf(const files::CsvTable& metrics, std::size_t row) {
@@ -31,61 +33,85 @@ std::string captionOf(const files::CsvTable& metrics, std::size_t row) {
                        metrics.number(row, "ssim"), metrics.number(row, "flip"));
 }
 
-std::vector<Moment> readMoments(const ResultsFolder& results, std::span<const SheetRun> runs) {
+draw::Image readPicture(const ResultsFolder& results, const SheetRun& run, const std::string& frame, const char* what) {
+    return draw::readImage(results.runFolder(run.runId) / "images" /
+                           fmt::format("f{:06}{}.exr", std::stoll(frame), what));
+}
+
+files::CsvTable metricsOf(const ResultsFolder& results, const SheetRun& run) {
+    return files::CsvTable::parseFile(results.runFolder(run.runId) / "metrics.csv");
+}
+
+/// The rows of metrics.csv that stand for pictures; others are of the popping stretch alone.
+std::vector<std::size_t> rowsWithPicture(const files::CsvTable& metrics) {
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < metrics.rows(); ++row)
+        if (!metrics.cell(row, "identical").empty()) rows.push_back(row);
+    return rows;
+}
+
+std::vector<Moment> readReferences(const ResultsFolder& results, const SheetRun& run) {
+    const files::CsvTable metrics = metricsOf(results, run);
     std::vector<Moment> moments;
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-        const fs::path folder = results.runFolder(runs[i].runId);
-        const files::CsvTable metrics = files::CsvTable::parseFile(folder / "metrics.csv");
-        std::size_t moment = 0;
-        for (std::size_t row = 0; row < metrics.rows(); ++row) {
-            if (metrics.cell(row, "identical").empty()) continue;  // of the popping stretch alone
-            const auto image = [&](const char* what) {
-                return draw::readImage(folder / "images" /
-                                       fmt::format("f{:06.0f}{}.exr", metrics.number(row, "frame"), what));
-            };
-            if (i == 0)
-                moments.push_back({metrics.cell(row, "frame"),
-                                   fmt::format("{:.2f}", metrics.number(row, "time_s")),
-                                   image("_reference"),
-                                   {}});
-            draw::Image picture = image("");
-            Plane difference = flip(preparePicture(moments.at(moment).reference, "the reference"),
-                                    preparePicture(picture, runs[i].label))
-                                   .map;
-            moments.at(moment++).pictures.push_back(
-                {std::move(picture), std::move(difference), captionOf(metrics, row)});
-        }
+    for (const std::size_t row : rowsWithPicture(metrics)) {
+        const std::string& frame = metrics.cell(row, "frame");
+        moments.push_back({frame,
+                           fmt::format("{:.2f}", metrics.number(row, "time_s")),
+                           readPicture(results, run, frame, "_reference"),
+                           {}});
     }
     return moments;
+}
+
+void addJudged(const ResultsFolder& results, const SheetRun& run, std::vector<Moment>& moments) {
+    const files::CsvTable metrics = metricsOf(results, run);
+    std::size_t number = 0;
+    for (const std::size_t row : rowsWithPicture(metrics)) {
+        Moment& moment = moments.at(number++);
+        draw::Image picture = readPicture(results, run, metrics.cell(row, "frame"), "");
+        Plane difference =
+            flip(preparePicture(moment.reference, "the reference"), preparePicture(picture, run.label)).map;
+        moment.pictures.push_back({std::move(picture), std::move(difference), captionOf(metrics, row)});
+    }
+}
+
+void addAsItIs(const ResultsFolder& results, const SheetRun& run, std::vector<Moment>& moments) {
+    for (Moment& moment : moments)
+        moment.pictures.push_back(
+            {readPicture(results, run, moment.frame, ""), std::nullopt, "its own simulation:  no exact picture"});
 }
 
 /// The greatest difference of all, rounded up to a tenth.
 float scaleOf(const std::vector<Moment>& moments) {
     float most = 0;
     for (const Moment& moment : moments)
-        for (const JudgedPicture& picture : moment.pictures)
-            most = std::max(most, *std::ranges::max_element(picture.difference.values));
+        for (const ShownPicture& picture : moment.pictures)
+            if (picture.difference) most = std::max(most, *std::ranges::max_element(picture.difference->values));
     return std::max(0.1f, std::ceil(most * 10) / 10);
 }
 
 }  // namespace
 
 ContactSheet comparisonSheet(const ResultsFolder& results, std::span<const SheetRun> runs, const std::string& title) {
-    const std::vector<Moment> moments = readMoments(results, runs);
+    const auto firstJudged = std::ranges::find_if(runs, &SheetRun::judged);
+    if (firstJudged == runs.end()) throw std::invalid_argument("contact sheet: no run is judged");
+    std::vector<Moment> moments = readReferences(results, *firstJudged);
+    for (const SheetRun& run : runs) run.judged ? addJudged(results, run, moments) : addAsItIs(results, run, moments);
     ContactSheet sheet;
     sheet.title = title;
     sheet.scale = {0, scaleOf(moments), "FLIP"};
     sheet.columns.emplace_back("exact");
     for (const SheetRun& run : runs) sheet.columns.push_back(run.label);
-    for (const SheetRun& run : runs) sheet.columns.push_back("difference of " + run.label);
+    for (const SheetRun& run : runs)
+        if (run.judged) sheet.columns.push_back("difference of " + run.label);
     for (const Moment& moment : moments) {
         sheet.rows.push_back(fmt::format("frame {}, {} s", moment.frame, moment.timeSeconds));
         auto& cells = sheet.cells.emplace_back();
         cells.push_back(SheetCell{moment.reference, ""});
-        for (const JudgedPicture& picture : moment.pictures)
+        for (const ShownPicture& picture : moment.pictures)
             cells.push_back(SheetCell{picture.picture, picture.caption});
-        for (const JudgedPicture& picture : moment.pictures)
-            cells.push_back(SheetCell{heatMap(picture.difference, 0, sheet.scale->most), ""});
+        for (const ShownPicture& picture : moment.pictures)
+            if (picture.difference) cells.push_back(SheetCell{heatMap(*picture.difference, 0, sheet.scale->most), ""});
     }
     return sheet;
 }

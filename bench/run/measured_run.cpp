@@ -81,6 +81,12 @@ class RunVolumes {
     std::optional<VolumeExporter> exporter_;
 };
 
+/// The moments of a run that cannot be judged: their pictures are kept all the same, to be looked at.
+std::vector<std::int64_t> momentsToShow(const RunSpec& spec, const Method& method) {
+    if (!spec.judging || whyNotJudged(*spec.judging, method).empty()) return {};
+    return spec.judging->momentsOf(spec.frames);
+}
+
 /// The untimed steps, of which the last is verified, then warm-up and recorded frames. Fills in what is measured of the
 /// run as a whole.
 void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, const fs::path& folder,
@@ -92,6 +98,7 @@ void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, con
         step + 1 < preroll ? runner.stepWithoutPicture(index) : runner.verifiedStep(index);
     }
     run.startSeconds = secondsSinceProcessStart();
+    const std::vector<std::int64_t> shown = momentsToShow(spec, runner.method());
     for (std::int64_t index = -spec.warmup; index < spec.frames; ++index) {
         if (index == 0) {
             runner.drain();
@@ -102,7 +109,8 @@ void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, con
         else
             progress("frames", index, spec.frames);
         runner.frame(index);
-        const bool savesPicture = spec.imagesEvery > 0 && index >= 0 && index % spec.imagesEvery == 0;
+        const bool savesPicture = (spec.imagesEvery > 0 && index >= 0 && index % spec.imagesEvery == 0) ||
+                                  std::ranges::binary_search(shown, index);
         if (!savesPicture && !volumes.wants(index)) continue;
         runner.drain();
         energy.pause();
@@ -172,8 +180,10 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
         record.summary.emplace_back("flow_divergence_max", flow->divergencePerStep);
     }
     if (const auto kept = runner.massKept()) record.summary.emplace_back("mass_kept", *kept);
-    if (spec.imagesEvery > 0 || spec.judging)
-        record.summary.emplace_back("FILE_image", "runs/" + runId(spec) + "/images/f000000.png");
+    if (spec.imagesEvery > 0 || spec.judging) {
+        const std::int64_t first = spec.imagesEvery > 0 ? 0 : spec.judging->momentsOf(spec.frames).front();
+        record.summary.emplace_back("FILE_image", fmt::format("runs/{}/images/f{:06}.png", runId(spec), first));
+    }
     if (const std::string series = volumes.firstSeries(); !series.empty())
         record.summary.emplace_back("FILE_volume", series);
     writeWhole(folder / "frames.csv", framesCsv(runner.records()));
