@@ -3,14 +3,15 @@ layout(std430, binding = 4) restrict buffer RightSide { float rightSide[]; };
 layout(std430, binding = 5) restrict readonly buffer Runs { ivec4 runs[]; };  // i, end, j, k
 layout(std430, binding = 6) restrict readonly buffer Regions { ivec2 regions[]; };  // first run, behind the last
 layout(std430, binding = 7) restrict buffer Report { uint report[]; };
-uniform int slot;
+uniform int slot, regionCount;
 
 shared double sums[GROUP];
 shared int counts[GROUP];
 
 void main() {
     int own = int(gl_LocalInvocationIndex);
-    ivec2 region = regions[gl_WorkGroupID.x];
+    bool exists = groupNumber() < regionCount;
+    ivec2 region = exists ? regions[groupNumber()] : ivec2(0);
     double sum = 0.0lf;
     int count = 0;
     for (int r = region.x + own; r < region.y; r += GROUP) {
@@ -35,5 +36,5 @@ void main() {
         ivec4 run = runs[r];
         for (int i = run.x; i < run.y; ++i) rightSide[place(ivec3(i, run.zw))] -= mean;
     }
-    if (own == 0) atomicMax(report[slot], floatBitsToUint(mean) & 0x7fffffffu);
+    if (own == 0 && exists) atomicMax(report[slot], floatBitsToUint(mean) & 0x7fffffffu);
 }

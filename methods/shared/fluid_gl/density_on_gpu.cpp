@@ -13,8 +13,8 @@ struct Balance {
 };
 
 int groupsOf(const glm::ivec3& cells) {
-    const glm::ivec3 groups = Kernel::groupsFor({cells.x, cells.y, 1});
-    return groups.x * groups.y;
+    const glm::ivec3 groups = Kernel::groupsFor(Kernel::columnsOf(cells));
+    return groups.x * groups.y * groups.z;
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ void DensityOnGpu::sum(const CellsOnGpu& state, const gpu::Buffer& kinds, int wh
     balance_.bindStorage(3);
     sum_.set("what", what);
     sum_.set("cellsPerSpeed", cellsPerSpeed);
-    sum_.run({cells_.x, cells_.y, 1});
+    sum_.run(Kernel::columnsOf(cells_));
     total_.set("what", what);
     total_.runGroups(1);
 }

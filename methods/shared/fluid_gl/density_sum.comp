@@ -1,4 +1,4 @@
-// Sums of densities over columns of cells along z, one for each group of threads; always in the same order.
+// Sums of densities over short columns of cells along z, one for each group of threads; always in the same order.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict writeonly buffer Sums { double sums[]; };
 uniform int what;             // 0: all there is; 1: less what leaves through open sides in a step; 2: what is in solids
@@ -17,10 +17,10 @@ float leaving(ivec3 c, int cell, vec4 record) {
 }
 
 void main() {
-    ivec3 c = ivec3(gl_GlobalInvocationID.xy, 0);
+    ivec3 c = ivec3(gl_GlobalInvocationID) * ivec3(1, 1, COLUMN);
     float sum = 0.0;
     if (inside(c))
-        for (; c.z < cells.z; ++c.z) {
+        for (int end = min(c.z + COLUMN, cells.z); c.z < end; ++c.z) {
             int cell = at(c);
             vec4 record = moving[cell];
             if (what == 2 && isFluid(cell)) continue;
@@ -33,5 +33,6 @@ void main() {
         barrier();
         if (own < width) columns[own] += columns[own + width];
     }
-    if (own == 0u) sums[gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y] = columns[0];
+    uvec3 group = gl_WorkGroupID, all = gl_NumWorkGroups;
+    if (own == 0u) sums[group.x + all.x * (group.y + all.y * group.z)] = columns[0];
 }

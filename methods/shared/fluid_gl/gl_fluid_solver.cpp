@@ -152,7 +152,7 @@ void GlFluidSolver::findGreatest() {
     report_.restartGreatest(settings_.windMetresPerSecond);
     cells_.bind(1);
     report_.bind();
-    greatest_.run({settings_.box.cells.x, settings_.box.cells.y, 1});
+    greatest_.run(Kernel::columnsOf(settings_.box.cells));
     speedsKnown_ = true;
 }
 

@@ -8,14 +8,15 @@ void main() {
     int cell = at(c);
     vec4 record = moving[cell];
     if (isFluid(cell)) {
-        float q = pressure[place(c)];
+        Star star = starAround(c);
+        float q = pressure[star.own];
+        ivec2 beside[3] = ivec2[3](star.twin - star.before + ivec2(0, 1), star.twin + ivec2(-star.row, star.row),
+                                   star.twin + ivec2(-star.slab, star.slab));
         for (int axis = 0; axis < 3; ++axis) {
             int next = stepAlong(axis);
-            ivec3 apart = ivec3(0);
-            apart[axis] = 1;
             uint before = conductance(cell - next), behind = conductance(cell + next);
-            float change = float(before) * (pressure[place(c - apart)] - q) +
-                           float(behind) * (q - pressure[place(c + apart)]);
+            float change = float(before) * (pressure[beside[axis].x] - q) +
+                           float(behind) * (q - pressure[beside[axis].y]);
             if (before == 0u || behind == 0u)
                 record[axis] = 0.5 * (faceSpeed(cell, -next, axis) + faceSpeed(cell, next, axis));
             record[axis] += 0.5 * change;

@@ -10,11 +10,11 @@ void main() {
     uint own = gl_LocalInvocationIndex;
     if (own < 6u) most[own] = 0u;
     barrier();
-    ivec3 c = ivec3(gl_GlobalInvocationID.xy, 0);
+    ivec3 c = ivec3(gl_GlobalInvocationID) * ivec3(1, 1, COLUMN);
     if (inside(c)) {
         uvec4 mostMoving = uvec4(0);
         uvec2 mostCarried = uvec2(0);
-        for (; c.z < cells.z; ++c.z) {
+        for (int end = min(c.z + COLUMN, cells.z); c.z < end; ++c.z) {
             mostMoving = max(mostMoving, floatBitsToUint(moving[at(c)]) & 0x7fffffffu);
             mostCarried = max(mostCarried, floatBitsToUint(carried[at(c)]) & 0x7fffffffu);
         }

@@ -3,6 +3,7 @@
 // Cells of the flow lie as in fluid::CellLayout: x runs fastest, with a ghost at either end of each axis.
 layout(local_size_x = 32, local_size_y = 4, local_size_z = 1) in;
 #define GROUP 128
+#define COLUMN 16  // cells along z that a thread takes where groups of threads gather something
 
 uniform ivec3 cells;
 
@@ -21,4 +22,9 @@ int at(ivec3 c) {
 // From a cell to the next along an axis, in cells of memory.
 int stepAlong(int axis) {
     return axis == 0 ? 1 : axis == 1 ? cells.x + 2 : (cells.x + 2) * (cells.y + 2);
+}
+
+// The number of this group of threads, which may be one too many.
+int groupNumber() {
+    return int(gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y);
 }

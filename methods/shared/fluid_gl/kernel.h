@@ -3,6 +3,7 @@
 // Threads: the OpenGL thread's.
 #pragma once
 
+#include <algorithm>
 #include <initializer_list>
 #include <iterator>
 #include <map>
@@ -25,6 +26,7 @@ namespace dustbench::fluid_gl {
 class Kernel {
  public:
     static constexpr glm::ivec3 group{32, 4, 1};  ///< threads that work together, as grid.glsl says
+    static constexpr int column = 16;
 
     /// The last file is the program's own; its pieces come before.
     Kernel(gpu::Device& device, std::initializer_list<gpu::ShaderFile> files,
@@ -37,11 +39,19 @@ class Kernel {
     }
     /// How many groups of threads take so many items, along each axis.
     [[nodiscard]] static glm::ivec3 groupsFor(const glm::ivec3& items) { return (items + group - 1) / group; }
+    /// Items where each thread takes a short column of cells along z.
+    [[nodiscard]] static glm::ivec3 columnsOf(const glm::ivec3& cells) {
+        return {cells.x, cells.y, (cells.z + column - 1) / column};
+    }
     void run(const glm::ivec3& items) const {
         const glm::ivec3 groups = groupsFor(items);
         program_.dispatch(groups.x, groups.y, groups.z);
     }
-    void runGroups(int count) const { program_.dispatch(count, 1, 1); }
+    /// In rows of groups: OpenGL takes no more than 65,535 side by side. There may be some too many.
+    void runGroups(int count) const {
+        constexpr int most = 32768;
+        program_.dispatch(std::min(count, most), (count + most - 1) / most, 1);
+    }
 
  private:
     gpu::Program program_;

@@ -10,6 +10,18 @@ int place(ivec3 c) {
     return placeIn(c, cells);
 }
 
+// A cell's own place, and that of its number among the cells of the other colour, which all its neighbours have: along x
+// they are at `twin - before` and one behind, along y a row on, along z a slab on.
+struct Star {
+    int own, twin, before, row, slab;
+};
+
+Star starAround(ivec3 c) {
+    int row = (cells.x + 3) / 2, slab = row * (cells.y + 2), colour = slab * (cells.z + 2);
+    int number = (c.x + 1 >> 1) + row * (c.y + 1) + slab * (c.z + 1), black = c.x + c.y + c.z & 1;
+    return Star(number + black * colour, number + (1 - black) * colour, c.x & 1, row, slab);
+}
+
 // The cell of a colour that this thread works on, in threads numbered along x by pairs of cells.
 ivec3 cellOfColour(int colour) {
     ivec3 c = ivec3(gl_GlobalInvocationID);

@@ -4,32 +4,28 @@ layout(std430, binding = 1) readonly buffer Pressure { float pressure[]; };
 #ifdef FINEST
 layout(std430, binding = 3) restrict readonly buffer Diagonal { float diagonals[]; };
 
-float diagonal(ivec3 c) {
-    return diagonals[place(c)];
+float diagonal(Star star) {
+    return diagonals[star.own];
 }
 
-float neighbours(ivec3 c) {
-    return pressure[place(c - ivec3(1, 0, 0))] + pressure[place(c + ivec3(1, 0, 0))] +
-           (pressure[place(c - ivec3(0, 1, 0))] + pressure[place(c + ivec3(0, 1, 0))]) +
-           (pressure[place(c - ivec3(0, 0, 1))] + pressure[place(c + ivec3(0, 0, 1))]);
+float neighbours(Star star) {
+    int x = star.twin - star.before;
+    return pressure[x] + pressure[x + 1] + (pressure[star.twin - star.row] + pressure[star.twin + star.row]) +
+           (pressure[star.twin - star.slab] + pressure[star.twin + star.slab]);
 }
 #else
 // The faces to the next cells along x, y and z, and the sum of all six.
 layout(std430, binding = 3) restrict readonly buffer Faces { vec4 faces[]; };
 
-float diagonal(ivec3 c) {
-    return faces[place(c)].w;
+float diagonal(Star star) {
+    return faces[star.own].w;
 }
 
-float neighbours(ivec3 c) {
-    vec4 own = faces[place(c)];
-    float sum = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        ivec3 next = ivec3(0);
-        next[axis] = 1;
-        int before = place(c - next);
-        sum += faces[before][axis] * pressure[before] + own[axis] * pressure[place(c + next)];
-    }
-    return sum;
+float neighbours(Star star) {
+    vec4 own = faces[star.own];
+    int x = star.twin - star.before, y = star.twin - star.row, z = star.twin - star.slab;
+    return faces[x].x * pressure[x] + own.x * pressure[x + 1] +
+           (faces[y].y * pressure[y] + own.y * pressure[star.twin + star.row]) +
+           (faces[z].z * pressure[z] + own.z * pressure[star.twin + star.slab]);
 }
 #endif

@@ -181,6 +181,7 @@ void PressureOnGpu::balanceClosedRegions() {
     regions_.bindStorage(regionsAt);
     closed_.set("cells", levels_.front().cells);
     closed_.set("slot", StepReportOnGpu::unremovable);
+    closed_.set("regionCount", regionCount_);
     closed_.runGroups(regionCount_);
 }
 

@@ -2,8 +2,9 @@
 layout(std430, binding = 4) restrict readonly buffer RightSide { float rightSide[]; };
 
 float residual(ivec3 c) {
-    float weight = diagonal(c);
-    return weight > 0.0 ? rightSide[place(c)] - (neighbours(c) - weight * pressure[place(c)]) : 0.0;
+    Star star = starAround(c);
+    float weight = diagonal(star);
+    return weight > 0.0 ? rightSide[star.own] - (neighbours(star) - weight * pressure[star.own]) : 0.0;
 }
 
 #ifdef FINEST

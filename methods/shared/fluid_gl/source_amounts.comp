@@ -1,14 +1,15 @@
 // What each source adds at its centre so that all cells together get its amount; a group of threads for each.
 layout(std430, binding = 4) restrict writeonly buffer Added { float added[]; };
+uniform int count;
 
 shared float parts[GROUP];
 
 void main() {
-    int s = int(gl_WorkGroupID.x), own = int(gl_LocalInvocationIndex);
+    int s = min(groupNumber(), count - 1), own = int(gl_LocalInvocationIndex);
     ivec3 first = sources[s].first.xyz, size = sources[s].last.xyz - first + 1;
-    int count = sources[s].middle.w != 0 ? size.x * size.y * size.z : 0;
+    int reached = sources[s].middle.w != 0 ? size.x * size.y * size.z : 0;
     float sum = 0.0;
-    for (int n = own; n < count; n += GROUP) {
+    for (int n = own; n < reached; n += GROUP) {
         ivec3 c = first + ivec3(n % size.x, n / size.x % size.y, n / size.x / size.y);
         if (isFluid(at(c))) sum += strengthAt(c, s);
     }

@@ -71,6 +71,7 @@ void SourcesOnGpu::add(const CellsOnGpu& state, const gpu::Buffer& kinds, const 
     state.bind(1);
     sources_.bindStorage(3);
     added_.bindStorage(4);
+    amounts_.set("count", count);
     amounts_.runGroups(count);
     add_.set("count", count);
     add_.set("least", least);

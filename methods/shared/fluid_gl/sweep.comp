@@ -7,6 +7,7 @@ uniform int colour;
 void main() {
     ivec3 c = cellOfColour(colour);
     if (!inside(c)) return;
-    float weight = diagonal(c);
-    target[place(c)] = weight > 0.0 ? (neighbours(c) - rightSide[place(c)]) / weight : 0.0;
+    Star star = starAround(c);
+    float weight = diagonal(star);
+    target[star.own] = weight > 0.0 ? (neighbours(star) - rightSide[star.own]) / weight : 0.0;
 }
