@@ -59,6 +59,7 @@ Claim readClaim(files::TomlReader& table) {
     }
     claim.suite = table.text("suite");
     claim.column = readColumn(table, "column");
+    if (table.has("per")) claim.per = readColumn(table, "per");
     claim.of = selectionIn(table, "of");
     claim.exact = table.boolean("exact", false);
     if (claim.quantity == Quantity::ratio) claim.with = selectionIn(table, "with");

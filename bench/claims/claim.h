@@ -38,6 +38,7 @@ struct Claim {
     std::string experiment;
     Quantity quantity = Quantity::none;
     std::string column;              ///< of a finding: its quantity
+    std::string per;                 ///< a column by which it is divided, row by row; empty: it is not
     std::vector<std::string> parts;  ///< of a share: columns whose sum is the numerator
     Selection of, with;              ///< of a ratio both, else `of` alone
     std::string against;

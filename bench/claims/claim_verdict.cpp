@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include "bench/measure/cost_fit.h"
@@ -38,6 +39,13 @@ std::string textOf(const Selection& selection) {
     return text;
 }
 
+std::optional<double> valueOf(const Claim& claim, const ResultRows& rows, std::size_t row) {
+    const std::optional<double> value = rows.number(row, claim.column);
+    if (claim.per.empty() || !value) return value;
+    const std::optional<double> divisor = rows.number(row, claim.per);
+    return divisor && *divisor != 0 ? std::optional(*value / *divisor) : std::nullopt;
+}
+
 void noteMissing(Samples& samples, const Claim& claim, const Selection& selection) {
     if (samples.missing.empty())
         samples.missing =
@@ -48,7 +56,7 @@ void noteMissing(Samples& samples, const Claim& claim, const Selection& selectio
 std::vector<std::size_t> rowsWith(const Claim& claim, const Selection& selection, const ResultRows& rows,
                                   Samples& samples) {
     std::vector<std::size_t> chosen = rows.select(selection);
-    std::erase_if(chosen, [&](std::size_t row) { return !rows.number(row, claim.column); });
+    std::erase_if(chosen, [&](std::size_t row) { return !valueOf(claim, rows, row); });
     if (chosen.empty()) noteMissing(samples, claim, selection);
     samples.rows.insert(samples.rows.end(), chosen.begin(), chosen.end());
     return chosen;
@@ -64,7 +72,7 @@ Samples ratios(const Claim& claim, const ResultRows& rows) {
     for (const std::size_t a : of)
         for (const std::size_t b : with) {
             if (!rows.correspond(a, b, named)) continue;
-            const double x = *rows.number(a, claim.column), y = *rows.number(b, claim.column);
+            const double x = *valueOf(claim, rows, a), y = *valueOf(claim, rows, b);
             if (y > 0 && (x > 0 || claim.exact))
                 samples.list.push_back({rows.cellKey(a, ""), rows.repetition(a), x / y});
         }
@@ -79,7 +87,7 @@ Samples shares(const Claim& claim, const ResultRows& rows) {
     for (const std::size_t row : rowsWith(claim, claim.of, rows, samples)) {
         double sum = 0;
         for (const std::string& part : claim.parts) sum += rows.number(row, part).value_or(0);
-        if (const double whole = *rows.number(row, claim.column); whole != 0)
+        if (const double whole = *valueOf(claim, rows, row); whole != 0)
             samples.list.push_back({rows.cellKey(row, ""), rows.repetition(row), sum / whole});
     }
     return samples;
@@ -88,7 +96,7 @@ Samples shares(const Claim& claim, const ResultRows& rows) {
 Samples values(const Claim& claim, const ResultRows& rows) {
     Samples samples;
     for (const std::size_t row : rowsWith(claim, claim.of, rows, samples))
-        samples.list.push_back({rows.cellKey(row, ""), rows.repetition(row), *rows.number(row, claim.column)});
+        samples.list.push_back({rows.cellKey(row, ""), rows.repetition(row), *valueOf(claim, rows, row)});
     return samples;
 }
 
@@ -110,8 +118,8 @@ Samples growths(const Claim& claim, const ResultRows& rows) {
         for (const std::size_t last : members)
             for (const std::size_t first : members) {
                 if (load(last) != greatest || load(first) != least) continue;
-                const double start = *rows.number(first, claim.column);
-                const double end = *rows.number(last, claim.column);
+                const double start = *valueOf(claim, rows, first);
+                const double end = *valueOf(claim, rows, last);
                 if (rows.repetition(first) == rows.repetition(last) && start > 0 && (end > 0 || claim.exact))
                     samples.list.push_back({key, rows.repetition(first), end / start});
             }
@@ -210,7 +218,7 @@ ClaimResult judgeExponent(const Claim& claim, const ResultRows& rows, Samples& s
     for (const auto& [key, members] : curves(claim, rows, samples)) {
         std::vector<CostPoint> points;
         for (const std::size_t row : members)
-            points.push_back({*rows.number(row, claim.against), *rows.number(row, claim.column)});
+            points.push_back({*rows.number(row, claim.against), *valueOf(claim, rows, row)});
         const CostFit fit = fitCost(points);
         if (!std::isfinite(fit.exponent.plusMinus)) {
             if (result.note.empty()) result.note = fit.reason.empty() ? "the fit has no interval" : fit.reason;

@@ -140,6 +140,20 @@ TEST(ClaimRules, AGrowthIsFromTheLeastLoadToTheGreatest) {
     EXPECT_EQ(judged(rule + "3\n", ratioOf(1)).verdict, ClaimVerdict::refuted);
 }
 
+TEST(ClaimRules, AColumnMayBeTakenPerUnitOfAnother) {
+    const std::string rule =
+        "quantity = \"growth\"\ncolumn = \"frame_ms_median\"\nper = \"p.particles\"\nagainst = \"p.particles\"\n"
+        "of = \"mist\"\ngreatest = 1.1\n";
+    const auto power = [](double k) {
+        return [k](const std::string&, int particles, int repetition) {
+            return std::pow(particles, k) * scatter(particles, repetition, 5);
+        };
+    };
+    EXPECT_EQ(judged(rule, power(1)).verdict, ClaimVerdict::confirmed);
+    EXPECT_NEAR(judged(rule, power(1)).measured, 1, 0.02);
+    EXPECT_EQ(judged(rule, power(2)).verdict, ClaimVerdict::refuted);
+}
+
 TEST(ClaimRules, AnExponentIsThatOfTheFittedCurve) {
     const std::string rule =
         "quantity = \"exponent\"\ncolumn = \"frame_ms_median\"\nagainst = \"p.particles\"\nof = \"mist\"\n";

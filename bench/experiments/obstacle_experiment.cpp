@@ -21,7 +21,7 @@ constexpr glm::ivec3 cells{56, 32, 32};
 constexpr double edge = 0.1;
 constexpr glm::vec3 stream{1, 0, 0};
 constexpr double stepSeconds = 1.0 / 30;
-constexpr int steps = 45;
+constexpr int steps = 30;
 constexpr double radius = 0.7;
 
 fluid::FluidSettings settingsOf(const ObstacleSettings& settings) {

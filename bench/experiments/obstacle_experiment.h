@@ -10,7 +10,7 @@
 
 namespace dustbench::bench {
 
-/// A ball in a stream of 1 m/s with smoke in it, over one and a half seconds.
+/// A ball in a stream of 1 m/s with smoke in it, for a second.
 struct ObstacleSettings {
     fluid::PressureMethod pressure = fluid::PressureMethod::multigrid;
     int jacobiSweeps = 6;           ///< as many as the demo takes that the paper goes back to
