@@ -10,8 +10,8 @@ int place(ivec3 c) {
     return placeIn(c, cells);
 }
 
-// A cell's own place, and that of its number among the cells of the other colour, which all its neighbours have: along x
-// they are at `twin - before` and one behind, along y a row on, along z a slab on.
+// A cell's own place, and that of its number among the cells of the other colour, which all its neighbours have: along
+// x they are at `twin - before` and one behind, along y a row on, along z a slab on.
 struct Star {
     int own, twin, before, row, slab;
 };
