@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "methods/shared/errors.h"
+#include "methods/shared/maths/hash.h"
 #include "methods/shared/simulation_error.h"
 
 namespace dustbench::fluid {
@@ -53,6 +55,14 @@ int diffusionParts(const FluidSettings& settings, float stepSeconds) {
         throw InputError("viscosity: got " + std::to_string(viscosity) + " m2/s, allowed: up to " +
                          std::to_string(viscosity * 1000 / parts) + " at this step and spacing");
     return static_cast<int>(parts);
+}
+
+std::uint64_t hashOf(const CellField& cells, const CellLayout& layout) {
+    maths::Hash hash;
+    for (std::size_t r = 0; r < layout.rows(); ++r)
+        hash.add(std::span<const float>(cells.cell(layout.at(0, layout.rowJ(r), layout.rowK(r))),
+                                        static_cast<std::size_t>(layout.nx) * lanes));
+    return hash.value();
 }
 
 void throwLostNumber(const CellField& cells, const CellLayout& layout, std::int64_t steps) {

@@ -41,6 +41,8 @@ void checkStep(double stepSeconds);
 /// Into how many explicit steps viscosity divides one. Throws InputError where they are too many.
 [[nodiscard]] int diffusionParts(const FluidSettings& settings, float stepSeconds);
 
+/// Of all records of a state, ghosts aside.
+[[nodiscard]] std::uint64_t hashOf(const CellField& cells, const CellLayout& layout);
 /// Says which number of a state got lost, after how many steps, and where.
 [[noreturn]] void throwLostNumber(const CellField& cells, const CellLayout& layout, std::int64_t steps);
 

@@ -10,7 +10,6 @@
 #include "methods/shared/fluid/density_balance.h"
 #include "methods/shared/fluid/lanes.h"
 #include "methods/shared/fluid/source_reach.h"
-#include "methods/shared/maths/hash.h"
 #include "methods/shared/parallel/for_each_block.h"
 
 namespace dustbench::fluid {
@@ -221,11 +220,7 @@ float FluidSolver::pressureM2PerS2(int i, int j, int k) const {
 }
 
 std::uint64_t FluidSolver::stateHash() const {
-    maths::Hash hash;
-    for (std::size_t r = 0; r < layout_.rows(); ++r)
-        hash.add(std::span<const float>(cells_.cell(layout_.at(0, layout_.rowJ(r), layout_.rowK(r))),
-                                        static_cast<std::size_t>(layout_.nx) * lanes));
-    return hash.value();
+    return hashOf(cells_, layout_);
 }
 
 }  // namespace dustbench::fluid

@@ -5,7 +5,6 @@
 
 #include "fluid_gl_shaders.h"
 #include "methods/shared/errors.h"
-#include "methods/shared/maths/hash.h"
 
 namespace dustbench::fluid_gl {
 namespace {
@@ -235,11 +234,7 @@ std::uint64_t GlFluidSolver::stateHash() const {
     MemoryLedger passing;
     fluid::CellField state(layout_, passing.account("state"));
     readCells(state);
-    maths::Hash hash;
-    for (std::size_t r = 0; r < layout_.rows(); ++r)
-        hash.add(std::span<const float>(state.cell(layout_.at(0, layout_.rowJ(r), layout_.rowK(r))),
-                                        static_cast<std::size_t>(layout_.nx) * fluid::lanes));
-    return hash.value();
+    return fluid::hashOf(state, layout_);
 }
 
 MemoryReport GlFluidSolver::memory() const {
