@@ -14,8 +14,8 @@ constexpr std::size_t chunksPerThread = 4;
 constexpr std::size_t leastChunk = 16'384;
 /// Particles whose words are made at once, by the vector units, before they are counted.
 constexpr std::size_t stripSize = 1024;
-/// So many particles before one is written, its place is fetched.
-constexpr std::size_t ahead = 12;
+/// So many places before a bin comes to one, its cache line is fetched: two lines, for a line may be left at once.
+constexpr std::size_t ahead = 16;
 /// Up to this depth bricks are few enough to be bins.
 constexpr int narrowDepth = 8;
 constexpr std::uint32_t wideDigit = 4095;
@@ -100,8 +100,7 @@ void BrickPartition::sortNarrow(const particles::ParticleStore& store, const Cel
     const std::size_t total = store.size();
     const std::uint32_t brickBins = 1u << 3 * (depth - brickRise);
     setChunks(total, brickBins + 2);
-    std::uint32_t* const keys = narrowKeys_.hold(total + ahead);
-    std::fill_n(keys + total, ahead, 0u);
+    std::uint32_t* const keys = narrowKeys_.hold(total);
     std::uint64_t* const sorted = sorted_.hold(total);
     std::uint32_t* const counts = counts_.data();
     const BrickKey word = key_;
@@ -119,11 +118,11 @@ void BrickPartition::sortNarrow(const particles::ParticleStore& store, const Cel
     parallel::forEachBlock(total, chunkSize_, [&](std::size_t first, std::size_t count) {
         std::uint32_t* const next = counts + first / chunkSize_ * bins_;
         for (std::size_t i = 0; i < count; ++i) {
-            __builtin_prefetch(sorted + next[keys[first + i + ahead] >> brickCodeBits], 1);
             const std::uint32_t key = keys[first + i];
             const auto particle = static_cast<std::uint32_t>(first + i);
-            sorted[next[key >> brickCodeBits]++] =
-                word.make(voxelRule.priority(particle), key & (brickCodes - 1), particle);
+            const std::uint32_t place = next[key >> brickCodeBits]++;
+            __builtin_prefetch(sorted + place + ahead, 1);
+            sorted[place] = word.make(voxelRule.priority(particle), key & (brickCodes - 1), particle);
         }
     });
 
