@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstring>
+#include <numeric>
 
 namespace dustbench::particles {
 
@@ -39,10 +40,13 @@ void NotedParticles::note(std::size_t chunk, const std::uint8_t* flags, std::siz
 }
 
 std::span<const std::uint32_t> NotedParticles::collect() {
-    indices_.clear();
-    for (std::size_t chunk = 0; chunk < counts_.size(); ++chunk)
+    indices_.resize(std::accumulate(counts_.begin(), counts_.end(), std::size_t{0}));
+    std::uint32_t* next = indices_.data();
+    for (std::size_t chunk = 0; chunk < counts_.size(); ++chunk) {
+        const std::uint16_t* const within = within_.data() + chunk * chunkSize;
         for (std::uint32_t k = 0; k < counts_[chunk]; ++k)
-            indices_.push_back(static_cast<std::uint32_t>(chunk * chunkSize + within_[chunk * chunkSize + k]));
+            *next++ = static_cast<std::uint32_t>(chunk * chunkSize + within[k]);
+    }
     return indices_;
 }
 
