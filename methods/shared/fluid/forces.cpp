@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "methods/shared/fluid/lanes.h"
+#include "methods/shared/fluid/row_tiles.h"
+#include "methods/shared/fluid/sixteen_records.h"
 #include "methods/shared/parallel/for_each_block.h"
 
 namespace dustbench::fluid {
@@ -65,24 +67,36 @@ void gatherCurl(const CellField& cells, const CellLayout& layout, const std::uin
     const Curl curl(layout, memory);
     const float perTwoCells = 0.5f / spacingMetres;
     const auto nx = static_cast<std::size_t>(layout.nx);
-    parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
-        for (std::size_t r = first; r < first + count; ++r) {
-            const std::size_t at = layout.at(0, layout.rowJ(r), layout.rowK(r));
-            const float* own = cells.cell(at);
-            const std::size_t row = layout.row * lanes, slab = layout.slab * lanes;
-            float *x = curl.x + r * nx, *y = curl.y + r * nx, *z = curl.z + r * nx, *length = curl.length + r * nx;
-            for (std::size_t i = 0; i < nx; ++i, own += lanes) {
-                const float fluid = conductance[at + i] == 1 ? perTwoCells : 0.0f;
-                const Float4 alongX = load<Float4>(own + lanes) - load<Float4>(own - lanes);
-                const Float4 alongY = load<Float4>(own + row) - load<Float4>(own - row);
-                const Float4 alongZ = load<Float4>(own + slab) - load<Float4>(own - slab);
-                x[i] = (alongY[2] - alongZ[1]) * fluid;
-                y[i] = (alongZ[0] - alongX[2]) * fluid;
-                z[i] = (alongX[1] - alongY[0]) * fluid;
-            }
+    struct Nothing {};
+    forRowsInTiles<Nothing>(layout, [&](int j, int k, Nothing&) {
+        const std::size_t at = layout.at(0, j, k);
+        const std::size_t r =
+            static_cast<std::size_t>(k) * static_cast<std::size_t>(layout.ny) + static_cast<std::size_t>(j);
+        const float* own = cells.cell(at);
+        const std::size_t row = layout.row * lanes, slab = layout.slab * lanes;
+        float *x = curl.x + r * nx, *y = curl.y + r * nx, *z = curl.z + r * nx, *length = curl.length + r * nx;
+        const auto cell = [&](std::size_t i) {
+            const float fluid = conductance[at + i] == 1 ? perTwoCells : 0.0f;
+            const float* record = own + i * lanes;
+            const Float4 alongX = load<Float4>(record + lanes) - load<Float4>(record - lanes);
+            const Float4 alongY = load<Float4>(record + row) - load<Float4>(record - row);
+            const Float4 alongZ = load<Float4>(record + slab) - load<Float4>(record - slab);
+            x[i] = (alongY[2] - alongZ[1]) * fluid;
+            y[i] = (alongZ[0] - alongX[2]) * fluid;
+            z[i] = (alongX[1] - alongY[0]) * fluid;
+        };
+        const auto sixteenCells = [&](std::size_t i) {
+            const float* records = own + i * lanes;
+            const SixteenRecords alongX = SixteenRecords(records + lanes) - SixteenRecords(records - lanes);
+            const SixteenRecords alongY = SixteenRecords(records + row) - SixteenRecords(records - row);
+            const SixteenRecords alongZ = SixteenRecords(records + slab) - SixteenRecords(records - slab);
+            store(x + i, (alongY.get<2>() - alongZ.get<1>()) * perTwoCells);
+            store(y + i, (alongZ.get<0>() - alongX.get<2>()) * perTwoCells);
+            store(z + i, (alongX.get<1>() - alongY.get<0>()) * perTwoCells);
+        };
+        forCells(conductance + at, nx, sixteenCells, cell);
 #pragma GCC ivdep
-            for (std::size_t i = 0; i < nx; ++i) length[i] = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
-        }
+        for (std::size_t i = 0; i < nx; ++i) length[i] = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
     });
 }
 
@@ -96,32 +110,36 @@ void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t*
     const float keptHeat = std::exp(-settings.coolingPerSecond * stepSeconds);
     const float lost = settings.reactionLossPerSecond * stepSeconds;
     const Float8 kept{1, 1, 1, keptDensity, keptHeat, 1, 0, 0};
-    const Float8 negligible = Float8{} + nothing;
     const float lift = settings.buoyancyPerKelvin * stepSeconds, weight = settings.weightPerDensity * stepSeconds;
     const auto nx = static_cast<std::size_t>(layout.nx);
-    parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
-        ForceRows force;
-        if (!confined) {
-            std::fill_n(force.x.data(), nx, 0.0f);
-            std::fill_n(force.y.data(), nx, 0.0f);
-            std::fill_n(force.z.data(), nx, 0.0f);
-        }
-        for (std::size_t r = first; r < first + count; ++r) {
-            const int j = layout.rowJ(r), k = layout.rowK(r);
-            const std::size_t at = layout.at(0, j, k);
-            float* record = cells.cell(at);
-            if (confined) confinementRow(curl, layout, j, k, strength, force);
-            for (std::size_t i = 0; i < nx; ++i, record += lanes) {
-                if (conductance[at + i] != 1) continue;
-                const auto old = load<Float8>(record);
-                const float rise = force.y[i] + (lift * old[temperature] - weight * old[density]);
-                Float8 now = old * kept + Float8{force.x[i], rise, force.z[i], 0, 0, -lost, 0, 0};
-                now = now > negligible || now < -negligible ? now : Float8{};
-                store(record, __builtin_shufflevector(now, now, 0, 1, 2, 3));
-                record[temperature] = now[temperature];
-                record[reaction] = now[reaction] > 0 ? now[reaction] : 0.0f;
-            }
-        }
+    forRowsInTiles<ForceRows>(layout, [&](int j, int k, ForceRows& force) {
+        const std::size_t at = layout.at(0, j, k);
+        float* records = cells.cell(at);
+        if (confined) confinementRow(curl, layout, j, k, strength, force);
+        const auto cell = [&](std::size_t i) {
+            if (conductance[at + i] != 1) return;
+            float* record = records + i * lanes;
+            const auto old = load<Float8>(record);
+            const float rise = force.y[i] + (lift * old[temperature] - weight * old[density]);
+            Float8 now = old * kept + Float8{force.x[i], rise, force.z[i], 0, 0, -lost, 0, 0};
+            now = now > nothing || now < -nothing ? now : Float8{};
+            store(record, __builtin_shufflevector(now, now, 0, 1, 2, 3));
+            record[temperature] = now[temperature];
+            record[reaction] = now[reaction] > 0 ? now[reaction] : 0.0f;
+        };
+        const auto sixteenCells = [&](std::size_t i) {
+            SixteenRecords::Quantities now = SixteenRecords(records + i * lanes).all();
+            now[velocityX] += load<Float16>(&force.x[i]);
+            now[velocityY] += load<Float16>(&force.y[i]) + (lift * now[temperature] - weight * now[density]);
+            now[velocityZ] += load<Float16>(&force.z[i]);
+            now[density] *= keptDensity;
+            now[temperature] *= keptHeat;
+            now[reaction] -= lost;
+            for (Float16& quantity : now) quantity = quantity > nothing || quantity < -nothing ? quantity : Float16{};
+            now[reaction] = atLeast(now[reaction], Float16{});
+            SixteenRecords(now).storeTo(records + i * lanes);
+        };
+        forCells(conductance + at, nx, sixteenCells, cell);
     });
 }
 

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <array>
 
+#include "methods/shared/fluid/lanes.h"
+#include "methods/shared/fluid/row_tiles.h"
+#include "methods/shared/fluid/sixteen_records.h"
 #include "methods/shared/parallel/for_each_block.h"
 
 namespace dustbench::fluid {
 namespace {
 
 constexpr std::size_t mostCells = 4096;
-constexpr std::size_t rowsInABlock = 32;
 
 /// True where all cells of the row and of the four rows beside it are fluid, its own ends aside.
 bool isPlain(const std::uint8_t* own, std::ptrdiff_t row, std::ptrdiff_t slab, int nx) {
@@ -64,37 +66,47 @@ void gatherDivergence(const CellField& cells, const CellLayout& layout, const st
     const auto row = static_cast<std::ptrdiff_t>(layout.row), slab = static_cast<std::ptrdiff_t>(layout.slab);
     const auto nx = static_cast<std::size_t>(layout.nx);
     const SplitLayout& to = finest.layout;
-    parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
-        std::array<float, mostCells + 1> sums;
-        for (std::size_t r = first; r < first + count; ++r) {
-            const int j = layout.rowJ(r), k = layout.rowK(r);
-            const std::size_t at = layout.at(0, j, k);
-            const std::uint8_t* own = conductance + at;
-            const float* x = cells.cell(at);
-            const auto general = [&](std::size_t i) {
-                sums[i] = own[i] == 1 ? divergenceOf(cells, layout, conductance, at + i) : 0.0f;
-            };
-            if (isPlain(own, row, slab, layout.nx)) {
-                const float* below = cells.cell(at - layout.row) + 1;
-                const float* above = cells.cell(at + layout.row) + 1;
-                const float* before = cells.cell(at - layout.slab) + 2;
-                const float* behind = cells.cell(at + layout.slab) + 2;
-                for (std::size_t i = 1; i + 1 < nx; ++i)
-                    sums[i] = 0.5f * ((x[(i + 1) * lanes] - x[(i - 1) * lanes]) +
-                                      (above[i * lanes] - below[i * lanes]) + (behind[i * lanes] - before[i * lanes]));
-                general(0);
-                general(nx - 1);
-            } else {
-                for (std::size_t i = 0; i < nx; ++i) general(i);
-            }
-            sums[nx] = 0;
-            const int colour = (j + k) & 1;
-            float* even = finest.rightSide.colour[colour] + to.at(j, k);
-            float* odd = finest.rightSide.colour[1 - colour] + to.at(j, k);
-            for (std::size_t m = 0; m < to.half; ++m) {
-                even[m] = sums[2 * m];
-                odd[m] = sums[2 * m + 1];
-            }
+    using Sums = std::array<float, mostCells + 1>;
+    forRowsInTiles<Sums>(layout, [&](int j, int k, Sums& sums) {
+        const std::size_t at = layout.at(0, j, k);
+        const std::uint8_t* own = conductance + at;
+        const float* x = cells.cell(at);
+        const auto general = [&](std::size_t i) {
+            sums[i] = own[i] == 1 ? divergenceOf(cells, layout, conductance, at + i) : 0.0f;
+        };
+        if (isPlain(own, row, slab, layout.nx)) {
+            const float* below = cells.cell(at - layout.row);
+            const float* above = cells.cell(at + layout.row);
+            const float* before = cells.cell(at - layout.slab);
+            const float* behind = cells.cell(at + layout.slab);
+            forCells(
+                own, nx,
+                [&](std::size_t i) {
+                    const auto along = [i](const float* ahead, const float* back) {
+                        return SixteenRecords(ahead + i * lanes) - SixteenRecords(back + i * lanes);
+                    };
+                    store(&sums[i], 0.5f * (along(x + lanes, x - lanes).get<0>() + along(above, below).get<1>() +
+                                            along(behind, before).get<2>()));
+                },
+                [&](std::size_t i) {
+                    const auto along = [i](const float* ahead, const float* back, std::size_t axis) {
+                        return ahead[i * lanes + axis] - back[i * lanes + axis];
+                    };
+                    sums[i] =
+                        0.5f * (along(x + lanes, x - lanes, 0) + along(above, below, 1) + along(behind, before, 2));
+                });
+            general(0);
+            general(nx - 1);
+        } else {
+            for (std::size_t i = 0; i < nx; ++i) general(i);
+        }
+        sums[nx] = 0;
+        const int colour = (j + k) & 1;
+        float* even = finest.rightSide.colour[colour] + to.at(j, k);
+        float* odd = finest.rightSide.colour[1 - colour] + to.at(j, k);
+        for (std::size_t m = 0; m < to.half; ++m) {
+            even[m] = sums[2 * m];
+            odd[m] = sums[2 * m + 1];
         }
     });
 }
@@ -129,42 +141,52 @@ void Projection::subtractGradient(CellField& cells, const CellLayout& layout, co
     });
     const SplitLayout& in = finest.layout;
     const auto nx = static_cast<std::size_t>(layout.nx);
-    parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
-        std::array<float, mostCells / 2 + 1> x, y, z;
-        for (std::size_t r = first; r < first + count; ++r) {
-            const int j = layout.rowJ(r), k = layout.rowK(r);
-            const std::size_t at = layout.at(0, j, k);
-            float* record = cells.cell(at);
-            const auto general = [&](std::size_t i) {
-                if (conductance[at + i] != 1) return;
-                const Cell cell{at + i, static_cast<int>(i), j, k};
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    const FaceChanges change = changes(finest, conductance, cell, static_cast<int>(axis), steps[axis]);
-                    record[i * lanes + axis] += 0.5f * (change.before + change.behind);
-                }
-            };
-            if (!isPlain(conductance + at, row, slab, layout.nx)) {
-                for (std::size_t i = 0; i < nx; ++i) general(i);
-                continue;
+    struct Gradient {
+        std::array<float, mostCells + 1> x, y, z;
+    };
+    forRowsInTiles<Gradient>(layout, [&](int j, int k, Gradient& gradient) {
+        auto& [x, y, z] = gradient;
+        const std::size_t at = layout.at(0, j, k);
+        float* record = cells.cell(at);
+        const auto general = [&](std::size_t i) {
+            if (conductance[at + i] != 1) return;
+            const Cell cell{at + i, static_cast<int>(i), j, k};
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const FaceChanges change = changes(finest, conductance, cell, static_cast<int>(axis), steps[axis]);
+                record[i * lanes + axis] += 0.5f * (change.before + change.behind);
             }
-            for (int colour = 0; colour < 2; ++colour) {
-                const std::size_t odd = static_cast<std::size_t>((colour + j + k) & 1);
-                const float* q = finest.pressure.colour[1 - colour] + in.at(j, k);
-                const float* before = odd != 0 ? q : q - 1;
-                for (std::size_t m = 0; m < in.half; ++m) {
-                    x[m] = 0.5f * (before[m] - before[m + 1]);
-                    y[m] = 0.5f * (q[m - in.row] - q[m + in.row]);
-                    z[m] = 0.5f * (q[m - in.slab] - q[m + in.slab]);
-                }
-                for (std::size_t i = odd != 0 ? 1 : 2, m = odd != 0 ? 0 : 1; i + 1 < nx; i += 2, ++m) {
-                    record[i * lanes] += x[m];
-                    record[i * lanes + 1] += y[m];
-                    record[i * lanes + 2] += z[m];
-                }
-            }
-            general(0);
-            general(nx - 1);
+        };
+        if (!isPlain(conductance + at, row, slab, layout.nx)) {
+            for (std::size_t i = 0; i < nx; ++i) general(i);
+            return;
         }
+        // Both neighbours of an even cell along any axis are in the halves of the other colour, and the reverse.
+        const int colour = (j + k) & 1;
+        const float* even = finest.pressure.colour[colour] + in.at(j, k);
+        const float* odd = finest.pressure.colour[1 - colour] + in.at(j, k);
+#pragma GCC ivdep
+        for (std::size_t m = 0; m < in.half; ++m) {
+            x[2 * m] = 0.5f * ((odd - 1)[m] - odd[m]);
+            x[2 * m + 1] = 0.5f * (even[m] - (even + 1)[m]);
+            y[2 * m] = 0.5f * ((odd - in.row)[m] - (odd + in.row)[m]);
+            y[2 * m + 1] = 0.5f * ((even - in.row)[m] - (even + in.row)[m]);
+            z[2 * m] = 0.5f * ((odd - in.slab)[m] - (odd + in.slab)[m]);
+            z[2 * m + 1] = 0.5f * ((even - in.slab)[m] - (even + in.slab)[m]);
+        }
+        x[0] = y[0] = z[0] = x[nx - 1] = y[nx - 1] = z[nx - 1] = 0;
+        forCells(
+            conductance + at, nx,
+            [&](std::size_t i) {
+                const SixteenRecords change({load<Float16>(&x[i]), load<Float16>(&y[i]), load<Float16>(&z[i])});
+                (SixteenRecords(record + i * lanes) + change).storeTo(record + i * lanes);
+            },
+            [&](std::size_t i) {
+                record[i * lanes] += x[i];
+                record[i * lanes + 1] += y[i];
+                record[i * lanes + 2] += z[i];
+            });
+        general(0);
+        general(nx - 1);
     });
     for (std::size_t b = 0; b < beside.size(); ++b)
         for (int axis = 0; axis < 3; ++axis) cells.cell(beside[b])[axis] = besideBlocked_[b][axis];

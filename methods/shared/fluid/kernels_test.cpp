@@ -1,61 +1,19 @@
-// The kernels against slow, clear versions of themselves, and the pressure against the equations it solves.
+// Advection and forces against slow, clear versions of themselves.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
+#include <vector>
 
 #include "methods/shared/fluid/advection.h"
-#include "methods/shared/fluid/box_ghosts.h"
 #include "methods/shared/fluid/forces.h"
-#include "methods/shared/fluid/pressure_solver.h"
-#include "methods/shared/fluid/projection.h"
-#include "methods/shared/fluid/solid_cells.h"
+#include "methods/shared/fluid/kernels_test_world.h"
 
 namespace dustbench::fluid {
 namespace {
 
 using Record = std::array<double, lanes>;
-
-/// The state before and after, the solids, and numbers from a fixed seed.
-struct World {
-    explicit World(glm::ivec3 cells, Sides boxSides = openOverFloor)
-        : layout(cells),
-          sides(boxSides),
-          from(layout, ledger.account("a")),
-          to(layout, ledger.account("b")),
-          solids(layout, sides, ledger.account("c")) {}
-
-    void fillRandom(float speed) {
-        std::uniform_real_distribution<float> value(-1, 1);
-        for (std::size_t at = 0; at < layout.padded(); ++at)
-            for (std::size_t lane = 0; lane < lanes; ++lane)
-                from.cell(at)[lane] = value(random) * (lane < 3 ? speed : 1.0f);
-        fillGhosts(from, layout, {sides, {0.3f, 0, 0}, false}, GhostUse::lookUp);
-    }
-    /// Each cell is solid by chance, and one of many bodies.
-    void setRandomSolids(double share) {
-        const std::size_t count = layout.rows() * static_cast<std::size_t>(layout.nx);
-        std::bernoulli_distribution chance(share);
-        std::uniform_real_distribution<float> value(-1, 1);
-        inside.resize(count);
-        motions.resize(255);
-        for (BodyMotion& motion : motions) motion.velocity = {value(random), value(random), value(random)};
-        for (std::size_t c = 0; c < count; ++c)
-            inside[c] = chance(random) ? static_cast<std::uint8_t>(1 + c % motions.size()) : 0;
-        solids.set({inside, motions}, from);
-    }
-
-    std::mt19937 random{7};
-    MemoryLedger ledger;
-    CellLayout layout;
-    Sides sides;
-    CellField from, to;
-    SolidCells solids;
-    std::vector<std::uint8_t> inside;
-    std::vector<BodyMotion> motions;
-};
 
 // Trilinear look-up at a place in cells from the first ghost's centre.
 Record look(const std::vector<Record>& field, const CellLayout& layout, glm::dvec3 place, Record* least = nullptr,
@@ -205,121 +163,66 @@ TEST(Forces, ConfinementTurnsAroundAVortexRing) {
     EXPECT_GT(fed, 0.1);
 }
 
-/// Greatest |∇·u| over the faces that the projection leaves, computed face by face.
-float divergenceAfter(const World& world, const PressureSolver& solver) {
+/// Forces of one cell in double precision, as their equations say; `before` is the state that they act on.
+Record slowForces(const World& world, const CellField& before, glm::ivec3 at, const ForceSettings& settings, double h,
+                  double dt) {
     const CellLayout& layout = world.layout;
-    const std::uint8_t* conductance = world.solids.conductance();
-    const PoissonLevel& level = solver.finest();
-    const std::array<std::ptrdiff_t, 3> steps{1, static_cast<std::ptrdiff_t>(layout.row),
-                                              static_cast<std::ptrdiff_t>(layout.slab)};
-    float most = 0;
-    for (int k = 0; k < layout.nz; ++k)
-        for (int j = 0; j < layout.ny; ++j)
-            for (int i = 0; i < layout.nx; ++i) {
-                const std::size_t at = layout.at(i, j, k);
-                if (conductance[at] != 1) continue;
-                float sum = 0;
-                for (int axis = 0; axis < 3; ++axis)
-                    for (const int way : {-1, 1}) {
-                        const std::ptrdiff_t step = way * steps[static_cast<std::size_t>(axis)];
-                        glm::ivec3 other(i, j, k);
-                        other[axis] += way;
-                        const float weight = conductance[static_cast<std::ptrdiff_t>(at) + step];
-                        const float own = level.pressure.cell(level.layout, i, j, k);
-                        const float q = level.pressure.cell(level.layout, other.x, other.y, other.z);
-                        const float speed =
-                            faceSpeed(world.from, conductance, at, step, static_cast<std::size_t>(axis));
-                        sum += static_cast<float>(way) * speed - weight * (q - own);
-                    }
-                most = std::max(most, std::fabs(sum));
-            }
-    return most;
+    const auto clampedTo = [&](glm::ivec3 cell) {
+        return glm::clamp(cell, glm::ivec3(0), glm::ivec3(layout.nx, layout.ny, layout.nz) - 1);
+    };
+    const auto curl = [&](glm::ivec3 cell) {
+        if (world.solids.conductance()[layout.at(cell.x, cell.y, cell.z)] != 1) return glm::dvec3(0);
+        const auto slope = [&](int component, int along) {
+            glm::ivec3 ahead = cell, back = cell;
+            ++ahead[along], --back[along];
+            const auto u = [&](glm::ivec3 c) {
+                return static_cast<double>(before.cell(layout.at(c.x, c.y, c.z))[component]);
+            };
+            return (u(ahead) - u(back)) / (2 * h);
+        };
+        return glm::dvec3(slope(2, 1) - slope(1, 2), slope(0, 2) - slope(2, 0), slope(1, 0) - slope(0, 1));
+    };
+    glm::dvec3 towards;  // the way in which |ω| grows
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::ivec3 ahead = at, back = at;
+        ++ahead[axis], --back[axis];
+        towards[axis] = glm::length(curl(clampedTo(ahead))) - glm::length(curl(clampedTo(back)));
+    }
+    const double epsilon = static_cast<double>(settings.confinementPerSecond);
+    const glm::dvec3 force = epsilon * h * glm::cross(glm::normalize(towards), curl(at));
+    const float* old = before.cell(layout.at(at.x, at.y, at.z));
+    Record now;
+    for (std::size_t lane = 0; lane < lanes; ++lane) now[lane] = static_cast<double>(old[lane]);
+    for (std::size_t axis = 0; axis < 3; ++axis) now[axis] += dt * force[static_cast<int>(axis)];
+    now[velocityY] += dt * (static_cast<double>(settings.buoyancyPerKelvin) * now[temperature] -
+                            static_cast<double>(settings.weightPerDensity) * now[density]);
+    now[density] *= std::exp(-static_cast<double>(settings.densityDecayPerSecond) * dt);
+    now[temperature] *= std::exp(-static_cast<double>(settings.coolingPerSecond) * dt);
+    now[reaction] = std::max(0.0, now[reaction] - static_cast<double>(settings.reactionLossPerSecond) * dt);
+    return now;
 }
 
-struct Solved {
-    PressureResult result;
-    float divergence;
-};
-
-Solved solve(World& world, const PressureRule& rule) {
-    fillGhosts(world.from, world.layout, {world.sides, {0.3f, 0, 0}, false}, GhostUse::faces);
-    PressureSolver solver(world.layout, world.sides);
-    std::vector<float> memory(solver.floatsNeeded(), 1e30f);
-    solver.build(memory, world.solids.conductance());
-    gatherDivergence(world.from, world.layout, world.solids.conductance(), solver.finest());
-    const PressureResult result = solver.solve(rule);
-    return {result, divergenceAfter(world, solver)};
-}
-
-TEST(Pressure, MakesTheFacesFreeOfDivergence) {
-    const PressureRule rule{PressureMethod::multigrid, 0, 30, 1e-4f};
-    for (const glm::ivec3 cells : {glm::ivec3(32, 16, 24), glm::ivec3(21, 13, 9), glm::ivec3(5, 37, 4)})
-        for (const Sides& sides : {openOverFloor, withWind(openOverFloor, {0.3f, 0, 0})})
-            for (const double share : {0.0, 0.05, 0.3}) {
-                World world(cells, sides);
-                world.fillRandom(1);
-                world.setRandomSolids(share);
-                const Solved solved = solve(world, rule);
-                EXPECT_LE(solved.result.residual, 1e-4f) << cells.x << " share " << share;
-                EXPECT_LE(solved.divergence, 1.5e-4f + solved.result.unremovable) << cells.x << " share " << share;
-                EXPECT_LE(solved.result.cycles, share < 0.1 ? 10 : 20) << cells.x << " share " << share;
-            }
-}
-
-TEST(Pressure, ConvergesBehindThinWallsAndInClosedBoxes) {
-    World maze({32, 32, 32});
-    maze.fillRandom(1);
-    maze.inside.assign(32 * 32 * 32, 0);
-    for (int k = 0; k < 32; ++k)
-        for (int j = 0; j < 32; ++j)
-            for (int i = 0; i < 32; ++i)
-                if (i % 5 == 2 && (j + i) % 32 > 2) maze.inside[static_cast<std::size_t>((k * 32 + j) * 32 + i)] = 1;
-    maze.solids.set({maze.inside, {}}, maze.from);
-    const Solved behind = solve(maze, {PressureMethod::multigrid, 0, 40, 1e-4f});
-    EXPECT_LE(behind.divergence, 1.5e-4f) << behind.result.cycles;
-
-    World box({16, 16, 16}, closed);
-    box.fillRandom(1);
-    const Solved inBox = solve(box, {PressureMethod::multigrid, 0, 20, 1e-4f});
-    EXPECT_LE(inBox.divergence, 1.5e-4f) << inBox.result.cycles;
-    EXPECT_LE(inBox.result.unremovable, 1e-6f);
-}
-
-TEST(Pressure, SaysWhatNoPressureCanBalance) {
-    // A wall of the box moves inwards and nothing can leave.
-    World world({8, 8, 8}, closed);
-    world.inside.assign(512, 0);
-    world.motions = {{{1, 0, 0}}};
-    for (std::size_t row = 0; row < 64; ++row) world.inside[row * 8] = 1;
-    world.solids.set({world.inside, world.motions}, world.from);
-    const Solved solved = solve(world, {PressureMethod::multigrid, 0, 20, 1e-4f});
-    EXPECT_NEAR(solved.result.unremovable, 1.0 / 7, 1e-5);
-    EXPECT_NEAR(solved.divergence, 1.0 / 7, 1e-3);
-}
-
-TEST(Pressure, JacobiConvergesToTheSame) {
-    World world({8, 8, 8});
-    world.fillRandom(1);
-    const Solved few = solve(world, {PressureMethod::jacobi, 20, 0, 0});
-    const Solved many = solve(world, {PressureMethod::jacobi, 600, 0, 0});
-    EXPECT_NEAR(few.divergence, few.result.residual, 1e-5);
-    EXPECT_LT(many.divergence, 1e-4f);
-    EXPECT_GT(few.divergence, 10 * many.divergence);
-}
-
-TEST(ClosedRegions, AreFoundWhereNothingFlowsOut) {
-    World world({9, 9, 9});
-    world.inside.assign(729, 0);
-    for (int k = 2; k < 7; ++k)
-        for (int j = 2; j < 7; ++j)
-            for (int i = 2; i < 7; ++i) world.inside[static_cast<std::size_t>((k * 9 + j) * 9 + i)] = 1;
-    for (int i = 3; i < 6; ++i) world.inside[static_cast<std::size_t>((4 * 9 + 4) * 9 + i)] = 0;
-    world.solids.set({world.inside, {}}, world.from);
-    const auto regions = closedRegions(world.layout, world.solids.conductance());
-    ASSERT_EQ(regions.size(), 1u);
-    ASSERT_EQ(regions[0].size(), 1u);
-    EXPECT_EQ(regions[0][0].i, 3);
-    EXPECT_EQ(regions[0][0].end, 6);
+TEST(Forces, EqualTheSlowVersion) {
+    const ForceSettings settings{0.1f, 0.2f, 0.5f, 0.3f, 0.4f, 0.6f, 0};
+    for (const double share : {0.0, 0.02, 0.3}) {
+        World world({53, 7, 5});
+        world.fillRandom(1);
+        world.setRandomSolids(share);
+        const CellField before = world.from;
+        std::vector<float> borrowed(forceFloats(world.layout));
+        applyForces(world.from, world.layout, world.solids.conductance(), settings, 0.5f, 0.1f, borrowed);
+        for (int k = 0; k < world.layout.nz; ++k)
+            for (int j = 0; j < world.layout.ny; ++j)
+                for (int i = 0; i < world.layout.nx; ++i) {
+                    const std::size_t at = world.layout.at(i, j, k);
+                    const bool fluid = world.solids.conductance()[at] == 1;
+                    const Record slow = slowForces(world, before, {i, j, k}, settings, 0.5, 0.1);
+                    for (std::size_t lane = 0; lane < lanes; ++lane)
+                        EXPECT_NEAR(static_cast<double>(world.from.cell(at)[lane]),
+                                    fluid ? slow[lane] : static_cast<double>(before.cell(at)[lane]), 2e-5)
+                            << i << ' ' << j << ' ' << k << " lane " << lane << " share " << share;
+                }
+    }
 }
 
 }  // namespace
