@@ -19,11 +19,10 @@ class PoissonLevel {
 
     /// The finest grid, from SolidCells::conductance.
     void build(const CellLayout& cells, const std::uint8_t* conductance);
-    /// A coarser one: a face conducts what the finer faces in it do, over twice the distance.
+    /// A coarser one: a face conducts what the finer faces in it do, over the distance of its centres.
     void buildFrom(const PoissonLevel& finer);
 
     void clearPressure();
-    void clearRightSide();
     /// One Gauss-Seidel sweep: red, then black.
     void smooth();
     /// One Jacobi sweep, from `pressure` to `other`.
@@ -39,8 +38,8 @@ class PoissonLevel {
     /// Brings `pressure` into the order of cells, ghosts mirrored at walls and sign-reversed at open sides.
     void fillNatural(const std::uint8_t (&openSides)[6]);
 
-    [[nodiscard]] float face(int axis, int i, int j, int k) const;
-    [[nodiscard]] float diagonal(int i, int j, int k) const;
+    /// Of a coarser grid: the weight of the face to the next cell along an axis; −1 along it is before the first.
+    [[nodiscard]] float face(int axis, int i, int j, int k) const { return faces_[axis].cell(layout, i, j, k); }
 
     SplitLayout layout;
     bool finest;

@@ -31,7 +31,14 @@ void PoissonLevel::buildFrom(const PoissonLevel& finer) {
     const auto nx = static_cast<std::size_t>(layout.nx), fineNx = static_cast<std::size_t>(fine.nx);
     // Behind coarse cell I lies the face behind finer cell 2I + 1, or behind the last.
     const auto behind = [](int coarse, int cells) { return std::min(2 * coarse + 1, cells - 1); };
-    const auto scale = [](int cells) { return cells == 1 ? 1.0f : 0.5f; };
+    // The face behind a coarse cell lies between centres that are twice as far apart; at an odd end, whose last coarse
+    // cell is one finer cell, 1½ times as far from the cell before it and no farther from the side.
+    const auto scale = [](int coarse, int cells) {
+        const int last = (cells + 1) / 2 - 1;
+        if (cells == 1) return 1.0f;
+        if (cells % 2 == 0 || coarse < last - 1) return 0.5f;
+        return coarse == last ? 1.0f : 2.0f / 3;
+    };
     const auto write = [&](SplitField& faces, int j, int k, const FaceRow& row) {
         float* even = faces.colour[(j + k) & 1] + layout.at(j, k);
         float* odd = faces.colour[(1 + j + k) & 1] + layout.at(j, k);
@@ -47,7 +54,7 @@ void PoissonLevel::buildFrom(const PoissonLevel& finer) {
         const int other = axis == 1 ? fineK : fineJ, last = axis == 1 ? fine.nz : fine.ny;
         for (int r = other; r < std::min(other + 2, last); ++r)
             finer.readFaces(axis, axis == 1 ? fineJ : r, axis == 1 ? r : fineK, sums);
-        const float half = scale(axis == 1 ? fine.ny : fine.nz);
+        const float half = axis == 1 ? scale(j, fine.ny) : scale(k, fine.nz);
         sums[fineNx + 1] = 0;
         loop(nx, [&](std::size_t i) { row[i] = half * (sums[2 * i + 1] + sums[2 * i + 2]); });
         write(faces_[axis], j, k, row);
@@ -57,11 +64,11 @@ void PoissonLevel::buildFrom(const PoissonLevel& finer) {
         std::fill_n(sums.data(), fineNx + 2, 0.0f);
         for (int z = 2 * k; z < std::min(2 * k + 2, fine.nz); ++z)
             for (int y = 2 * j; y < std::min(2 * j + 2, fine.ny); ++y) finer.readFaces(0, y, z, sums);
-        const float half = scale(fine.nx);
-        loop(nx - 1, [&](std::size_t i) { row[i] = half * sums[2 * i + 2]; });
-        row[nx - 1] = half * sums[fineNx];
+        loop(nx - 1, [&](std::size_t i) { row[i] = 0.5f * sums[2 * i + 2]; });
+        if (nx > 1) row[nx - 2] = scale(layout.nx - 2, fine.nx) * sums[2 * nx - 2];
+        row[nx - 1] = scale(layout.nx - 1, fine.nx) * sums[fineNx];
         write(faces_[0], j, k, row);
-        faces_[0].cell(layout, -1, j, k) = half * sums[0];
+        faces_[0].cell(layout, -1, j, k) = scale(-1, fine.nx) * sums[0];
         across(1, j, k, behind(j, fine.ny), 2 * k);
         across(2, j, k, 2 * j, behind(k, fine.nz));
         if (j == 0) across(1, -1, k, -1, 2 * k);

@@ -8,7 +8,7 @@ namespace dustbench::fluid {
 namespace {
 
 constexpr std::size_t fewCells = 64;  ///< so many are solved exactly
-constexpr int sweeps = 2;             ///< before and after each coarse correction
+constexpr int before = 2, after = 1;  ///< sweeps on either side of each coarse correction
 
 }  // namespace
 
@@ -53,9 +53,14 @@ void PressureSolver::factorCoarsest() {
         for (int j = 0; j < at.ny; ++j)
             for (int i = 0; i < at.nx; ++i) {
                 const std::size_t own = number(i, j, k);
-                matrix[own * n + own] = static_cast<double>(level.diagonal(i, j, k));
+                // In double, so that where nothing flows out it is a sum of the others but for 1e-16 of it.
+                const auto weight = [&](int axis, int x, int y, int z) {
+                    return static_cast<double>(level.face(axis, x, y, z));
+                };
+                matrix[own * n + own] = weight(0, i, j, k) + weight(0, i - 1, j, k) + weight(1, i, j, k) +
+                                        weight(1, i, j - 1, k) + weight(2, i, j, k) + weight(2, i, j, k - 1);
                 const auto couple = [&](int axis, std::size_t other) {
-                    matrix[own * n + other] = matrix[other * n + own] = -static_cast<double>(level.face(axis, i, j, k));
+                    matrix[own * n + other] = matrix[other * n + own] = -weight(axis, i, j, k);
                 };
                 if (i + 1 < at.nx) couple(0, number(i + 1, j, k));
                 if (j + 1 < at.ny) couple(1, number(i, j + 1, k));
@@ -90,10 +95,10 @@ void PressureSolver::cycle(std::size_t number) {
     if (number + 1 == levels_.size()) return solveCoarsest();
     PoissonLevel& level = *levels_[number];
     level.clearPressure();
-    for (int sweep = 0; sweep < sweeps; ++sweep) level.smooth();
+    for (int sweep = 0; sweep < before; ++sweep) level.smooth();
     level.restrictTo(*levels_[number + 1]);
     correctFrom(number + 1);
-    for (int sweep = 0; sweep < sweeps; ++sweep) level.smooth();
+    for (int sweep = 0; sweep < after; ++sweep) level.smooth();
 }
 
 float PressureSolver::balanceClosedRegions() {
@@ -138,12 +143,12 @@ PressureResult PressureSolver::solve(const PressureRule& rule) {
         result = sweepJacobi(rule);
     } else {
         // The sweeps after one cycle are those before the next: the residual that is restricted tells when to end.
-        for (int sweep = 0; sweep < sweeps; ++sweep) level.smooth();
+        for (int sweep = 0; sweep < before; ++sweep) level.smooth();
         for (;; ++result.cycles) {
             result.residual = level.restrictTo(*levels_[1]);
             if (result.residual <= rule.tolerance || result.cycles == rule.mostCycles) break;
             correctFrom(1);
-            for (int sweep = 0; sweep < 2 * sweeps; ++sweep) level.smooth();
+            for (int sweep = 0; sweep < after + before; ++sweep) level.smooth();
         }
     }
     result.unremovable = unremovable;

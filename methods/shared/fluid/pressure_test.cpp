@@ -71,7 +71,7 @@ TEST(Pressure, MakesTheFacesFreeOfDivergence) {
                 const Solved solved = solve(world, rule);
                 EXPECT_LE(solved.result.residual, 1e-4f) << cells.x << " share " << share;
                 EXPECT_LE(solved.divergence, 1.5e-4f + solved.result.unremovable) << cells.x << " share " << share;
-                EXPECT_LE(solved.result.cycles, share < 0.1 ? 10 : 20) << cells.x << " share " << share;
+                EXPECT_LE(solved.result.cycles, share < 0.1 ? 6 : 15) << cells.x << " share " << share;
             }
 }
 

@@ -1,4 +1,4 @@
-// A coarse face conducts what the finer faces in it do, over twice the distance; see fluid::PoissonLevel::buildFrom.
+// A coarse face conducts what the finer faces in it do, over a greater distance; see fluid::PoissonLevel::buildFrom.
 #ifndef FINEST
 layout(std430, binding = 1) restrict readonly buffer Finer { vec4 finer[]; };
 #endif
@@ -16,6 +16,14 @@ float fineFace(ivec3 c, int axis) {
 #endif
 }
 
+// How the distance across the face behind coarse cell c goes down in what it conducts.
+float share(int c, int fineCells) {
+    int last = (fineCells + 1) / 2 - 1;
+    if (fineCells == 1) return 1.0;
+    if (fineCells % 2 == 0 || c < last - 1) return 0.5;
+    return c == last ? 1.0 : 2.0 / 3.0;
+}
+
 float face(ivec3 c, int axis) {
     int b = (axis + 1) % 3, d = (axis + 2) % 3;
     ivec3 f = 2 * c;
@@ -27,7 +35,7 @@ float face(ivec3 c, int axis) {
         one[d] += n >> 1;
         if (one[b] < fine[b] && one[d] < fine[d]) sum += fineFace(one, axis);
     }
-    return fine[axis] == 1 ? sum : 0.5 * sum;
+    return share(c[axis], fine[axis]) * sum;
 }
 
 void main() {

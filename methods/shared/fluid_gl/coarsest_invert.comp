@@ -13,7 +13,14 @@ void main() {
     if (own < n) {
         ivec3 c = ivec3(own % cells.x, own / cells.x % cells.y, own / cells.x / cells.y);
         vec4 face = faces[place(c)];
-        original[own] = matrix[own * n + own] = double(face.w);
+        // In double, so that where nothing flows out it is a sum of the others but for 1e-16 of it.
+        double sum = 0.0lf;
+        for (int axis = 0; axis < 3; ++axis) {
+            ivec3 before = c;
+            before[axis] -= 1;
+            sum += double(face[axis]) + double(faces[place(before)][axis]);
+        }
+        original[own] = matrix[own * n + own] = sum;
         ivec3 apart = ivec3(1, cells.x, cells.x * cells.y);
         for (int axis = 0; axis < 3; ++axis) {
             if (c[axis] + 1 == cells[axis]) continue;

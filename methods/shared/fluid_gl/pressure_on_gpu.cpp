@@ -11,8 +11,8 @@ namespace {
 
 using namespace fluid_gl_shaders;
 
-constexpr int fewCells = 32;  ///< so many are solved exactly
-constexpr int sweeps = 2;     ///< before and after each coarse correction
+constexpr int fewCells = 32;          ///< so many are solved exactly
+constexpr int before = 2, after = 1;  ///< sweeps on either side of each coarse correction
 
 /// Bindings, as the shaders have them.
 enum : std::uint32_t { kindsAt, pressureAt, targetAt, operationAt, rightSideAt, extraAt, regionsAt };
@@ -160,10 +160,10 @@ void PressureOnGpu::correctFrom(std::size_t number) {
 void PressureOnGpu::cycle(std::size_t number) {
     if (number + 1 == levels_.size()) return solveCoarsest();
     levels_[number].pressure.clear();
-    smooth(number, sweeps);
+    smooth(number, before);
     restrictFrom(number, 0);
     correctFrom(number + 1);
-    smooth(number, sweeps);
+    smooth(number, after);
 }
 
 void PressureOnGpu::solveCoarsest() {
@@ -205,7 +205,7 @@ void PressureOnGpu::sweepJacobi() {
 
 void PressureOnGpu::queueCycle() {
     correctFrom(1);
-    smooth(0, 2 * sweeps);
+    smooth(0, after + before);
     restrictFrom(0, StepReportOnGpu::firstResidual + ++cycles_);
 }
 
@@ -217,7 +217,7 @@ void PressureOnGpu::start(const fluid::PressureRule& rule, StepReportOnGpu& repo
     levels_.front().pressure.clear();
     if (rule.method == fluid::PressureMethod::jacobi) return sweepJacobi();
     // The sweeps after one cycle are those before the next: the residual that is restricted tells when to end.
-    smooth(0, sweeps);
+    smooth(0, before);
     restrictFrom(0, StepReportOnGpu::firstResidual);
     while (cycles_ < std::min(expectedCycles_, rule.mostCycles)) queueCycle();
 }
