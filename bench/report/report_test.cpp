@@ -18,7 +18,7 @@
 #include "bench/report/report_json.h"
 #include "bench/report/report_reader.h"
 #include "methods/shared/errors.h"
-#include "methods/shared/pictures/picture_library.h"
+#include "methods/shared/pictures/picture_files.h"
 
 namespace dustbench::bench {
 namespace {
@@ -213,7 +213,7 @@ ReportData pictured(const Folder& folder) {
     fs::create_directories(images);
     const std::vector<std::uint8_t> grey(std::size_t{24} * 16 * 3, 128);
     for (const char* name : {"f000030.png", "f000030_reference.png", "f000030_difference.png"})
-        EXPECT_EQ(pictures::pictureLibrary().writePng(images / name, 24, 16, 3, grey), "");
+        EXPECT_EQ(pictures::writePng(images / name, 24, 16, 3, grey), "");
     data.runs.emplace(made.runId, made);
     data.experiments.push_back(makeExperiment({&data.runs.begin()->second}, {}));
     return data;

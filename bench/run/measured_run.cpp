@@ -143,14 +143,15 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     gpu::Device device;
     const auto freeAtStart = device.driverFreeBytes();
     record.provenance.device = device.info();
-    record.provenance.gpuTimersTrusted = gpu::timerQueriesAreTrue(device);
+    WholeRun whole;
+    whole.softwareRenderer = isSoftwareRenderer(device.info());
+    // Without a GPU there is no time of its own to tell, and the self-test would have a shader made.
+    record.provenance.gpuTimersTrusted = !whole.softwareRenderer && gpu::timerQueriesAreTrue(device);
     std::optional<FrameRunner> timed;
     FrameRunner& runner =
         timed.emplace(spec, world, device, info.create(parameters.method), record.provenance.gpuTimersTrusted);
     RunVolumes volumes(spec, folder, world, record.provenance.warnings);
     EnergyMeter energy(packageEnergy(), gpuEnergy(device.info().renderer));
-    WholeRun whole;
-    whole.softwareRenderer = isSoftwareRenderer(device.info());
     runFrames(spec, world, runner, folder, volumes, energy, progress, whole);
     whole.peakResidentBytes = peakResidentBytes();
     if (const auto freeAtEnd = device.driverFreeBytes(); freeAtStart && freeAtEnd)

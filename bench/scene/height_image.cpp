@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "methods/shared/errors.h"
-#include "methods/shared/pictures/picture_library.h"
+#include "methods/shared/pictures/picture_files.h"
 
 namespace dustbench::bench {
 
 scene::Terrain readHeightImage(const std::filesystem::path& file, double spacingMetres, double heightMetres,
                                double baseMetres) {
     pictures::StoredPicture image;
-    if (const std::string reason = pictures::pictureLibrary().read(file, image); !reason.empty())
+    if (const std::string reason = pictures::readPicture(file, image); !reason.empty())
         throw InputError(file.string() + ": not an image that can be read: " + reason);
     if (image.width < 2 || image.height < 2 || image.width > 8192 || image.height > 8192)
         throw InputError(file.string() + ": the height field has " + std::to_string(image.width) + " x " +

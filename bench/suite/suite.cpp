@@ -39,6 +39,19 @@ bool covers(const Exception& exception, const RunSpec& cell) {
            std::ranges::all_of(exception.parameters, hasOneOf);
 }
 
+/// How many cells it leaves out, or some of whose repetitions.
+std::size_t leaveOut(const Exception& exception, std::vector<PlannedRun>& cells) {
+    const auto isCovered = [&](const PlannedRun& cell) { return covers(exception, cell.spec); };
+    if (exception.afterRepetition == 0) return std::erase_if(cells, isCovered);
+    std::size_t count = 0;
+    for (PlannedRun& cell : cells) {
+        if (!isCovered(cell)) continue;
+        cell.repetitions = exception.afterRepetition;
+        ++count;
+    }
+    return count;
+}
+
 /// `wholeFile`: an exception that leaves nothing out is a mistake; in `[quick]`, which has fewer cells, it is not.
 Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     requireFramesWithinRun(draft.base);
@@ -67,8 +80,7 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
                 }
     }
     for (const Exception& exception : draft.exceptions)
-        if (std::erase_if(suite.cells, [&](const PlannedRun& cell) { return covers(exception, cell.spec); }) == 0 &&
-            wholeFile)
+        if (leaveOut(exception, suite.cells) == 0 && wholeFile)
             throw InputError(exception.where + "except: leaves nothing out, no cell has these values");
     if (suite.cells.empty()) throw InputError("suite: nothing is left of it by its exceptions");
     for (const PlannedComparison& comparison : suite.comparisons) (void)matchCells(suite, comparison);
@@ -190,6 +202,7 @@ RunSpec inRepetition(RunSpec cell, int repetition) {
 std::vector<PlannedRun> planRuns(const Suite& suite) {
     std::vector<PlannedRun> plan;
     const auto add = [&plan](PlannedRun run, int repetition) {
+        if (run.repetitions > 0 && repetition > run.repetitions) return;
         run.spec = inRepetition(run.spec, repetition);
         plan.push_back(std::move(run));
     };

@@ -16,7 +16,8 @@ namespace dustbench::bench {
 
 struct PlannedRun {
     RunSpec spec;
-    std::string label;  ///< the parameters that the suite sets: `particles=1000 speed=20`
+    std::string label;    ///< the parameters that the suite sets: `particles=1000 speed=20`
+    int repetitions = 0;  ///< of a cell that has fewer than its suite; 0: as many
 };
 
 /// interleaved: every repetition is a round over all cells, each round in its own seeded random order: groups of cells

@@ -14,6 +14,7 @@ namespace dustbench::bench {
 namespace {
 
 constexpr std::int64_t mostFrames = 10'000'000;
+constexpr std::int64_t mostRepetitions = 1000;
 
 [[nodiscard]] InputError at(const std::string& where, const InputError& error) {
     return InputError(where + error.what());
@@ -161,6 +162,8 @@ void readExceptions(files::TomlReader& suite, SuiteDraft& draft) {
                 exception.parameters.emplace_back(name, readValues(parameters, name));
             parameters.finish();
         }
+        exception.afterRepetition =
+            static_cast<int>(table.integer("after_repetition", 0, mostRepetitions, exception.afterRepetition));
         table.finish();
         draft.exceptions.push_back(std::move(exception));
     }
@@ -192,7 +195,7 @@ void SuiteDraft::read(files::TomlReader& table) {
 
     suite.title = table.text("title", suite.title);
     suite.summary = table.text("summary", suite.summary);
-    suite.repetitions = static_cast<int>(table.integer("repetitions", 1, 1000, suite.repetitions));
+    suite.repetitions = static_cast<int>(table.integer("repetitions", 1, mostRepetitions, suite.repetitions));
     suite.timeoutSeconds = table.number("timeout_s", 1, 1e6, suite.timeoutSeconds);
     suite.cooldownSeconds = table.number("cooldown_s", 0, 3600, suite.cooldownSeconds);
     if (table.has("order")) suite.order = parseOrder(table.choice("order", {"interleaved", "batch"}));

@@ -15,7 +15,8 @@ namespace dustbench::bench {
 struct Exception {
     std::vector<std::string> methods, scenes, drives, sizes;
     ParameterLists parameters;
-    std::string where;  ///< `file:line: `, for messages
+    int afterRepetition = 0;  ///< those up to this one are not left out
+    std::string where;        ///< `file:line: `, for messages
 };
 
 struct SuiteDraft {

@@ -170,6 +170,23 @@ TEST(Suite, ExceptionsLeaveOutTheCellsThatHaveAllTheirValues) {
     EXPECT_THAT(messageOf("[[except]]\n[except.parameters]\nspeed = 0"), HasSubstr("nothing is left"));
 }
 
+TEST(Suite, ExceptionsAfterARepetitionLeaveTheEarlierOnes) {
+    for (const char* order : {"interleaved", "batch"}) {
+        const Suite suite = parseSuite("methods = [\"null_method\"]\nrepetitions = 3\norder = \"" + std::string(order) +
+                                           "\"\n[parameters]\nwork = [0, 1]\n"
+                                           "[[except]]\nafter_repetition = 1\n[except.parameters]\nwork = 1\n",
+                                       "s.toml", false);
+        EXPECT_EQ(suite.cells.size(), 2u);
+        int others = 0;
+        std::vector<int> repetitions;
+        for (const PlannedRun& run : planRuns(suite))
+            run.spec.parameters.at("work") == "1" ? repetitions.push_back(run.spec.repetition) : void(++others);
+        EXPECT_EQ(others, 3);
+        EXPECT_THAT(repetitions, testing::ElementsAre(1));
+    }
+    EXPECT_THAT(messageOf("[[except]]\nafter_repetition = -1"), HasSubstr("after_repetition"));
+}
+
 TEST(Suite, MistakesNameFileLineAndWhatIsNear) {
     EXPECT_THAT(messageOf("methods = [\n\"bilboard\"]"), AllOf(HasSubstr("s.toml:1"), HasSubstr("'billboard'")));
     EXPECT_THAT(messageOf("frames = 5\nscenes = [\"plainn\"]"), AllOf(HasSubstr("s.toml:2"), HasSubstr("'plain'")));

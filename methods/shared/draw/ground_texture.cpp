@@ -5,11 +5,14 @@
 
 #include "methods/shared/draw/image.h"
 #include "methods/shared/maths/philox.h"
+#include "methods/shared/parallel/for_each_block.h"
 
 namespace dustbench::draw {
 namespace {
 
 constexpr std::uint64_t seed = 0x6475737462656e63;  // any constant: every run shows the same ground
+
+constexpr std::size_t rowsPerBlock = 32;
 
 /// What each field draws its random numbers from.
 enum Stream : std::uint32_t { reliefNoise = 0, toneNoise = 100, hueNoise = 200, patchNoise = 300, stones = 400 };
@@ -39,6 +42,13 @@ float mix(float a, float b, float share) {
     return a + share * (b - a);
 }
 
+template <typename Work>
+void forEachRow(int rows, const Work& work) {
+    parallel::forEachBlock(static_cast<std::size_t>(rows), rowsPerBlock, [&](std::size_t first, std::size_t count) {
+        for (std::size_t row = first; row < first + count; ++row) work(static_cast<int>(row));
+    });
+}
+
 /// Adds gradient noise of `periods` random slopes along the tile's side. Source: Perlin2002.
 void addNoise(Field& field, int periods, float amplitude, std::uint32_t stream) {
     std::vector<glm::vec2> slopes(static_cast<std::size_t>(periods) * static_cast<std::size_t>(periods));
@@ -60,7 +70,7 @@ void addNoise(Field& field, int periods, float amplitude, std::uint32_t stream) 
         places.push_back(
             {static_cast<std::size_t>(before), static_cast<std::size_t>((before + 1) % periods), share, fade(share)});
     }
-    for (int y = 0; y < field.size(); ++y) {
+    forEachRow(field.size(), [&](int y) {
         const Place& v = places[static_cast<std::size_t>(y)];
         const glm::vec2* upperRow = &slopes[v.before * static_cast<std::size_t>(periods)];
         const glm::vec2* lowerRow = &slopes[v.after * static_cast<std::size_t>(periods)];
@@ -73,7 +83,7 @@ void addNoise(Field& field, int periods, float amplitude, std::uint32_t stream) 
                 mix(glm::dot(lowerRow[u.before], {s, t - 1}), glm::dot(lowerRow[u.after], {s - 1, t - 1}), u.faded);
             field.at(x, y) += amplitude * mix(upper, lower, v.faded);
         }
-    }
+    });
 }
 
 /// Octaves from `firstPeriods` on, each of twice the frequency and `persistence` of the amplitude.
@@ -137,12 +147,14 @@ std::vector<std::uint8_t> makeGroundDetail(glm::vec3 albedo, glm::vec3 toSun) {
             sum += colours.back();
         }
     const glm::vec3 toMean = albedo / glm::vec3(sum / static_cast<double>(colours.size()));
-    std::vector<std::uint8_t> bytes;
-    for (const glm::vec3& colour : colours) {
-        for (int channel = 0; channel < 3; ++channel)
-            bytes.push_back(toByte(encodeSrgb(colour[channel] * toMean[channel])));
-        bytes.push_back(255);
-    }
+    std::vector<std::uint8_t> bytes(4 * colours.size(), 255);
+    forEachRow(detailTexels, [&](int y) {
+        const std::size_t first = static_cast<std::size_t>(y) * detailTexels;
+        for (std::size_t i = first; i < first + detailTexels; ++i)
+            for (int channel = 0; channel < 3; ++channel)
+                bytes[4 * i + static_cast<std::size_t>(channel)] =
+                    toByte(encodeSrgb(colours[i][channel] * toMean[channel]));
+    });
     return bytes;
 }
 

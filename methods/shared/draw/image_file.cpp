@@ -1,4 +1,4 @@
-// Image files through the pictures' library.
+// Image files: bytes and floats of pixels from and to their files.
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include "methods/shared/draw/image.h"
 #include "methods/shared/errors.h"
-#include "methods/shared/pictures/picture_library.h"
+#include "methods/shared/pictures/picture_files.h"
 
 namespace dustbench::draw {
 namespace {
@@ -38,10 +38,9 @@ std::vector<std::uint8_t> encodedBytes(const Image& image, bool withAlpha) {
 
 /// Empty on success, else what went wrong.
 std::string tryToWrite(const Image& image, const fs::path& file, bool png) {
-    const pictures::PictureLibrary& library = pictures::pictureLibrary();
-    if (!png) return library.writeExr(file, image.width, image.height, {&image.pixels[0].x, image.pixels.size() * 4});
+    if (!png) return pictures::writeExr(file, image.width, image.height, {&image.pixels[0].x, image.pixels.size() * 4});
     const bool withAlpha = !isOpaque(image);
-    return library.writePng(file, image.width, image.height, withAlpha ? 4 : 3, encodedBytes(image, withAlpha));
+    return pictures::writePng(file, image.width, image.height, withAlpha ? 4 : 3, encodedBytes(image, withAlpha));
 }
 
 /// The file's channels as straight or premultiplied RGBA: grey is spread over the colours, missing alpha is 1.
@@ -79,7 +78,7 @@ void writeImage(const Image& image, const fs::path& file) {
 
 Image readImage(const fs::path& file) {
     pictures::StoredPicture stored;
-    if (const std::string reason = pictures::pictureLibrary().read(file, stored); !reason.empty())
+    if (const std::string reason = pictures::readPicture(file, stored); !reason.empty())
         throw InputError("cannot read image '" + file.string() + "': " + reason);
     const auto pixels = static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height);
     const auto channels = static_cast<std::size_t>(stored.channels);

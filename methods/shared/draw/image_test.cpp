@@ -10,6 +10,7 @@
 #include <string>
 
 #include "methods/shared/gpu/texture.h"
+#include "methods/shared/pictures/picture_files.h"
 #include "methods/shared/test_input_error.h"
 
 namespace dustbench::draw {
@@ -123,6 +124,21 @@ TEST_F(ImageFile, PngHoldsStraightAlphaToWithinItsSteps) {
         if (sent.a < 0.05f) continue;
         for (int channel = 0; channel < 3; ++channel)
             EXPECT_NEAR(encodeSrgb(got[channel] / got.a), encodeSrgb(sent[channel] / sent.a), 0.501f / 255);
+    }
+}
+
+TEST_F(ImageFile, PngReadsTheSameByLibpngAsByOpenImageIo) {
+    for (const bool opaque : {true, false}) {
+        writeImage(randomImage(16, 16, opaque, 11), folder_ / "a.png");
+        pictures::StoredPicture ours, theirs;
+        ASSERT_EQ(pictures::readPicture(folder_ / "a.png", ours), "");
+        ASSERT_EQ(pictures::pictureLibrary().read(folder_ / "a.png", theirs), "");
+        EXPECT_EQ(ours.channels, opaque ? 3 : 4);
+        EXPECT_EQ(ours.channels, theirs.channels);
+        EXPECT_EQ(ours.alphaChannel, theirs.alphaChannel);
+        EXPECT_EQ(ours.isEncoded, theirs.isEncoded);
+        EXPECT_EQ(ours.isPremultiplied, theirs.isPremultiplied);
+        EXPECT_EQ(ours.values, theirs.values);
     }
 }
 

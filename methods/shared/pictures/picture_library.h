@@ -1,7 +1,8 @@
 // What dustbench asks of OpenImageIO, behind a library that is loaded at first use.
 //
-// OpenImageIO brings some 250 libraries with it, and linking them took most of every start; few runs read or write a
-// picture. openimageio/ is the other side, built as libdustbench_pictures.so beside the program.
+// OpenImageIO brings some 250 libraries with it, and linking them took most of every start; what runs read
+// and write goes without it (picture_files.h). openimageio/ is the other side, built as libdustbench_pictures.so beside
+// the program.
 // Units: pixels, rows from the top. Errors: text that is empty on success. Threads: any; each call by itself.
 #pragma once
 
@@ -35,15 +36,9 @@ class PictureLibrary {
     virtual ~PictureLibrary() = default;
 
     [[nodiscard]] virtual std::string read(const std::filesystem::path& file, StoredPicture& picture) const = 0;
-    /// Straight alpha where there are four channels, else three; sRGB.
-    [[nodiscard]] virtual std::string writePng(const std::filesystem::path& file, int width, int height, int channels,
-                                               std::span<const std::uint8_t> bytes) const = 0;
     /// RGB, sRGB; quality of 100 at most. The file's bytes, not a file.
     [[nodiscard]] virtual std::string encodeJpeg(int width, int height, std::span<const std::uint8_t> rgb, int quality,
                                                  std::vector<std::uint8_t>& jpeg) const = 0;
-    /// RGBA, linear, premultiplied.
-    [[nodiscard]] virtual std::string writeExr(const std::filesystem::path& file, int width, int height,
-                                               std::span<const float> values) const = 0;
 
     /// False where there is no such font. Text without ink has an empty box.
     [[nodiscard]] virtual bool findInk(const std::string& line, int pixels, const std::string& font,

@@ -21,15 +21,6 @@ std::string oneLine(std::string message) {
     return message.empty() ? "no reason given" : message;
 }
 
-std::string write(const std::filesystem::path& file, const char* type, const OIIO::ImageSpec& spec,
-                  const void* values) {
-    const auto output = OIIO::ImageOutput::create(type);  // by the type, whatever the file is called
-    if (!output) return oneLine(OIIO::geterror());
-    if (!output->open(file.string(), spec) || !output->write_image(spec.format, values) || !output->close())
-        return oneLine(output->geterror());
-    return "";
-}
-
 class OpenImageIo final : public PictureLibrary {
  public:
     std::string read(const std::filesystem::path& file, StoredPicture& picture) const override {
@@ -55,14 +46,6 @@ class OpenImageIo final : public PictureLibrary {
         return "";
     }
 
-    std::string writePng(const std::filesystem::path& file, int width, int height, int channels,
-                         std::span<const std::uint8_t> bytes) const override {
-        OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
-        spec.attribute("oiio:ColorSpace", "sRGB");
-        spec.attribute("oiio:UnassociatedAlpha", 1);
-        return write(file, "png", spec, bytes.data());
-    }
-
     std::string encodeJpeg(int width, int height, std::span<const std::uint8_t> rgb, int quality,
                            std::vector<std::uint8_t>& jpeg) const override {
         OIIO::Filesystem::IOVecOutput sink(jpeg);
@@ -73,14 +56,6 @@ class OpenImageIo final : public PictureLibrary {
         if (!output->open("jpeg", spec) || !output->write_image(spec.format, rgb.data()) || !output->close())
             return oneLine(output->geterror());
         return "";
-    }
-
-    std::string writeExr(const std::filesystem::path& file, int width, int height,
-                         std::span<const float> values) const override {
-        OIIO::ImageSpec spec(width, height, 4, OIIO::TypeDesc::FLOAT);
-        spec.attribute("oiio:ColorSpace", "Linear");
-        spec.attribute("compression", "zip");
-        return write(file, "exr", spec, values.data());
     }
 
     bool findInk(const std::string& line, int pixels, const std::string& font, InkBox& ink) const override {
