@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "methods/shared/parallel/for_each_block.h"
 #include "methods/shared/particles/chunk.h"
 
 namespace dustbench::voxel_shape {
@@ -26,6 +27,9 @@ template <typename T>
 const T* fieldOf(const Voxel* voxels, std::size_t offset) {
     return reinterpret_cast<const T*>(reinterpret_cast<const std::byte*>(voxels) + offset);
 }
+
+/// Fewer are let in by one thread.
+constexpr std::size_t arrivalsInABlock = 2048, partsOfVoxels = 8;
 
 /// What the loops over one run hand on to each other.
 struct Scratch {
@@ -256,21 +260,33 @@ void updateParticles(ShapeParticles& particles, std::size_t first, std::size_t c
     changePlaces(particles, first, count, voxels, scratch, dead, arriving);
 }
 
-void admit(ShapeParticles& particles, std::span<const std::uint32_t> arrivals, std::span<Voxel> voxels) {
-    // One after the other, for the first come are the first let in; where each arrives is fetched ahead of it.
-    constexpr std::size_t ahead = 12;
-    for (std::size_t arrival = 0; arrival < arrivals.size(); ++arrival) {
-        if (arrival + ahead < arrivals.size())
-            __builtin_prefetch(&voxels[particles.place[arrivals[arrival + ahead]] & ~ShapeParticles::outside].density);
-        const std::uint32_t i = arrivals[arrival];
-        const std::uint32_t place = particles.place[i] & ~ShapeParticles::outside;
-        Voxel& voxel = voxels[place];
-        if (voxel.density >= voxel.maximumDensity) continue;
-        ++voxel.density;
-        particles.place[i] = place;
-        particles.settlingSeconds[i] = voxel.interpolationSeconds;
-        particles.store.age[i] = 0;
-    }
+void admit(ShapeParticles& particles, std::span<const std::uint32_t> arrivals, std::span<std::uint32_t> targets,
+           std::span<Voxel> voxels) {
+    parallel::forEachBlock(arrivals.size(), arrivalsInABlock, [&](std::size_t first, std::size_t count) {
+        for (std::size_t k = first; k < first + count; ++k)
+            targets[k] = particles.place[arrivals[k]] & ~ShapeParticles::outside;
+    });
+    // Who comes first matters among those to one voxel: so a thread takes all arrivals to some of the voxels.
+    const std::size_t parts = arrivals.size() < arrivalsInABlock ? 1 : partsOfVoxels;
+    const std::size_t part = (voxels.size() + parts - 1) / parts;
+    parallel::forEachBlock(voxels.size(), part, [&](std::size_t firstVoxel, std::size_t count) {
+        constexpr std::size_t ahead = 12;
+        for (std::size_t k = 0; k < targets.size(); ++k) {
+            if (k + ahead < targets.size() && targets[k + ahead] - firstVoxel < count) {
+                __builtin_prefetch(&voxels[targets[k + ahead]].density, 1);
+                __builtin_prefetch(&particles.settlingSeconds[arrivals[k + ahead]], 1);
+                __builtin_prefetch(&particles.store.age[arrivals[k + ahead]], 1);
+            }
+            if (targets[k] - firstVoxel >= count) continue;
+            const std::uint32_t i = arrivals[k];
+            Voxel& voxel = voxels[targets[k]];
+            if (voxel.density >= voxel.maximumDensity) continue;
+            ++voxel.density;
+            particles.place[i] = targets[k];
+            particles.settlingSeconds[i] = voxel.interpolationSeconds;
+            particles.store.age[i] = 0;
+        }
+    });
 }
 
 }  // namespace dustbench::voxel_shape

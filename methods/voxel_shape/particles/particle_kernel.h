@@ -39,6 +39,8 @@ void updateParticles(ShapeParticles& particles, std::size_t first, std::size_t c
 
 /// Lets those into the voxels where they stand that find room there, the first come in `arrivals` first. The others
 /// stay outside, fade by that voxel's looks, and ask again in the next step.
-void admit(ShapeParticles& particles, std::span<const std::uint32_t> arrivals, std::span<Voxel> voxels);
+/// `targets`: working memory, as long as `arrivals`.
+void admit(ShapeParticles& particles, std::span<const std::uint32_t> arrivals, std::span<std::uint32_t> targets,
+           std::span<Voxel> voxels);
 
 }  // namespace dustbench::voxel_shape

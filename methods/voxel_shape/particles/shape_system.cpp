@@ -19,6 +19,7 @@ ShapeSystem::ShapeSystem(MemoryLedger& ledger, const MarkedVoxels& marked, const
       particles_(ledger),
       deaths_(ledger),
       arrivals_(ledger, "arrivals"),
+      targets_(ledger.account("arrivals")),
       emission_(ledger, seed) {}
 
 ShapeSystem::ShapeSystem(MemoryLedger& ledger, VoxelGrid grid, std::uint64_t seed)
@@ -26,6 +27,7 @@ ShapeSystem::ShapeSystem(MemoryLedger& ledger, VoxelGrid grid, std::uint64_t see
       particles_(ledger),
       deaths_(ledger),
       arrivals_(ledger, "arrivals"),
+      targets_(ledger.account("arrivals")),
       emission_(ledger, seed) {}
 
 void ShapeSystem::live(const KernelStep& step) {
@@ -40,7 +42,9 @@ void ShapeSystem::live(const KernelStep& step) {
             arrivals_.note(first / particles::chunkSize, arriving.data(), count);
         },
         fewChunks);
-    admit(particles_, arrivals_.collect(), grid_.voxels());
+    const std::span<const std::uint32_t> arrivals = arrivals_.collect();
+    targets_.resize(arrivals.size());
+    admit(particles_, arrivals, targets_, grid_.voxels());
 }
 
 /// The last particles move into the holes (ascending) that lie before them.

@@ -38,7 +38,8 @@ class ShapeSystem {
     VoxelGrid grid_;
     ShapeParticles particles_;
     particles::NotedParticles deaths_;
-    particles::NotedParticles arrivals_;  ///< come to another voxel
+    particles::NotedParticles arrivals_;   ///< come to another voxel
+    LedgerVector<std::uint32_t> targets_;  ///< which, for each of them
     Emission emission_;
 };
 
