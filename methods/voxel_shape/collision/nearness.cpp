@@ -20,9 +20,9 @@ MarkedVoxels surfaceOf(const scene::Mesh& mesh, float cellMetres) {
 }  // namespace
 
 Nearness::Nearness(const scene::Mesh& mesh, float cellMetres, float reachMetres) {
-    const MarkedVoxels surface = surfaceOf(mesh, cellMetres);
-    MarkedVoxels solid = surface;
-    (void)fillInside(solid);  // what encloses nothing has its surface alone
+    MarkedVoxels solid = surfaceOf(mesh, cellMetres);
+    const std::vector<std::uint8_t> onSurface = solid.marked;
+    (void)markInside(solid);  // what encloses nothing has its surface alone
     const float edge = solid.lattice.edgeMetres;
     const float reach = reachMetres / edge + std::sqrt(3.0f) / 2;  // in cells, from middle to middle
     const int rim = static_cast<int>(std::ceil(reach));
@@ -37,7 +37,7 @@ Nearness::Nearness(const scene::Mesh& mesh, float cellMetres, float reachMetres)
         if (!solid.marked[i]) continue;
         const glm::ivec3 cell = solid.lattice.cell(i) + rim;
         near_[lattice_.index(cell)] = 1;
-        if (!surface.marked[i]) continue;
+        if (!onSurface[i]) continue;
         for (const glm::ivec3& step : ball) near_[lattice_.index(cell + step)] = 1;
     }
 }

@@ -31,24 +31,65 @@ void spread(const Lattice& lattice, std::vector<std::uint32_t> front, const Take
     }
 }
 
-/// 1 where a cell can be reached from the lattice's rim through unmarked cells.
-std::vector<std::uint8_t> reachedFromOutside(const MarkedVoxels& surface) {
-    const Lattice& lattice = surface.lattice;
-    std::vector<std::uint8_t> reached(lattice.size(), 0);
-    std::vector<std::uint32_t> front;
-    const auto take = [&](std::uint32_t cell, std::uint32_t) {
-        if (surface.marked[cell] || reached[cell]) return false;
-        reached[cell] = 1;
-        return true;
-    };
-    for (std::uint32_t i = 0; i < lattice.size(); ++i) {
-        const glm::ivec3 cell = lattice.cell(i);
-        const bool rim = glm::any(glm::equal(cell, glm::ivec3(0))) || glm::any(glm::equal(cell, lattice.counts - 1));
-        if (rim && take(i, i)) front.push_back(i);
+/// 1 where a cell can be reached from beyond the lattice through unmarked cells. Row by row, to and fro, each cell from
+/// those beside it, until a sweep finds nothing new: few sweeps, for few shapes wind.
+class OutsideSweeps {
+ public:
+    explicit OutsideSweeps(const MarkedVoxels& surface)
+        : counts_(surface.lattice.counts),
+          marked_(surface.marked.data()),
+          reached_(surface.lattice.size(), 0),
+          found_(static_cast<std::size_t>(counts_.y) * static_cast<std::size_t>(counts_.z), 0) {
+        while (sweep(false) && sweep(true)) {
+        }
     }
-    spread(lattice, std::move(front), take);
-    return reached;
-}
+    [[nodiscard]] const std::vector<std::uint8_t>& reached() const { return reached_; }
+
+ private:
+    /// Whether anything was found.
+    bool sweep(bool back) {
+        bool any = false;
+        for (int k = 0; k < counts_.z; ++k)
+            for (int j = 0; j < counts_.y; ++j)
+                any |= back ? visitRow(counts_.y - 1 - j, counts_.z - 1 - k) : visitRow(j, k);
+        return any;
+    }
+    bool visitRow(int y, int z) {
+        const auto nx = static_cast<std::size_t>(counts_.x);
+        const std::size_t row =
+            static_cast<std::size_t>(z) * static_cast<std::size_t>(counts_.y) + static_cast<std::size_t>(y);
+        const std::uint8_t* const marked = marked_ + row * nx;
+        std::uint8_t* const own = reached_.data() + row * nx;
+        const auto reachFrom = [&](bool isInside, std::ptrdiff_t rows) {
+            const std::uint8_t* const beside = own + rows * static_cast<std::ptrdiff_t>(nx);
+#pragma GCC ivdep
+            for (std::size_t i = 0; i < nx; ++i)
+                own[i] |= static_cast<std::uint8_t>((isInside ? beside[i] : 1) & (marked[i] ^ 1));
+        };
+        reachFrom(y > 0, -1);
+        reachFrom(y + 1 < counts_.y, 1);
+        reachFrom(z > 0, -std::ptrdiff_t{counts_.y});
+        reachFrom(z + 1 < counts_.z, counts_.y);
+        const auto goAlong = [&](std::size_t i, std::uint8_t& reached) {
+            reached = static_cast<std::uint8_t>((reached | own[i]) & (marked[i] ^ 1));
+            own[i] = reached;
+        };
+        std::uint8_t reached = 1;
+        for (std::size_t i = 0; i < nx; ++i) goAlong(i, reached);
+        reached = 1;
+        std::size_t found = 0;
+        for (std::size_t i = nx; i-- > 0;) {
+            goAlong(i, reached);
+            found += reached;
+        }
+        return std::exchange(found_[row], found) != found;
+    }
+
+    glm::ivec3 counts_;
+    const std::uint8_t* marked_;
+    std::vector<std::uint8_t> reached_;
+    std::vector<std::size_t> found_;  ///< by row: how many are reached
+};
 
 }  // namespace
 
@@ -81,20 +122,28 @@ std::size_t openEdges(const scene::Mesh& mesh) {
     return open;
 }
 
-bool fillInside(MarkedVoxels& surface) {
-    const std::vector<std::uint8_t> outside = reachedFromOutside(surface);
-    std::vector<std::uint32_t> front;
+bool markInside(MarkedVoxels& surface) {
+    const OutsideSweeps sweeps(surface);
     bool any = false;
-    for (std::uint32_t i = 0; i < outside.size(); ++i) {
-        if (surface.marked[i])
-            front.push_back(i);
-        else
-            any = any || !outside[i];
+    for (std::size_t i = 0; i < surface.marked.size(); ++i) {
+        const auto inside = static_cast<std::uint8_t>(sweeps.reached()[i] ^ 1);
+        any |= inside != surface.marked[i];
+        surface.marked[i] = inside;
     }
-    if (!any) return false;
+    return any;
+}
+
+bool fillInside(MarkedVoxels& surface) {
+    std::vector<std::uint8_t> toColour = surface.marked;
+    if (!markInside(surface)) return false;
+    std::vector<std::uint32_t> front;
+    for (std::uint32_t i = 0; i < toColour.size(); ++i) {
+        if (toColour[i]) front.push_back(i);
+        toColour[i] ^= surface.marked[i];
+    }
     spread(surface.lattice, std::move(front), [&](std::uint32_t cell, std::uint32_t from) {
-        if (surface.marked[cell] || outside[cell]) return false;
-        surface.marked[cell] = 1;
+        if (!toColour[cell]) return false;
+        toColour[cell] = 0;
         surface.colours[cell] = surface.colours[from];
         return true;
     });

@@ -14,6 +14,9 @@ namespace dustbench::voxel_shape {
 /// Edges that belong to an odd number of triangles, corners at the same place taken for one: 0 for a closed surface.
 [[nodiscard]] std::size_t openEdges(const scene::Mesh& mesh);
 
+/// Marks what `surface` encloses, and leaves its colours alone; false where that is nothing.
+bool markInside(MarkedVoxels& surface);
+
 /// Marks what `surface` (every touched voxel marked) encloses; false where that is nothing. Inner voxels take the
 /// colour of the surface voxel from which the fewest steps lead to them.
 bool fillInside(MarkedVoxels& surface);

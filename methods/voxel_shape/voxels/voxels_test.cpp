@@ -152,6 +152,43 @@ TEST(SolidFill, RefusesAnOpenSurfaceThatEnclosesNothing) {
     EXPECT_GT(solid.count(), surface + 300);
 }
 
+TEST(SolidFill, MarksWhatNoWayLeadsToFromOutside) {
+    std::mt19937 random(5);
+    for (const glm::ivec3 counts : {glm::ivec3(1), glm::ivec3(17, 9, 12), glm::ivec3(5, 31, 3)})
+        for (const double share : {0.0, 0.3, 0.45, 0.6, 1.0}) {
+            MarkedVoxels maze(Lattice{counts, glm::vec3(0), 1});
+            std::bernoulli_distribution isWall(share);
+            for (std::uint8_t& marked : maze.marked) marked = isWall(random) ? 1 : 0;
+            // The slow way: from each cell that was reached to its neighbours, one at a time.
+            std::vector<std::uint8_t> inside(maze.marked.size(), 1);
+            std::vector<glm::ivec3> reached;
+            const auto reach = [&](const glm::ivec3& cell) {
+                if (!maze.lattice.contains(cell)) return;
+                const std::uint32_t i = maze.lattice.index(cell);
+                if (maze.marked[i] || !inside[i]) return;
+                inside[i] = 0;
+                reached.push_back(cell);
+            };
+            for (std::uint32_t i = 0; i < inside.size(); ++i) {
+                const glm::ivec3 cell = maze.lattice.cell(i);
+                if (glm::any(glm::equal(cell, glm::ivec3(0))) || glm::any(glm::equal(cell, counts - 1))) reach(cell);
+            }
+            while (!reached.empty()) {
+                const glm::ivec3 from = reached.back();
+                reached.pop_back();
+                for (int axis = 0; axis < 3; ++axis)
+                    for (const int way : {-1, 1}) {
+                        glm::ivec3 to = from;
+                        to[axis] += way;
+                        reach(to);
+                    }
+            }
+            const bool any = inside != maze.marked;
+            EXPECT_EQ(markInside(maze), any);
+            EXPECT_EQ(maze.marked, inside) << counts.x << " share " << share;
+        }
+}
+
 TEST(Lattice, HoldsTheMeshAtEveryResolution) {
     const scene::Mesh sphere = sphereMesh(3, 10);
     for (const int resolution : {1, 2, 50, 256}) {
