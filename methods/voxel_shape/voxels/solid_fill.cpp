@@ -38,6 +38,7 @@ class OutsideSweeps {
     explicit OutsideSweeps(const MarkedVoxels& surface)
         : counts_(surface.lattice.counts),
           marked_(surface.marked.data()),
+          outside_(static_cast<std::size_t>(counts_.x), 1),
           reached_(surface.lattice.size(), 0),
           found_(static_cast<std::size_t>(counts_.y) * static_cast<std::size_t>(counts_.z), 0) {
         while (sweep(false) && sweep(true)) {
@@ -61,10 +62,10 @@ class OutsideSweeps {
         const std::uint8_t* const marked = marked_ + row * nx;
         std::uint8_t* const own = reached_.data() + row * nx;
         const auto reachFrom = [&](bool isInside, std::ptrdiff_t rows) {
-            const std::uint8_t* const beside = own + rows * static_cast<std::ptrdiff_t>(nx);
+            const std::uint8_t* const beside =
+                isInside ? own + rows * static_cast<std::ptrdiff_t>(nx) : outside_.data();
 #pragma GCC ivdep
-            for (std::size_t i = 0; i < nx; ++i)
-                own[i] |= static_cast<std::uint8_t>((isInside ? beside[i] : 1) & (marked[i] ^ 1));
+            for (std::size_t i = 0; i < nx; ++i) own[i] |= static_cast<std::uint8_t>(beside[i] & (marked[i] ^ 1));
         };
         reachFrom(y > 0, -1);
         reachFrom(y + 1 < counts_.y, 1);
@@ -87,6 +88,7 @@ class OutsideSweeps {
 
     glm::ivec3 counts_;
     const std::uint8_t* marked_;
+    std::vector<std::uint8_t> outside_;  ///< a row beyond the lattice
     std::vector<std::uint8_t> reached_;
     std::vector<std::size_t> found_;  ///< by row: how many are reached
 };
