@@ -1,12 +1,10 @@
 #include "methods/shared/particles/noted_particles.h"
 
-#include <bit>
-#include <cstring>
 #include <numeric>
 
-namespace dustbench::particles {
+#include "methods/shared/particles/flagged.h"
 
-static_assert(std::endian::native == std::endian::little);
+namespace dustbench::particles {
 
 NotedParticles::NotedParticles(MemoryLedger& ledger, const char* account)
     : within_(ledger.account(account)), counts_(ledger.account(account)), indices_(ledger.account(account)) {}
@@ -25,17 +23,7 @@ void NotedParticles::prepare(std::size_t particles) {
 void NotedParticles::note(std::size_t chunk, const std::uint8_t* flags, std::size_t count) {
     std::uint16_t* const list = within_.data() + chunk * chunkSize;
     std::uint32_t found = 0;
-    std::size_t i = 0;
-    // Few are noted: eight flags at a time.
-    for (; i + 8 <= count; i += 8) {
-        std::uint64_t eight;
-        std::memcpy(&eight, flags + i, sizeof eight);
-        // A flag is 1 in its byte: the lowest byte, the first particle, comes first.
-        for (; eight != 0; eight &= eight - 1)
-            list[found++] = static_cast<std::uint16_t>(i + static_cast<std::size_t>(std::countr_zero(eight)) / 8);
-    }
-    for (; i < count; ++i)
-        if (flags[i]) list[found++] = static_cast<std::uint16_t>(i);
+    forEachFlagged(flags, count, [&](std::size_t i) { list[found++] = static_cast<std::uint16_t>(i); });
     counts_[chunk] = found;
 }
 

@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 
 #include "methods/shared/parallel/for_each_block.h"
-#include "methods/shared/particles/chunk.h"
+#include "methods/shared/particles/flagged.h"
 
 namespace dustbench::voxel_shape {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "the first byte of a word is its lowest");
 
 constexpr std::uint32_t nowhere = 0xffffffffu;
 /// 256³ voxels; that no product overflows lets the compiler gather by 32-bit numbers.
@@ -31,10 +27,13 @@ const T* fieldOf(const Voxel* voxels, std::size_t offset) {
 /// Fewer are let in by one thread.
 constexpr std::size_t arrivalsInABlock = 2048, partsOfVoxels = 8;
 
+/// Particles that the loops pass over one after the other.
+constexpr std::size_t runSize = 128;
+
 /// What the loops over one run hand on to each other.
 struct Scratch {
-    std::array<std::uint32_t, particles::chunkSize> here;  ///< index of the active voxel, or `nowhere`
-    std::array<float, particles::chunkSize> rx, ry, rz;    ///< from its centre, in voxels
+    std::array<std::uint32_t, runSize> here;  ///< index of the active voxel, or `nowhere`
+    std::array<float, runSize> rx, ry, rz;    ///< from its centre, in voxels
 };
 
 /// The voxel that each particle is in: one multiplication by a matrix and one look into the array.
@@ -70,9 +69,8 @@ void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t coun
 }
 
 /// Most particles are where they were: so the voxels of those to come are fetched before they are asked for.
-[[gnu::always_inline]] inline void fetchVoxels(const ShapeParticles& particles, std::size_t first, std::size_t count,
+[[gnu::always_inline]] inline void fetchVoxels(const ShapeParticles& particles, std::size_t first, std::size_t end,
                                                const Voxel* voxels) {
-    const std::size_t end = std::min(first + count, particles.size());
     for (std::size_t i = first; i < end; ++i)
         __builtin_prefetch(voxels + (particles.place[i] & ~ShapeParticles::outside));
 }
@@ -201,28 +199,21 @@ void changeLooks(ShapeParticles& particles, std::size_t first, std::size_t count
     }
 }
 
-/// Few particles change their voxel in a step: eight are looked at together. By now they have moved and looked as the
-/// voxel that they leave told them.
+/// Few particles change their voxel in a step. By now they have moved and looked as the voxel that they leave told
+/// them.
 void changePlaces(ShapeParticles& particles, std::size_t first, std::size_t count, std::span<Voxel> voxels,
                   const Scratch& scratch, const std::uint8_t* dead, std::uint8_t* arriving) {
-    constexpr std::size_t together = 8;
     std::uint32_t* const place = particles.place.data() + first;
-    std::array<std::uint8_t, particles::chunkSize + together> changed;
+    std::array<std::uint8_t, runSize> changed;
     for (std::size_t i = 0; i < count; ++i) changed[i] = scratch.here[i] != place[i] ? 1 : 0;
-    std::fill_n(changed.data() + count, together, std::uint8_t{0});
     std::fill_n(arriving, count, std::uint8_t{0});
-    for (std::size_t from = 0; from < count; from += together) {
-        std::uint64_t left;
-        std::memcpy(&left, changed.data() + from, together);
-        for (; left != 0; left &= left - 1) {
-            const std::size_t i = from + static_cast<std::size_t>(std::countr_zero(left)) / 8;
-            const std::uint32_t now = scratch.here[i], before = place[i];
-            if ((before & ShapeParticles::outside) == 0)
-                std::atomic_ref(voxels[before].density).fetch_sub(1, std::memory_order_relaxed);
-            place[i] = (now == nowhere ? before : now) | ShapeParticles::outside;
-            arriving[i] = now != nowhere && dead[i] == 0 ? 1 : 0;
-        }
-    }
+    particles::forEachFlagged(changed.data(), count, [&](std::size_t i) {
+        const std::uint32_t now = scratch.here[i], before = place[i];
+        if ((before & ShapeParticles::outside) == 0)
+            std::atomic_ref(voxels[before].density).fetch_sub(1, std::memory_order_relaxed);
+        place[i] = (now == nowhere ? before : now) | ShapeParticles::outside;
+        arriving[i] = now != nowhere && dead[i] == 0 ? 1 : 0;
+    });
 }
 
 }  // namespace
@@ -242,22 +233,18 @@ KernelStep::KernelStep(const VoxelGrid& grid, const Pose& where, const Motion& m
 
 void updateParticles(ShapeParticles& particles, std::size_t first, std::size_t count, VoxelGrid& grid,
                      const KernelStep& step, std::uint8_t* dead, std::uint8_t* arriving) {
-    Scratch scratch;
     const std::span<Voxel> voxels = grid.voxels();
-    // A third of the next run's voxels beside each stage of this one's.
-    const std::size_t third = count / 3 + 1;
-    std::size_t next = first + count;
-    const auto fetchThird = [&]() __attribute__((always_inline)) {
-        fetchVoxels(particles, next, third, voxels.data());
-        next += third;
-    };
-    fetchThird();
-    lookUp(particles, first, count, voxels.data(), step, scratch);
-    fetchThird();
-    move(particles, first, count, voxels.data(), step, scratch);
-    fetchThird();
-    changeLooks(particles, first, count, voxels.data(), step.seconds, dead);
-    changePlaces(particles, first, count, voxels, scratch, dead, arriving);
+    const std::size_t end = first + count;
+    for (std::size_t done = 0; done < count; done += runSize) {
+        Scratch scratch;
+        const std::size_t from = first + done, here = std::min(runSize, count - done);
+        // No farther than to the end: what comes behind may be another thread's.
+        fetchVoxels(particles, from + here, std::min(from + here + runSize, end), voxels.data());
+        lookUp(particles, from, here, voxels.data(), step, scratch);
+        move(particles, from, here, voxels.data(), step, scratch);
+        changeLooks(particles, from, here, voxels.data(), step.seconds, dead + done);
+        changePlaces(particles, from, here, voxels, scratch, dead + done, arriving + done);
+    }
 }
 
 void admit(ShapeParticles& particles, std::span<const std::uint32_t> arrivals, std::span<std::uint32_t> targets,

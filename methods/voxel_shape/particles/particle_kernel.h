@@ -32,7 +32,7 @@ struct KernelStep {
     glm::vec3 gravityStep;  ///< velocity that gravity adds
 };
 
-/// Works on particles first .. first + count, at most particles::chunkSize. `dead[i]` becomes 1 where one dies, else 0;
+/// Works on particles first .. first + count. `dead[i]` becomes 1 where one dies, else 0;
 /// `arriving[i]` where one has come to a voxel that may let it in (`admit`), else 0: until then it is outside of it.
 void updateParticles(ShapeParticles& particles, std::size_t first, std::size_t count, VoxelGrid& grid,
                      const KernelStep& step, std::uint8_t* dead, std::uint8_t* arriving);
