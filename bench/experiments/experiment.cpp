@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bench/experiments/birth_experiment.h"
 #include "bench/experiments/obstacle_experiment.h"
 #include "bench/experiments/sampling_experiment.h"
 #include "bench/experiments/sight_experiment.h"
@@ -13,7 +14,7 @@
 namespace dustbench::bench {
 
 const std::vector<std::string>& experimentNames() {
-    static const std::vector<std::string> names{"sampling", "obstacles", "sight"};
+    static const std::vector<std::string> names{"sampling", "obstacles", "sight", "births"};
     return names;
 }
 
@@ -21,6 +22,7 @@ std::vector<Finding> runExperiment(std::string_view name, std::uint64_t seed) {
     if (std::ranges::find(experimentNames(), name) == experimentNames().end())
         throw unknownName("experiment", std::string(name), experimentNames());
     if (name == "obstacles") return blowAtObstacles();
+    if (name == "births") return lookForBirthsInSolids();
     return name == "sight" ? lookAtABox() : sampleDirections(seed);
 }
 

@@ -19,12 +19,12 @@ struct Finding {
     std::string quantity;
     double value = 0;
     double low = 0, high = 0;
-    std::int64_t samples = 0;  ///< draws, steps or pixels behind it
+    std::int64_t samples = 0;  ///< draws, steps, pixels or births behind it
 };
 
 [[nodiscard]] const std::vector<std::string>& experimentNames();
 
-/// Throws InputError for a name that is unknown, and for `sight` where there is no OpenGL.
+/// Throws InputError for a name that is unknown, and for `sight` and `births` where there is no OpenGL.
 [[nodiscard]] std::vector<Finding> runExperiment(std::string_view name, std::uint64_t seed = 1);
 
 [[nodiscard]] std::string findingsCsv(const std::vector<Finding>& findings);

@@ -2,12 +2,17 @@
 
 #include <cmath>
 #include <fstream>
+#include <glm/gtc/matrix_transform.hpp>
 #include <map>
+#include <memory>
 #include <numbers>
+#include <random>
 
+#include "bench/experiments/birth_experiment.h"
 #include "bench/experiments/experiment.h"
 #include "bench/experiments/obstacle_experiment.h"
 #include "bench/experiments/sight_experiment.h"
+#include "bench/experiments/solid_space.h"
 #include "methods/shared/errors.h"
 #include "methods/shared/test_folder.h"
 
@@ -82,6 +87,45 @@ TEST(SightExperiment, FindsWhatIsDrawnWrong) {
     raycast::RaycastSettings settings;
     settings.stopAlpha = 0.5;
     EXPECT_GT(greatestSightError(device, settings, {{{0, 0, 9}, {0, 0, -1}, {}}}), 0.1);
+}
+
+/// A cube of edge 2 around the origin, wound counter-clockwise as seen from outside.
+scene::Mesh cube() {
+    scene::Mesh mesh;
+    for (int corner = 0; corner < 8; ++corner)
+        mesh.positions.emplace_back(corner & 4 ? 1 : -1, corner & 2 ? 1 : -1, corner & 1 ? 1 : -1);
+    mesh.indices = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
+                    2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+    return mesh;
+}
+
+TEST(SolidSpace, IsWhatLiesWithinASolidWhereverItStands) {
+    scene::Scene scene;
+    scene::SolidPose pose;
+    pose.toWorld = glm::rotate(glm::translate(glm::mat4(1), {5, 1, 0}), 0.6f, {0.6f, 0.8f, 0});
+    scene.solids = {{"here", std::make_shared<scene::Mesh>(cube())}, {"there", std::make_shared<scene::Mesh>(cube())}};
+    scene.solidPoses = {scene::SolidPose(), pose};
+    const SolidSpace space(scene);
+    const glm::dmat4 toThere = glm::inverse(glm::dmat4(pose.toWorld));
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> along(-2.5, 8);
+    int within = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const glm::dvec3 point(along(random), along(random) / 2, along(random) / 2);
+        const auto inCube = [](const glm::dvec3& p) { return glm::all(glm::lessThan(glm::abs(p), glm::dvec3(1))); };
+        const bool expected = inCube(point) || inCube(glm::dvec3(toThere * glm::dvec4(point, 1)));
+        ASSERT_EQ(space.contains(point), expected) << point.x << ' ' << point.y << ' ' << point.z;
+        within += expected;
+    }
+    EXPECT_GT(within, 500);
+}
+
+TEST(BirthExperiment, FindsNoneInSolidsThatTheMethodKnowsAndManyInThoseItDoesNot) {
+    gpu::Device device;
+    const BirthReport told = driveThroughWalls(device, true, 1.4), untold = driveThroughWalls(device, false, 1.4);
+    EXPECT_EQ(told.inSolids, 0);
+    EXPECT_GT(told.births, 100'000);
+    EXPECT_GT(untold.inSolids, 500);
 }
 
 TEST(Findings, AreReadAsTheyWereWritten) {

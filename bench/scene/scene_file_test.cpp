@@ -34,6 +34,30 @@ TEST(SceneFile, ReadsTheBuiltInScenes) {
     EXPECT_EQ(dunes.scene.terrain.rows(), 257);
 }
 
+/// What a closed surface encloses, by the flux of (x, 0, 0), (0, y, 0) and (0, 0, z) out of it.
+glm::dvec3 volumes(const scene::Mesh& mesh) {
+    glm::dvec3 sum(0);
+    for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
+        const glm::dvec3 a(mesh.positions[mesh.indices[k]]), b(mesh.positions[mesh.indices[k + 1]]),
+            c(mesh.positions[mesh.indices[k + 2]]);
+        sum += (a + b + c) / 3.0 * glm::cross(b - a, c - a) / 2.0;
+    }
+    return sum;
+}
+
+TEST(SceneFile, SolidsOfTheBuiltInScenesAreClosedAndWoundAsSeenFromOutside) {
+    int solids = 0;
+    for (const std::string& id : files::listData("scenes", ".toml"))
+        for (const scene::Solid& solid : builtIn(id).scene.solids) {
+            const glm::dvec3 volume = volumes(*solid.mesh);
+            EXPECT_GT(volume.x, 0) << id << ' ' << solid.name;
+            EXPECT_NEAR(volume.y / volume.x, 1, 1e-3) << id << ' ' << solid.name;
+            EXPECT_NEAR(volume.z / volume.x, 1, 1e-3) << id << ' ' << solid.name;
+            ++solids;
+        }
+    EXPECT_GE(solids, 7);
+}
+
 TEST(SceneFile, ManualShowsTheDefaults) {
     const TestFolder folder;
     const SceneFile bare = readScene(folder.write("bare.toml", "description = \"bare\"\n"));

@@ -166,7 +166,7 @@ def wall():
         for k, (a, b) in enumerate(zip(cuts, cuts[1:])):
             tone = (37 * j + 61 * k + 13 * j * k) % 5
             shade = (150 + 9 * tone, 74 + 5 * tone, 56 + 4 * tone)
-            for x, order in ((-thick / 2, 1), (thick / 2, -1)):
+            for x, order in ((-thick / 2, -1), (thick / 2, 1)):
                 corners = [(x, y0, -a), (x, y1, -a), (x, y1, -b), (x, y0, -b)]
                 quad(corners[::-order], shade)
             if j == courses - 1:
@@ -192,9 +192,10 @@ def marker_post():
         for i in range(sides):
             j = (i + 1) % sides
             triangles += [(low[i], high[i], high[j]), (low[i], high[j], low[j])]
-    top = rings[-1]
+    bottom, top = rings[0], rings[-1]
     for i in range(1, sides - 1):
         triangles.append((top[0], top[i + 1], top[i]))
+        triangles.append((bottom[0], bottom[i], bottom[i + 1]))
     with open(path("marker_post.stl"), "wb") as file:
         file.write(b"marker post, metres".ljust(80, b"\0"))
         file.write(struct.pack("<I", len(triangles)))
