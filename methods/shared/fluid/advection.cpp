@@ -18,16 +18,7 @@ constexpr std::size_t rowsInABlock = 8;
     store(record, value);
 }
 
-[[gnu::always_inline]] inline Float4 velocityOf(const Float8& record) {
-    return __builtin_shufflevector(record, record, 0, 1, 2, 3);
-}
-
-/// Of four cells at once: all bits set where all three numbers of a cell are.
-[[gnu::always_inline]] inline Int4 allThree(Int16 mask) {
-    mask &= __builtin_shufflevector(mask, mask, 1, 2, 0, 3, 5, 6, 4, 7, 9, 10, 8, 11, 13, 14, 12, 15);
-    mask &= __builtin_shufflevector(mask, mask, 2, 0, 1, 3, 6, 4, 5, 7, 10, 8, 9, 11, 14, 12, 13, 15);
-    return __builtin_shufflevector(mask, mask, 0, 4, 8, 12);
-}
+constexpr Float16 upwards{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 }  // namespace
 
@@ -39,40 +30,66 @@ struct Advection::Pass {
     float cellsPerSpeed;
     int reach;  ///< slabs that a look-up along z may touch, on either side
     RecordView field, window;
-
-    [[nodiscard]] Float4 step() const { return Float4{cellsPerSpeed, cellsPerSpeed, cellsPerSpeed, 0}; }
 };
+
+/// Where the air of a row's cells comes from.
+struct Advection::KeptRow {
+    float* x = nullptr;
+    std::size_t pitch = 0;
+
+    void put(std::size_t i, const Triples& places) const {
+        store(x + i, places.x);
+        store(x + pitch + i, places.y);
+        store(x + 2 * pitch + i, places.z);
+    }
+    [[nodiscard]] Triples get(std::size_t i) const {
+        return {load<Float16>(x + i), load<Float16>(x + pitch + i), load<Float16>(x + 2 * pitch + i)};
+    }
+};
+
+Advection::KeptRow Advection::keptRow(int j, int k) {
+    const auto row =
+        static_cast<std::size_t>(k) % heldSlabs_ * static_cast<std::size_t>(layout_.ny) + static_cast<std::size_t>(j);
+    return {places_.data() + row * 3 * keptPitch_, keptPitch_};
+}
 
 /// The paths of a row's cells, by the midpoint rule: x₋ = x − Δt·u(x − ½Δt·u(x)), and what lies at their ends.
 void Advection::predict(const Pass& pass, int firstSlab, int lastSlab) {
     const bool corrected = pass.rule.scheme == AdvectionScheme::macCormack;
     const auto nx = static_cast<std::size_t>(layout_.nx), ny = static_cast<std::size_t>(layout_.ny);
-    const Float4 step = pass.step(), halfStep = 0.5f * step;
-    const Float4 last{static_cast<float>(layout_.nx + 1), static_cast<float>(layout_.ny + 1),
-                      static_cast<float>(layout_.nz + 1), 0};
-    const auto inside = [&](const Float4& place) { return atMost(atLeast(place, Float4{}), last); };
+    const float step = pass.cellsPerSpeed;
     struct Strip {
         CornerStrip<false> corners;
-        Places places{};
+        /// What is found halfway; only the velocities are wanted.
+        alignas(64) std::array<float, (stripCells + 1) * lanes> halfway{};
     };
     const auto predictStrip = [&](std::size_t first, std::size_t count, int j, int k, Strip& strip) {
-        auto& [corners, places] = strip;
+        auto& [corners, halfway] = strip;
         const std::size_t at = layout_.at(0, j, k) + first, there = corrected ? inWindow(at) : at;
         const float* own = pass.from.cell(at);
         const std::uint8_t* fluid = pass.fluid + at;
-        const Float4 before{static_cast<float>(first + 1), static_cast<float>(j + 1), static_cast<float>(k + 1), 0};
-        const auto centre = [&](std::size_t i) { return before + Float4{static_cast<float>(i), 0, 0, 0}; };
-        for (std::size_t i = 0; i < count; ++i)
-            places[i] = inside(centre(i) - halfStep * load<Float4>(own + i * lanes));
-        corners.find(places, count);
-        for (std::size_t i = 0; i < count; ++i) places[i] = inside(centre(i) - step * velocityOf(corners.sample(i)));
-        corners.find(places, count);
+        // Back from the centres of sixteen cells, no farther than to the outermost ghost cells.
+        const auto back = [&](std::size_t i, float steps, const Triples& velocities) {
+            const auto from = [&](const Float16& centres, const Float16& velocity, int cells) {
+                const Float16 place = fused(everywhere<Float16>(-steps), velocity, centres);
+                return atMost(atLeast(place, Float16{}), everywhere<Float16>(static_cast<float>(cells + 1)));
+            };
+            return Triples{from(static_cast<float>(first + i + 1) + upwards, velocities.x, layout_.nx),
+                           from(everywhere<Float16>(static_cast<float>(j + 1)), velocities.y, layout_.ny),
+                           from(everywhere<Float16>(static_cast<float>(k + 1)), velocities.z, layout_.nz)};
+        };
+        corners.find(count, [&](std::size_t i) { return back(i, 0.5f * step, velocitiesOf(own + i * lanes)); });
+        const CornerStrip<false>::Reader field(corners);
+        for (std::size_t i = 0; i < count; ++i) storeRecord(&halfway[i * lanes], field.sample(i));
+        const KeptRow kept = corrected ? keptRow(j, k) : KeptRow{};
+        corners.find(count, [&](std::size_t i) {
+            const Triples behind = back(i, step, velocitiesOf(&halfway[i * lanes]));
+            if (corrected) kept.put(first + i, behind);
+            return behind;
+        });
         float* out = (corrected ? window_.data() : pass.to.data()) + there * lanes;
         for (std::size_t i = 0; i < count; ++i)
-            storeRecord(out + i * lanes, fluid[i] == 1 ? corners.sample(i) : load<Float8>(own + i * lanes));
-        if (!corrected) return;
-        float* kept = places_.data() + there * 3;
-        for (std::size_t i = 0; i < count; ++i) store(kept + i * 3, places[i]);
+            storeRecord(out + i * lanes, fluid[i] == 1 ? field.sample(i) : load<Float8>(own + i * lanes));
     };
     parallel::forEachBlock(
         static_cast<std::size_t>(lastSlab - firstSlab) * ny, rowsInABlock, [&](std::size_t first, std::size_t count) {
@@ -86,48 +103,51 @@ void Advection::predict(const Pass& pass, int firstSlab, int lastSlab) {
 /// φ = φ̂ + ½(φⁿ − φ̃), where φ̃ is the first guess looked up along the path ahead.
 void Advection::correct(const Pass& pass, int firstSlab, int lastSlab) {
     const auto nx = static_cast<std::size_t>(layout_.nx), ny = static_cast<std::size_t>(layout_.ny);
-    const Float4 twoSteps = 2 * pass.step();
+    const auto twoSteps = everywhere<Float16>(2 * pass.cellsPerSpeed);
     struct Strip {
         CornerStrip<false> began;
         CornerStrip<true> guesses;
-        Places behind{}, ahead{};
-        alignas(16) std::array<int, stripCells> within{};
+        alignas(64) std::array<int, stripCells> within{};
     };
     const auto correctStrip = [&](std::size_t firstCell, std::size_t count, int j, int k, Strip& strip) {
-        auto& [began, guesses, behind, ahead, within] = strip;
+        auto& [began, guesses, within] = strip;
         const std::size_t at = layout_.at(0, j, k) + firstCell, there = inWindow(at);
         const float* own = pass.from.cell(at);
         const float* guess = window_.data() + there * lanes;
-        const float* kept = places_.data() + there * 3;
         // There is no first guess beyond the outermost centres, nor farther along z than the flow is fast.
         const int slabs = pass.reach - 1, lowest = std::max(1, k + 1 - slabs);
-        const Float16 low = fourTimes(Float4{1, 1, static_cast<float>(lowest), 0});
-        const Float16 high = fourTimes(Float4{static_cast<float>(layout_.nx), static_cast<float>(layout_.ny),
-                                              static_cast<float>(std::min(layout_.nz, k + 1 + slabs)), 0});
-        const Float4 threeOnly{1, 1, 1, 0};
-        for (std::size_t i = 0; i < count; ++i) {
-            behind[i] = load<Float4>(kept + i * 3) * threeOnly;
-            ahead[i] = behind[i] + twoSteps * load<Float4>(own + i * lanes);
-        }
-        for (std::size_t i = 0; i < count; i += 4) {
-            const Float16 from = fourPlaces(behind, i), to = fourPlaces(ahead, i);
-            store(&within[i], allThree((to >= low) & (to <= high) & (from >= low) & (from <= high)));
-            store(reinterpret_cast<float*>(&ahead[i]), atMost(atLeast(to, low), high));
-        }
+        const std::array<int, 3> low{1, 1, lowest}, high{layout_.nx, layout_.ny, std::min(layout_.nz, k + 1 + slabs)};
+        const KeptRow kept = keptRow(j, k);
         guesses.lookFrom(lowest);
-        guesses.find(ahead, count);
-        began.find(behind, count);
+        guesses.find(count, [&](std::size_t i) {
+            const Triples velocity = velocitiesOf(own + i * lanes), from = kept.get(firstCell + i);
+            Int16 isWithin = Int16{} - 1;
+            const auto to = [&](const Float16& velocityAlong, const Float16& fromAlong, std::size_t axis) {
+                const auto least = everywhere<Float16>(static_cast<float>(low[axis]));
+                const auto most = everywhere<Float16>(static_cast<float>(high[axis]));
+                const Float16 place = fused(twoSteps, velocityAlong, fromAlong);
+                isWithin &= (place >= least) & (place <= most) & (fromAlong >= least) & (fromAlong <= most);
+                return atMost(atLeast(place, least), most);
+            };
+            const Triples ahead{to(velocity.x, from.x, 0), to(velocity.y, from.y, 1), to(velocity.z, from.z, 2)};
+            store(&within[i], isWithin);
+            return ahead;
+        });
+        began.find(count, [&](std::size_t i) { return kept.get(firstCell + i); });
+        const CornerStrip<true>::Reader ahead(guesses);
+        const CornerStrip<false>::Reader field(began);
+        const Limit limit = pass.rule.limit;
         const std::uint8_t* fluid = pass.fluid + at;
         float* out = pass.to.cell(at);
         for (std::size_t i = 0; i < count; ++i, own += lanes, guess += lanes, out += lanes) {
             const auto first = load<Float8>(guess);
             Float8 value = first;
             if (fluid[i] == 1 && within[i] != 0) {
-                value += 0.5f * (load<Float8>(own) - guesses.sample(i));
-                if (pass.rule.limit != Limit::none) {
+                value += 0.5f * (load<Float8>(own) - ahead.sample(i));
+                if (limit != Limit::none) {
                     Float8 least, most;
-                    began.extrema(i, least, most);
-                    value = pass.rule.limit == Limit::clamp      ? atMost(atLeast(value, least), most)
+                    field.extrema(i, least, most);
+                    value = limit == Limit::clamp                ? atMost(atLeast(value, least), most)
                             : (value >= least) & (value <= most) ? value
                                                                  : first;
                 }
@@ -152,8 +172,9 @@ void Advection::advect(const CellField& from, CellField& to, const std::uint8_t*
     const int reach = static_cast<int>(cells) + 2;
     const bool corrected = rule.scheme == AdvectionScheme::macCormack;
     const std::size_t held = std::min(slabs, static_cast<std::size_t>(slabsAtATime + 2 * reach + 1));
-    if (corrected && places_.size() < held * layout_.slab * 3) {
-        places_.resize(held * layout_.slab * 3 + CellField::floatsBehind);
+    keptPitch_ = (static_cast<std::size_t>(layout_.nx) + SixteenRecords::count - 1) & ~(SixteenRecords::count - 1);
+    if (corrected && window_.size() < held * layout_.slab * lanes) {
+        places_.resize(held * static_cast<std::size_t>(layout_.ny) * keptPitch_ * 3);
         window_.resize(held * layout_.slab * lanes + CellField::floatsBehind);
     }
     heldSlabs_ = held;

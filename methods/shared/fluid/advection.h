@@ -40,13 +40,17 @@ class Advection {
     [[nodiscard]] std::size_t inWindow(std::size_t at) const {
         return at / layout_.slab % heldSlabs_ * layout_.slab + at % layout_.slab;
     }
+    struct KeptRow;
+    /// Of row (j, k) of the whole field.
+    [[nodiscard]] KeptRow keptRow(int j, int k);
     void predict(const Pass& pass, int firstSlab, int lastSlab);
     void correct(const Pass& pass, int firstSlab, int lastSlab);
 
     CellLayout layout_;
     LedgerVector<float> window_;  ///< first guesses of the slabs in work
-    LedgerVector<float> places_;  ///< for each of these cells, where its air comes from: x, y, z
+    LedgerVector<float> places_;  ///< for each row of these slabs, where its air comes from: all x, all y, all z
     std::size_t heldSlabs_ = 1;
+    std::size_t keptPitch_ = 0;  ///< numbers that a row takes of each, a multiple of sixteen
 };
 
 }  // namespace dustbench::fluid

@@ -38,10 +38,10 @@ struct CellLayout {
     std::size_t row, slab;  ///< cells from one row, or slab, to the next
 };
 
-/// Records of all cells. A read of two neighbours takes 64 bytes at once: the memory goes on that far behind the last.
+/// Records of all cells. Sixteen are read at once: the memory goes on that far behind the last.
 class CellField {
  public:
-    static constexpr std::size_t floatsBehind = 16;
+    static constexpr std::size_t floatsBehind = 16 * lanes;
 
     CellField(const CellLayout& layout, MemoryAccount& account, std::size_t leastFloats = 0) : values_(account) {
         values_.resize(std::max(layout.padded() * lanes + floatsBehind, leastFloats));

@@ -1,7 +1,7 @@
 // Trilinear look-up of whole records, for a strip of cells at a time. Private to the kernels.
 //
-// Where the look-ups of all cells begin comes first, four cells in a vector; then cell by cell what is found there, six
-// quantities in a vector, so that many reads are in flight at once.
+// Where the look-ups of all cells begin comes first, sixteen cells in a vector; then cell by cell what is found there,
+// six quantities in a vector, so that many reads are in flight at once.
 // Frame: cells from the first ghost cell's centre, so that the centre of cell (i, j, k) is at (i + 1, j + 1, k + 1).
 #pragma once
 
@@ -11,23 +11,32 @@
 
 #include "methods/shared/fluid/cell_field.h"
 #include "methods/shared/fluid/lanes.h"
+#include "methods/shared/fluid/sixteen_records.h"
 
 namespace dustbench::fluid {
 
 /// So many cells of a row are taken together.
 inline constexpr std::size_t stripCells = 64;
 
-/// A place for each cell: x, y, z, and a number that means nothing.
-using Places = std::array<Float4, stripCells>;
-/// Four of them, from number `i` on.
-[[gnu::always_inline]] inline Float16 fourPlaces(const Places& places, std::size_t i) {
-    return load<Float16>(reinterpret_cast<const float*>(&places[i]));
-}
-[[gnu::always_inline]] inline Float16 fourTimes(const Float4& v) {
-    return __builtin_shufflevector(v, v, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
-}
-[[gnu::always_inline]] inline Int16 fourTimes(const Int4& v) {
-    return __builtin_shufflevector(v, v, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
+/// The places of sixteen cells, or their velocities.
+struct Triples {
+    Float16 x, y, z;
+};
+
+/// What each of sixteen records begins with.
+[[gnu::always_inline]] inline Triples velocitiesOf(const float* records) {
+    if constexpr (sixteenAtOnce) {
+        const SixteenRecords all(records);
+        return {all.get<0>(), all.get<1>(), all.get<2>()};
+    } else {
+        Triples velocities;
+        for (std::size_t i = 0; i < SixteenRecords::count; ++i, records += lanes) {
+            velocities.x[i] = records[0];
+            velocities.y[i] = records[1];
+            velocities.z[i] = records[2];
+        }
+        return velocities;
+    }
 }
 
 /// A field in memory: whole, or as a ring of slabs, in which slab k is number k mod `slabs`.
@@ -41,94 +50,110 @@ template <bool ring>
 class CornerStrip {
  public:
     CornerStrip(const RecordView& view, const CellLayout& layout)
-        : view_(view),
-          row_(layout.row * lanes),
-          slab_(layout.slab * lanes),
-          lastCorner_(fourTimes(Int4{layout.nx, layout.ny, layout.nz, 0})),
-          strides_(fourTimes(Int4{1, static_cast<int>(layout.row), static_cast<int>(layout.slab), 0})),
-          slabs_(fourTimes(Int4{0, 0, view.slabs, 0})) {}
+        : view_(view), last_{layout.nx, layout.ny, layout.nz}, row_(layout.row * lanes), slab_(layout.slab * lanes) {}
 
     /// Of a ring: slabs from here on will be looked at, no more than there are.
-    void lookFrom(int slab) { shift_ = fourTimes(Int4{0, 0, slab % view_.slabs - slab, 0}); }
+    void lookFrom(int slab) { shift_ = slab % view_.slabs - slab; }
 
-    /// All places must lie within `0…last`, the centres of the outermost ghost cells. Those up to the next multiple of
-    /// four are looked at.
-    [[gnu::always_inline]] void find(const Places& places, std::size_t count) {
-        for (std::size_t i = 0; i < count; i += 4) {
-            const Float16 place = fourPlaces(places, i);
-            const Int16 corner = atMost(__builtin_convertvector(place, Int16), lastCorner_);
-            store(reinterpret_cast<float*>(&fractions_[i]), place - __builtin_convertvector(corner, Float16));
+    /// `placesOf(i)`: the Triples of cells i to i + 15, up to the next multiple of sixteen. All that will be looked up
+    /// must lie within `0…last`, the centres of the outermost ghost cells.
+    template <typename PlacesOf>
+    [[gnu::always_inline]] void find(std::size_t count, const PlacesOf& placesOf) {
+        const int row = static_cast<int>(row_), slab = static_cast<int>(slab_);
+        for (std::size_t i = 0; i < count; i += SixteenRecords::count) {
+            const Triples place = placesOf(i);
+            const Int16 x = cellAlong<0>(place.x, i), y = cellAlong<1>(place.y, i), z = cellAlong<2>(place.z, i);
+            const Int16 inSlab = x * static_cast<int>(lanes) + y * row;
             if constexpr (ring) {
-                const Int16 low = corner + shift_;
-                store(&low_[i], recordsOf(inRing(low)));
-                store(&high_[i], recordsOf(inRing(low + nextSlab)));
+                store(&low_[i], inSlab + inRing(z + shift_) * slab);
+                store(&high_[i], inSlab + inRing(z + (shift_ + 1)) * slab);
             } else {
-                store(&low_[i], recordsOf(corner));
+                store(&low_[i], inSlab + z * slab);
             }
         }
     }
 
-    /// Six quantities at place `i`, and two numbers that mean nothing.
-    [[gnu::always_inline]] Float8 sample(std::size_t i) const {
-        const float fx = fractions_[i][0], fy = fractions_[i][1], fz = fractions_[i][2];
-        const auto along = [&](const auto& c) { return mix(mix(c.a, c.b, fy), mix(c.c, c.d, fy), fz); };
-        if constexpr (sixteenAtOnce) {
-            const Float16 both = along(column<Float16>(i, 0));
-            return mix(firstOf(both), secondOf(both), fx);
-        } else {
-            return mix(along(column<Float8>(i, 0)), along(column<Float8>(i, lanes)), fx);
+    /// Looks up what was found, cell by cell. A copy of what it needs, so that it may stay in registers.
+    class Reader {
+     public:
+        explicit Reader(const CornerStrip& strip)
+            : base_(strip.view_.base),
+              row_(strip.row_),
+              slab_(strip.slab_),
+              fractions_(strip.fractions_.data()->data()),
+              low_(strip.low_.data()),
+              high_(strip.high_.data()) {}
+
+        /// Six quantities at place `i`, and two numbers that mean nothing.
+        [[gnu::always_inline]] Float8 sample(std::size_t i) const {
+            const float fx = fractions_[i], fy = fractions_[stripCells + i], fz = fractions_[2 * stripCells + i];
+            const auto along = [&](const auto& c) { return mix(mix(c.a, c.b, fy), mix(c.c, c.d, fy), fz); };
+            if constexpr (sixteenAtOnce) {
+                const Float16 both = along(column<Float16>(i, 0));
+                return mix(firstOf(both), secondOf(both), fx);
+            } else {
+                return mix(along(column<Float8>(i, 0)), along(column<Float8>(i, lanes)), fx);
+            }
         }
-    }
-    /// Least and greatest value of the eight cells, quantity by quantity.
-    [[gnu::always_inline]] void extrema(std::size_t i, Float8& least, Float8& most) const {
-        const auto leastOf = [](const auto& c) { return atMost(atMost(c.a, c.b), atMost(c.c, c.d)); };
-        const auto mostOf = [](const auto& c) { return atLeast(atLeast(c.a, c.b), atLeast(c.c, c.d)); };
-        if constexpr (sixteenAtOnce) {
-            const auto both = column<Float16>(i, 0);
-            const Float16 low = leastOf(both), high = mostOf(both);
-            least = atMost(firstOf(low), secondOf(low));
-            most = atLeast(firstOf(high), secondOf(high));
-        } else {
-            const auto first = column<Float8>(i, 0), second = column<Float8>(i, lanes);
-            least = atMost(leastOf(first), leastOf(second));
-            most = atLeast(mostOf(first), mostOf(second));
+        /// Least and greatest value of the eight cells, quantity by quantity.
+        [[gnu::always_inline]] void extrema(std::size_t i, Float8& least, Float8& most) const {
+            const auto leastOf = [](const auto& c) { return atMost(atMost(c.a, c.b), atMost(c.c, c.d)); };
+            const auto mostOf = [](const auto& c) { return atLeast(atLeast(c.a, c.b), atLeast(c.c, c.d)); };
+            if constexpr (sixteenAtOnce) {
+                const auto both = column<Float16>(i, 0);
+                const Float16 low = leastOf(both), high = mostOf(both);
+                least = atMost(firstOf(low), secondOf(low));
+                most = atLeast(firstOf(high), secondOf(high));
+            } else {
+                const auto first = column<Float8>(i, 0), second = column<Float8>(i, lanes);
+                least = atMost(leastOf(first), leastOf(second));
+                most = atLeast(mostOf(first), mostOf(second));
+            }
         }
-    }
+
+     private:
+        /// Four records of equal x, those of larger y second, of larger z last; in a Float16 each with its neighbour in
+        /// x, which lies beside it.
+        template <typename Vector>
+        struct Column {
+            Vector a, b, c, d;
+        };
+        template <typename Vector>
+        [[gnu::always_inline]] Column<Vector> column(std::size_t i, std::size_t from) const {
+            const float* low = base_ + from + std::size_t{low_[i]};
+            const float* high = ring ? base_ + from + std::size_t{high_[i]} : low + slab_;
+            return {load<Vector>(low), load<Vector>(low + row_), load<Vector>(high), load<Vector>(high + row_)};
+        }
+        [[gnu::always_inline]] static Float8 firstOf(const Float16& both) {
+            return __builtin_shufflevector(both, both, 0, 1, 2, 3, 4, 5, 6, 7);
+        }
+        [[gnu::always_inline]] static Float8 secondOf(const Float16& both) {
+            return __builtin_shufflevector(both, both, 6, 7, 8, 9, 10, 11, 12, 13);
+        }
+
+        const float* base_;
+        std::size_t row_, slab_;
+        const float* fractions_;
+        const std::uint32_t *low_, *high_;
+    };
 
  private:
-    static constexpr Int16 nextSlab{0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
-
-    /// Four records of equal x, those of larger y second, of larger z last; in a Float16 each with its neighbour in x,
-    /// which lies beside it.
-    template <typename Vector>
-    struct Column {
-        Vector a, b, c, d;
-    };
-    template <typename Vector>
-    [[gnu::always_inline]] Column<Vector> column(std::size_t i, std::size_t from) const {
-        const float* low = view_.base + std::size_t{low_[i]} * lanes + from;
-        const float* high = ring ? view_.base + std::size_t{high_[i]} * lanes + from : low + slab_;
-        return {load<Vector>(low), load<Vector>(low + row_), load<Vector>(high), load<Vector>(high + row_)};
+    /// Number of the cell before each place; how far beyond it the place lies is kept.
+    template <std::size_t axis>
+    [[gnu::always_inline]] Int16 cellAlong(const Float16& place, std::size_t i) {
+        const Int16 cell = atMost(__builtin_convertvector(place, Int16), Int16{} + last_[axis]);
+        store(&fractions_[axis][i], place - __builtin_convertvector(cell, Float16));
+        return cell;
     }
-    [[gnu::always_inline]] static Float8 firstOf(const Float16& both) {
-        return __builtin_shufflevector(both, both, 0, 1, 2, 3, 4, 5, 6, 7);
-    }
-    [[gnu::always_inline]] static Float8 secondOf(const Float16& both) {
-        return __builtin_shufflevector(both, both, 6, 7, 8, 9, 10, 11, 12, 13);
-    }
-    [[gnu::always_inline]] Int16 inRing(const Int16& cell) const { return cell - ((cell >= slabs_) & slabs_); }
-    /// x + y·row + z·slab of four cells.
-    [[gnu::always_inline]] Int4 recordsOf(const Int16& cell) const {
-        Int16 sum = cell * strides_;
-        sum += __builtin_shufflevector(sum, sum, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14);
-        sum += __builtin_shufflevector(sum, sum, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13);
-        return __builtin_shufflevector(sum, sum, 0, 4, 8, 12);
+    [[gnu::always_inline]] Int16 inRing(const Int16& slab) const {
+        return slab - ((slab >= view_.slabs) & view_.slabs);
     }
 
     RecordView view_;
-    std::size_t row_, slab_;
-    Int16 lastCorner_, strides_, slabs_, shift_{};
-    std::array<Float4, stripCells> fractions_{};  ///< of the way to the next cell, 0…1
+    std::array<int, 3> last_;
+    std::size_t row_, slab_;  ///< floats from one row or slab to the next
+    int shift_ = 0;
+    std::array<std::array<float, stripCells>, 3> fractions_{};  ///< of the way to the next cell, 0…1; along x, y, z
     std::array<std::uint32_t, stripCells> low_{}, high_{};
 };
 
