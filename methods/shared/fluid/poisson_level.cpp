@@ -72,7 +72,9 @@ void PoissonLevel::clearPressure() {
     });
 }
 
-void PoissonLevel::sweepRow(int colour, int j, int k, const SplitField& target, const SplitField& source) const {
+template <bool relaxed>
+void PoissonLevel::sweepRow(int colour, int j, int k, const SplitField& target, const SplitField& source,
+                            [[maybe_unused]] float relaxation) const {
     const std::size_t at = layout.at(j, k);
     const Around p = aroundRow(layout, source.colour[1 - colour], colour, j, k);
     const float* f = rightSide.colour[colour] + at;
@@ -82,7 +84,8 @@ void PoissonLevel::sweepRow(int colour, int j, int k, const SplitField& target, 
         loop(layout.half, [&](std::size_t m) {
             const float sum = (p.here[m] + p.beside[m]) + (p.below[m] + p.above[m]) + (p.near[m] + p.far[m]);
             const auto weight = static_cast<float>(weights[m]);
-            out[m] = weight > 0 ? (sum - f[m]) / weight : 0.0f;
+            const float solved = weight > 0 ? (sum - f[m]) / weight : 0.0f;
+            out[m] = relaxed ? out[m] + relaxation * (solved - out[m]) : solved;
         });
     } else {
         const float* weights = sum_.colour[colour] + at;
@@ -91,14 +94,18 @@ void PoissonLevel::sweepRow(int colour, int j, int k, const SplitField& target, 
             const float sum = (w.here[m] * p.here[m] + w.beside[m] * p.beside[m]) +
                               (w.below[m] * p.below[m] + w.above[m] * p.above[m]) +
                               (w.near[m] * p.near[m] + w.far[m] * p.far[m]);
-            out[m] = weights[m] > 0 ? (sum - f[m]) / weights[m] : 0.0f;
+            const float solved = weights[m] > 0 ? (sum - f[m]) / weights[m] : 0.0f;
+            out[m] = relaxed ? out[m] + relaxation * (solved - out[m]) : solved;
         });
     }
 }
 
-void PoissonLevel::smooth() {
+void PoissonLevel::smooth(float relaxation) {
     const auto sweepSlab = [&](int colour, int k) {
-        for (int j = 0; j < layout.ny; ++j) sweepRow(colour, j, k, pressure, pressure);
+        if (colour == 1 && relaxation != 1)
+            for (int j = 0; j < layout.ny; ++j) sweepRow<true>(colour, j, k, pressure, pressure, relaxation);
+        else
+            for (int j = 0; j < layout.ny; ++j) sweepRow<false>(colour, j, k, pressure, pressure);
     };
     // Black follows red a slab behind, while both are in the cache. Blocks meet at slabs whose red cells come first of
     // all: each black cell then finds its six red neighbours done, and no red one a black that is new.
@@ -119,8 +126,8 @@ void PoissonLevel::smooth() {
 
 void PoissonLevel::jacobi(const SplitField& other) {
     forRows(layout, [&](int j, int k) {
-        sweepRow(0, j, k, other, pressure);
-        sweepRow(1, j, k, other, pressure);
+        sweepRow<false>(0, j, k, other, pressure);
+        sweepRow<false>(1, j, k, other, pressure);
     });
 }
 

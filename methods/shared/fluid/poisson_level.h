@@ -23,11 +23,11 @@ class PoissonLevel {
     void buildFrom(const PoissonLevel& finer);
 
     void clearPressure();
-    /// One Gauss-Seidel sweep: red, then black.
-    void smooth();
+    /// One Gauss-Seidel sweep: red, then black, which step `relaxation` times as far (relaxation.h).
+    void smooth(float relaxation = 1);
     /// One Jacobi sweep, from `pressure` to `other`.
     void jacobi(const SplitField& other);
-    /// Max |f − Ap| over red cells. After `smooth`, black ones have no residual.
+    /// Max |f − Ap| over red cells. After `smooth`, not relaxed, black ones have no residual.
     [[nodiscard]] float redResidual() const;
     /// The same, and the sums of residuals over each coarse cell become the coarse right side.
     float restrictTo(PoissonLevel& coarse) const;
@@ -50,7 +50,9 @@ class PoissonLevel {
     using FaceRow = std::array<float, 4100>;
     /// Adds the weights of the faces behind the cells of a row; along x also that before the first.
     void readFaces(int axis, int j, int k, FaceRow& row) const;
-    void sweepRow(int colour, int j, int k, const SplitField& target, const SplitField& source) const;
+    template <bool relaxed>
+    void sweepRow(int colour, int j, int k, const SplitField& target, const SplitField& source,
+                  float relaxation = 1) const;
     template <bool keep>
     float rowResidual(int colour, int j, int k, float* out) const;
 

@@ -1,14 +1,21 @@
 #include "methods/shared/fluid/pressure_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
+
+#include "methods/shared/fluid/relaxation.h"
 
 namespace dustbench::fluid {
 namespace {
 
 constexpr std::size_t fewCells = 64;  ///< so many are solved exactly
-constexpr int before = 2, after = 1;  ///< sweeps on either side of each coarse correction
+
+template <std::size_t sweeps>
+void smooth(PoissonLevel& level, const std::array<float, sweeps>& relaxations) {
+    for (const float relaxation : relaxations) level.smooth(relaxation);
+}
 
 }  // namespace
 
@@ -95,10 +102,10 @@ void PressureSolver::cycle(std::size_t number) {
     if (number + 1 == levels_.size()) return solveCoarsest();
     PoissonLevel& level = *levels_[number];
     level.clearPressure();
-    for (int sweep = 0; sweep < before; ++sweep) level.smooth();
+    smooth(level, relaxationsBefore);
     level.restrictTo(*levels_[number + 1]);
     correctFrom(number + 1);
-    for (int sweep = 0; sweep < after; ++sweep) level.smooth();
+    smooth(level, relaxationsAfter);
 }
 
 float PressureSolver::balanceClosedRegions() {
@@ -143,12 +150,13 @@ PressureResult PressureSolver::solve(const PressureRule& rule) {
         result = sweepJacobi(rule);
     } else {
         // The sweeps after one cycle are those before the next: the residual that is restricted tells when to end.
-        for (int sweep = 0; sweep < before; ++sweep) level.smooth();
+        smooth(level, relaxationsBefore);
         for (;; ++result.cycles) {
             result.residual = level.restrictTo(*levels_[1]);
             if (result.residual <= rule.tolerance || result.cycles == rule.mostCycles) break;
             correctFrom(1);
-            for (int sweep = 0; sweep < after + before; ++sweep) level.smooth();
+            smooth(level, relaxationsAfter);
+            smooth(level, relaxationsBefore);
         }
     }
     result.unremovable = unremovable;

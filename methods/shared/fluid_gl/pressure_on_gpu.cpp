@@ -5,14 +5,14 @@
 #include <utility>
 
 #include "fluid_gl_shaders.h"
+#include "methods/shared/fluid/relaxation.h"
 
 namespace dustbench::fluid_gl {
 namespace {
 
 using namespace fluid_gl_shaders;
 
-constexpr int fewCells = 32;          ///< so many are solved exactly
-constexpr int before = 2, after = 1;  ///< sweeps on either side of each coarse correction
+constexpr int fewCells = 32;  ///< so many are solved exactly
 
 /// Bindings, as the shaders have them.
 enum : std::uint32_t { kindsAt, pressureAt, targetAt, operationAt, rightSideAt, extraAt, regionsAt };
@@ -120,16 +120,18 @@ void PressureOnGpu::build(const gpu::Buffer& kinds, const std::vector<std::vecto
     regions_ = gpu::Buffer(device_, "fluid closed regions", std::span<const glm::ivec2>(regions));
 }
 
-void PressureOnGpu::smooth(std::size_t number, int times) {
+void PressureOnGpu::smooth(std::size_t number, std::span<const float> relaxations) {
     const Level& level = levels_[number];
     bind(level);
     level.pressure.bindStorage(targetAt);
     Kernel& sweep = sweep_.of(number);
     sweep.set("cells", level.cells);
-    for (int colour = 0; colour < 2 * times; ++colour) {
-        sweep.set("colour", colour % 2);
-        sweep.run(ofOneColour(level.cells));
-    }
+    for (const float relaxation : relaxations)
+        for (int colour = 0; colour < 2; ++colour) {
+            sweep.set("colour", colour);
+            sweep.set("relaxation", colour == 1 ? relaxation : 1.0f);
+            sweep.run(ofOneColour(level.cells));
+        }
 }
 
 void PressureOnGpu::restrictFrom(std::size_t number, int slot) {
@@ -160,10 +162,10 @@ void PressureOnGpu::correctFrom(std::size_t number) {
 void PressureOnGpu::cycle(std::size_t number) {
     if (number + 1 == levels_.size()) return solveCoarsest();
     levels_[number].pressure.clear();
-    smooth(number, before);
+    smooth(number, fluid::relaxationsBefore);
     restrictFrom(number, 0);
     correctFrom(number + 1);
-    smooth(number, after);
+    smooth(number, fluid::relaxationsAfter);
 }
 
 void PressureOnGpu::solveCoarsest() {
@@ -188,6 +190,7 @@ void PressureOnGpu::balanceClosedRegions() {
 void PressureOnGpu::sweepJacobi() {
     Level& level = levels_.front();
     sweep_.finest.set("cells", level.cells);
+    sweep_.finest.set("relaxation", 1.0f);
     for (int sweep = 0; sweep < rule_.jacobiSweeps; ++sweep) {
         bind(level);
         other_.bindStorage(targetAt);
@@ -205,7 +208,8 @@ void PressureOnGpu::sweepJacobi() {
 
 void PressureOnGpu::queueCycle() {
     correctFrom(1);
-    smooth(0, after + before);
+    smooth(0, fluid::relaxationsAfter);
+    smooth(0, fluid::relaxationsBefore);
     restrictFrom(0, StepReportOnGpu::firstResidual + ++cycles_);
 }
 
@@ -217,7 +221,7 @@ void PressureOnGpu::start(const fluid::PressureRule& rule, StepReportOnGpu& repo
     levels_.front().pressure.clear();
     if (rule.method == fluid::PressureMethod::jacobi) return sweepJacobi();
     // The sweeps after one cycle are those before the next: the residual that is restricted tells when to end.
-    smooth(0, before);
+    smooth(0, fluid::relaxationsBefore);
     restrictFrom(0, StepReportOnGpu::firstResidual);
     while (cycles_ < std::min(expectedCycles_, rule.mostCycles)) queueCycle();
 }

@@ -54,7 +54,7 @@ class PressureOnGpu {
 
     void addLevel(gpu::Device& device, const glm::ivec3& cells);
     void bind(const Level& level) const;
-    void smooth(std::size_t level, int sweeps);
+    void smooth(std::size_t level, std::span<const float> relaxations);
     void restrictFrom(std::size_t level, int slot);
     void correctFrom(std::size_t coarse);
     void cycle(std::size_t level);
