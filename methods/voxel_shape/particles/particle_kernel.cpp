@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 #include "methods/shared/parallel/for_each_block.h"
 #include "methods/shared/particles/flagged.h"
@@ -13,17 +15,6 @@ namespace dustbench::voxel_shape {
 namespace {
 
 constexpr std::uint32_t nowhere = 0xffffffffu;
-/// 256³ voxels; that no product overflows lets the compiler gather by 32-bit numbers.
-constexpr std::uint32_t indexBits = 0x00ffffffu;
-static_assert(mostVoxelsASide * mostVoxelsASide * mostVoxelsASide == indexBits + 1);
-constexpr int wordsAVoxel = sizeof(Voxel) / 4;
-
-/// A voxel's fields by their place in it, so that a loop over particles can gather them.
-template <typename T>
-const T* fieldOf(const Voxel* voxels, std::size_t offset) {
-    return reinterpret_cast<const T*>(reinterpret_cast<const std::byte*>(voxels) + offset);
-}
-
 /// Fewer are let in by one thread.
 constexpr std::size_t arrivalsInABlock = 2048, partsOfVoxels = 8;
 
@@ -32,18 +23,47 @@ constexpr std::size_t runSize = 128;
 
 /// What the loops over one run hand on to each other.
 struct Scratch {
-    std::array<std::uint32_t, runSize> here;  ///< index of the active voxel, or `nowhere`
-    std::array<float, runSize> rx, ry, rz;    ///< from its centre, in voxels
+    /// Of the voxel that each particle was in or met last, what the run asks for. Lying side by side and in fours, they
+    /// are read by plain loads and a few shuffles: a gather takes a load for each particle and number.
+    alignas(64) std::array<float, 4 * runSize> force;           ///< and its number
+    alignas(64) std::array<std::uint32_t, 4 * runSize> colour;  ///< and the fading one
+    alignas(64) std::array<std::uint32_t, 4 * runSize> size;    ///< fading size, lifetime, pictures a second
+    std::array<std::uint32_t, runSize> flags;
+
+    std::array<std::uint32_t, runSize> here;    ///< index of the voxel where it is now, or `nowhere`
+    std::array<float, runSize> rx, ry, rz;      ///< from its centre, in voxels
+    std::array<std::uint8_t, runSize> waits;    ///< 1: outside still, where it has asked before
+    std::array<std::uint8_t, runSize> changes;  ///< 1: leaves its voxel, or has come to another one
 };
 
-/// The voxel that each particle is in: one multiplication by a matrix and one look into the array.
-void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t count, const Voxel* voxels,
-            const KernelStep& step, Scratch& scratch) {
+/// What the voxels say, brought together. Most particles stay with their voxel: so those of the next run, which goes to
+/// `end` at the latest, are fetched before they are asked for.
+void copyVoxels(const ShapeParticles& particles, std::size_t first, std::size_t count, std::size_t end,
+                const Voxel* voxels, Scratch& scratch) {
+    const std::uint32_t* const place = particles.place.data();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Voxel& voxel = voxels[place[first + i] & ~ShapeParticles::outside];
+        std::memcpy(&scratch.force[4 * i], &voxel.force, 16);
+        std::memcpy(&scratch.colour[4 * i], &voxel.colour, 16);
+        std::memcpy(&scratch.size[4 * i], &voxel.sizeMetres, 16);
+        scratch.size[4 * i + 3] = std::bit_cast<std::uint32_t>(voxel.picturesPerSecond);
+        scratch.flags[i] = voxel.flags;
+    }
+    for (std::size_t i = first + count; i < std::min(first + count + runSize, end); ++i)
+        __builtin_prefetch(voxels + (place[i] & ~ShapeParticles::outside));
+}
+
+/// The voxel that each particle is in: one multiplication by a matrix. Where it is the same as before, what has been
+/// copied says whether the particle may be there.
+void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t count, const KernelStep& step,
+            Scratch& scratch) {
     const float* const __restrict x = particles.store.x.data() + first;
     const float* const __restrict y = particles.store.y.data() + first;
     const float* const __restrict z = particles.store.z.data() + first;
-    const auto* const __restrict flags = fieldOf<std::uint32_t>(voxels, offsetof(Voxel, flags));
+    const std::uint32_t* const __restrict place = particles.place.data() + first;
+    const std::uint32_t* const __restrict flags = scratch.flags.data();
     std::uint32_t* const __restrict here = scratch.here.data();
+    std::uint8_t* const __restrict waits = scratch.waits.data(), * const __restrict changes = scratch.changes.data();
     float *const __restrict rx = scratch.rx.data(), *const __restrict ry = scratch.ry.data(),
                       *const __restrict rz = scratch.rz.data();
     const glm::mat3 m = step.toVoxels;
@@ -55,28 +75,25 @@ void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t coun
         const float gy = m[0][1] * x[i] + m[1][1] * y[i] + m[2][1] * z[i] + offset.y;
         const float gz = m[0][2] * x[i] + m[1][2] * y[i] + m[2][2] * z[i] + offset.z;
         const bool within = (gx >= 0) & (gy >= 0) & (gz >= 0) & (gx < counts.x) & (gy < counts.y) & (gz < counts.z);
-        // Clamped, so that every particle has a cell to look at.
+        // Clamped, so that the index is that of a cell.
         const int cx = static_cast<int>(gx > 0 ? (gx < most.x ? gx : most.x) : 0.0f);
         const int cy = static_cast<int>(gy > 0 ? (gy < most.y ? gy : most.y) : 0.0f);
         const int cz = static_cast<int>(gz > 0 ? (gz < most.z ? gz : most.z) : 0.0f);
-        const int index = (cz * ny + cy) * nx + cx;
-        const bool on = (flags[index * wordsAVoxel] & (Voxel::active | Voxel::switchedOff)) == Voxel::active;
-        here[i] = (within & on) ? static_cast<std::uint32_t>(index) : nowhere;
+        const auto index = static_cast<std::uint32_t>((cz * ny + cy) * nx + cx);
+        const bool same = within & (index == (place[i] & ~ShapeParticles::outside));
+        const bool on = (flags[i] & (Voxel::active | Voxel::switchedOff)) == Voxel::active;
+        const bool outside = place[i] >= ShapeParticles::outside;
+        here[i] = within ? index : nowhere;
+        waits[i] = (same & on & outside) ? 1 : 0;
+        changes[i] = (same ? !(on | outside) : (within | !outside)) ? 1 : 0;
         rx[i] = gx - static_cast<float>(cx) - 0.5f;
         ry[i] = gy - static_cast<float>(cy) - 0.5f;
         rz[i] = gz - static_cast<float>(cz) - 0.5f;
     }
 }
 
-/// Most particles are where they were: so the voxels of those to come are fetched before they are asked for.
-[[gnu::always_inline]] inline void fetchVoxels(const ShapeParticles& particles, std::size_t first, std::size_t end,
-                                               const Voxel* voxels) {
-    for (std::size_t i = first; i < end; ++i)
-        __builtin_prefetch(voxels + (particles.place[i] & ~ShapeParticles::outside));
-}
-
 /// Forces as velocities (see Force), then the air and gravity, then the way of a step.
-void move(ShapeParticles& particles, std::size_t first, std::size_t count, const Voxel* voxels, const KernelStep& step,
+void move(ShapeParticles& particles, std::size_t first, std::size_t count, const KernelStep& step,
           const Scratch& scratch) {
     float* const __restrict x = particles.store.x.data() + first;
     float* const __restrict y = particles.store.y.data() + first;
@@ -87,9 +104,8 @@ void move(ShapeParticles& particles, std::size_t first, std::size_t count, const
     const std::uint32_t* const __restrict place = particles.place.data() + first;
     const float *const __restrict fromX = scratch.rx.data(), *const __restrict fromY = scratch.ry.data(),
                             *const __restrict fromZ = scratch.rz.data();
-    const auto* const __restrict force = fieldOf<float>(voxels, offsetof(Voxel, force));
-    const auto* const __restrict number = fieldOf<float>(voxels, offsetof(Voxel, forceNumber));
-    const auto* const __restrict flags = fieldOf<std::uint32_t>(voxels, offsetof(Voxel, flags));
+    const float* const __restrict force = scratch.force.data();
+    const std::uint32_t* const __restrict flags = scratch.flags.data();
     const glm::mat3 turn = step.pose.rotation;
     const glm::vec3 origin = step.pose.position, velocity = step.pose.velocity, spin = step.pose.angularVelocity;
     const glm::vec3 wind = step.wind, gravity = step.gravityStep;
@@ -97,14 +113,16 @@ void move(ShapeParticles& particles, std::size_t first, std::size_t count, const
     const float response = step.response, keeps = step.airKeeps;
 #pragma GCC ivdep
     for (std::size_t i = 0; i < count; ++i) {
-        const int at = static_cast<int>(place[i] & indexBits) * wordsAVoxel;
-        const float inside = (place[i] & ShapeParticles::outside) == 0 ? 1.0f : 0.0f;
-        const std::uint32_t kind = flags[at] >> Voxel::forceShift;
-        const float isLinear = kind == 0 ? inside : 0.0f, isOrbit = kind == 1 ? inside : 0.0f;
-        const float isSpiral = kind == 2 ? inside : 0.0f, isHelix = kind == 3 ? inside : 0.0f;
+        // Outside no kind applies. Sums of truths, not choices: the compiler must see no branch here.
+        const std::uint32_t kind = (flags[i] >> Voxel::forceShift) | (place[i] & ShapeParticles::outside);
+        const auto is = [kind](Force one) {
+            return static_cast<float>(static_cast<int>(kind == static_cast<std::uint32_t>(one)));
+        };
+        const float isLinear = is(Force::linear), isOrbit = is(Force::orbit);
+        const float isSpiral = is(Force::spiral), isHelix = is(Force::helix);
         const float isRotation = isSpiral + isHelix;
 
-        const float wx = force[at], wy = force[at + 1], wz = force[at + 2], k = number[at];
+        const float wx = force[4 * i], wy = force[4 * i + 1], wz = force[4 * i + 2], k = force[4 * i + 3];
         const float rx = metres * fromX[i], ry = metres * fromY[i], rz = metres * fromZ[i];
         // t = ω × r, c = ω × t
         const float tx = wy * rz - wz * ry, ty = wz * rx - wx * rz, tz = wx * ry - wy * rx;
@@ -147,7 +165,7 @@ void move(ShapeParticles& particles, std::size_t first, std::size_t count, const
 
 /// Linear in time: each step covers the share dt / (time left) of what is left. In a voxel that is the way to its looks
 /// within its interpolation time; outside, the way to the last voxel's fading looks within its lifetime.
-void changeLooks(ShapeParticles& particles, std::size_t first, std::size_t count, const Voxel* voxels, float dt,
+void changeLooks(ShapeParticles& particles, std::size_t first, std::size_t count, const Scratch& scratch, float dt,
                  std::uint8_t* __restrict dead) {
     particles::ParticleStore& store = particles.store;
     float* const __restrict red = store.red.data() + first;
@@ -161,32 +179,31 @@ void changeLooks(ShapeParticles& particles, std::size_t first, std::size_t count
     float* const __restrict picture = particles.picture.data() + first;
     float* const __restrict pictureSpeed = particles.pictureSpeed.data() + first;
     const std::uint32_t* const __restrict place = particles.place.data() + first;
-    constexpr int words = 4;
-    const auto* const __restrict colours = fieldOf<std::uint32_t>(voxels, offsetof(Voxel, colour));
-    constexpr int toFadingColour = (offsetof(Voxel, fadingColour) - offsetof(Voxel, colour)) / words;
-    const auto* const __restrict sizes = fieldOf<float>(voxels, offsetof(Voxel, sizeMetres));
-    constexpr int toFadingSize = (offsetof(Voxel, fadingSizeMetres) - offsetof(Voxel, sizeMetres)) / words;
-    const auto* const __restrict lifetimes = fieldOf<float>(voxels, offsetof(Voxel, lifetimeSeconds));
-    const auto* const __restrict speeds = fieldOf<float>(voxels, offsetof(Voxel, picturesPerSecond));
+    const std::uint32_t* const __restrict colours = scratch.colour.data();
+    const std::uint32_t* const __restrict sizes = scratch.size.data();
 #pragma GCC ivdep
     for (std::size_t i = 0; i < count; ++i) {
-        const int at = static_cast<int>(place[i] & indexBits) * wordsAVoxel;
         const int out = static_cast<int>(place[i] >> 31);
         const bool in = out == 0;
-        const float life = lifetimes[at];
+        const float life = std::bit_cast<float>(sizes[4 * i + 2]);
         const float left = in ? settling[i] : life - age[i];
         const float share = left > dt ? dt / left : 1.0f;
 
-        const int colourAt = at + out * toFadingColour;
-        const std::uint32_t redGreen = colours[colourAt], blueOpacity = colours[colourAt + 1];
+        const auto chosen = [bits = 0u - static_cast<std::uint32_t>(out)](std::uint32_t inside, std::uint32_t outside) {
+            return inside ^ ((inside ^ outside) & bits);
+        };
+        const std::uint32_t redGreen = chosen(colours[4 * i], colours[4 * i + 2]);
+        const std::uint32_t blueOpacity = chosen(colours[4 * i + 1], colours[4 * i + 3]);
+        const auto size = std::bit_cast<float>(chosen(sizes[4 * i], sizes[4 * i + 1]));
         constexpr float unit = 1.0f / 65535;
         const auto channel = [](std::uint32_t value) { return unit * static_cast<float>(static_cast<int>(value)); };
         red[i] += share * (channel(redGreen & 0xffffu) - red[i]);
         green[i] += share * (channel(redGreen >> 16) - green[i]);
         blue[i] += share * (channel(blueOpacity & 0xffffu) - blue[i]);
         opacity[i] += share * (channel(blueOpacity >> 16) - opacity[i]);
-        radius[i] += share * (sizes[at + out * toFadingSize] - radius[i]);
-        const float speed = pictureSpeed[i] + (in ? share : 0.0f) * (speeds[at] - pictureSpeed[i]);
+        radius[i] += share * (size - radius[i]);
+        const float speed =
+            pictureSpeed[i] + (in ? share : 0.0f) * (std::bit_cast<float>(sizes[4 * i + 3]) - pictureSpeed[i]);
         pictureSpeed[i] = speed;
         picture[i] += dt * speed;
 
@@ -204,15 +221,14 @@ void changeLooks(ShapeParticles& particles, std::size_t first, std::size_t count
 void changePlaces(ShapeParticles& particles, std::size_t first, std::size_t count, std::span<Voxel> voxels,
                   const Scratch& scratch, const std::uint8_t* dead, std::uint8_t* arriving) {
     std::uint32_t* const place = particles.place.data() + first;
-    std::array<std::uint8_t, runSize> changed;
-    for (std::size_t i = 0; i < count; ++i) changed[i] = scratch.here[i] != place[i] ? 1 : 0;
-    std::fill_n(arriving, count, std::uint8_t{0});
-    particles::forEachFlagged(changed.data(), count, [&](std::size_t i) {
+    for (std::size_t i = 0; i < count; ++i) arriving[i] = scratch.waits[i] & (dead[i] ^ 1);
+    particles::forEachFlagged(scratch.changes.data(), count, [&](std::size_t i) {
         const std::uint32_t now = scratch.here[i], before = place[i];
+        const bool isOn = now != nowhere && voxels[now].isOn();
         if ((before & ShapeParticles::outside) == 0)
             std::atomic_ref(voxels[before].density).fetch_sub(1, std::memory_order_relaxed);
-        place[i] = (now == nowhere ? before : now) | ShapeParticles::outside;
-        arriving[i] = now != nowhere && dead[i] == 0 ? 1 : 0;
+        place[i] = (isOn ? now : before) | ShapeParticles::outside;
+        arriving[i] = isOn && dead[i] == 0 ? 1 : 0;
     });
 }
 
@@ -239,10 +255,10 @@ void updateParticles(ShapeParticles& particles, std::size_t first, std::size_t c
         Scratch scratch;
         const std::size_t from = first + done, here = std::min(runSize, count - done);
         // No farther than to the end: what comes behind may be another thread's.
-        fetchVoxels(particles, from + here, std::min(from + here + runSize, end), voxels.data());
-        lookUp(particles, from, here, voxels.data(), step, scratch);
-        move(particles, from, here, voxels.data(), step, scratch);
-        changeLooks(particles, from, here, voxels.data(), step.seconds, dead + done);
+        copyVoxels(particles, from, here, end, voxels.data(), scratch);
+        lookUp(particles, from, here, step, scratch);
+        move(particles, from, here, step, scratch);
+        changeLooks(particles, from, here, scratch, step.seconds, dead + done);
         changePlaces(particles, from, here, voxels, scratch, dead + done, arriving + done);
     }
 }
