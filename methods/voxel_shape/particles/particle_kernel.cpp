@@ -263,6 +263,15 @@ void updateParticles(ShapeParticles& particles, std::size_t first, std::size_t c
     }
 }
 
+void dropWhereFull(const ShapeParticles& particles, std::size_t first, std::size_t count, std::span<const Voxel> voxels,
+                   std::uint8_t* arriving) {
+    const std::uint32_t* const place = particles.place.data() + first;
+    particles::forEachFlagged(arriving, count, [&](std::size_t i) {
+        const Voxel& voxel = voxels[place[i] & ~ShapeParticles::outside];
+        arriving[i] = voxel.density < voxel.maximumDensity ? 1 : 0;
+    });
+}
+
 void admit(ShapeParticles& particles, std::span<const std::uint32_t> arrivals, std::span<std::uint32_t> targets,
            std::span<Voxel> voxels) {
     parallel::forEachBlock(arrivals.size(), arrivalsInABlock, [&](std::size_t first, std::size_t count) {

@@ -37,6 +37,11 @@ struct KernelStep {
 void updateParticles(ShapeParticles& particles, std::size_t first, std::size_t count, VoxelGrid& grid,
                      const KernelStep& step, std::uint8_t* dead, std::uint8_t* arriving);
 
+/// Once all particles have been updated: sets to 0 what is 1 in `arriving` for particles first .. first + count where
+/// the voxel is full, as most are. It will stay so: nobody leaves any more in this step.
+void dropWhereFull(const ShapeParticles& particles, std::size_t first, std::size_t count, std::span<const Voxel> voxels,
+                   std::uint8_t* arriving);
+
 /// Lets those into the voxels where they stand that find room there, the first come in `arrivals` first. The others
 /// stay outside, fade by that voxel's looks, and ask again in the next step.
 /// `targets`: working memory, as long as `arrivals`.

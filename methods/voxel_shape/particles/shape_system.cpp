@@ -18,6 +18,7 @@ ShapeSystem::ShapeSystem(MemoryLedger& ledger, const MarkedVoxels& marked, const
     : grid_(ledger, marked, pattern),
       particles_(ledger),
       deaths_(ledger),
+      arriving_(ledger.account("arrivals")),
       arrivals_(ledger, "arrivals"),
       targets_(ledger.account("arrivals")),
       emission_(ledger, seed) {}
@@ -26,6 +27,7 @@ ShapeSystem::ShapeSystem(MemoryLedger& ledger, VoxelGrid grid, std::uint64_t see
     : grid_(std::move(grid)),
       particles_(ledger),
       deaths_(ledger),
+      arriving_(ledger.account("arrivals")),
       arrivals_(ledger, "arrivals"),
       targets_(ledger.account("arrivals")),
       emission_(ledger, seed) {}
@@ -33,13 +35,20 @@ ShapeSystem::ShapeSystem(MemoryLedger& ledger, VoxelGrid grid, std::uint64_t see
 void ShapeSystem::live(const KernelStep& step) {
     deaths_.prepare(particles_.size());
     arrivals_.prepare(particles_.size());
+    arriving_.resize(particles_.size());
     parallel::forEachBlock(
         particles_.size(), particles::chunkSize,
         [&](std::size_t first, std::size_t count) {
-            std::array<std::uint8_t, particles::chunkSize> dead, arriving;
-            updateParticles(particles_, first, count, grid_, step, dead.data(), arriving.data());
+            std::array<std::uint8_t, particles::chunkSize> dead;
+            updateParticles(particles_, first, count, grid_, step, dead.data(), arriving_.data() + first);
             deaths_.note(first / particles::chunkSize, dead.data(), count);
-            arrivals_.note(first / particles::chunkSize, arriving.data(), count);
+        },
+        fewChunks);
+    parallel::forEachBlock(
+        particles_.size(), particles::chunkSize,
+        [&](std::size_t first, std::size_t count) {
+            dropWhereFull(particles_, first, count, grid_.voxels(), arriving_.data() + first);
+            arrivals_.note(first / particles::chunkSize, arriving_.data() + first, count);
         },
         fewChunks);
     const std::span<const std::uint32_t> arrivals = arrivals_.collect();

@@ -38,7 +38,8 @@ class ShapeSystem {
     VoxelGrid grid_;
     ShapeParticles particles_;
     particles::NotedParticles deaths_;
-    particles::NotedParticles arrivals_;   ///< come to another voxel
+    LedgerVector<std::uint8_t> arriving_;  ///< 1: stands in a voxel that may let it in
+    particles::NotedParticles arrivals_;   ///< for which there was room when all had moved
     LedgerVector<std::uint32_t> targets_;  ///< which, for each of them
     Emission emission_;
 };
