@@ -37,11 +37,13 @@ struct Scratch {
 };
 
 /// What the voxels say, brought together. Most particles stay with their voxel: so those of the next run, which goes to
-/// `end` at the latest, are fetched before they are asked for.
+/// `end` at the latest, are fetched before they are asked for. What comes behind `end` may be another thread's.
 void copyVoxels(const ShapeParticles& particles, std::size_t first, std::size_t count, std::size_t end,
                 const Voxel* voxels, Scratch& scratch) {
     const std::uint32_t* const place = particles.place.data();
     for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t ahead = std::min(first + i + runSize, end - 1);
+        __builtin_prefetch(voxels + (place[ahead] & ~ShapeParticles::outside));
         const Voxel& voxel = voxels[place[first + i] & ~ShapeParticles::outside];
         std::memcpy(&scratch.force[4 * i], &voxel.force, 16);
         std::memcpy(&scratch.colour[4 * i], &voxel.colour, 16);
@@ -49,8 +51,6 @@ void copyVoxels(const ShapeParticles& particles, std::size_t first, std::size_t 
         scratch.size[4 * i + 3] = std::bit_cast<std::uint32_t>(voxel.picturesPerSecond);
         scratch.flags[i] = voxel.flags;
     }
-    for (std::size_t i = first + count; i < std::min(first + count + runSize, end); ++i)
-        __builtin_prefetch(voxels + (place[i] & ~ShapeParticles::outside));
 }
 
 /// The voxel that each particle is in: one multiplication by a matrix. Where it is the same as before, what has been
@@ -254,7 +254,6 @@ void updateParticles(ShapeParticles& particles, std::size_t first, std::size_t c
     for (std::size_t done = 0; done < count; done += runSize) {
         Scratch scratch;
         const std::size_t from = first + done, here = std::min(runSize, count - done);
-        // No farther than to the end: what comes behind may be another thread's.
         copyVoxels(particles, from, here, end, voxels.data(), scratch);
         lookUp(particles, from, here, step, scratch);
         move(particles, from, here, step, scratch);
