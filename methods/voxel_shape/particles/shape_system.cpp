@@ -1,5 +1,6 @@
 #include "methods/voxel_shape/particles/shape_system.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -10,7 +11,15 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-constexpr std::size_t fewChunks = 4;  // below, a second thread does not pay
+/// What a thread takes at a time: below, a second one does not pay, and the kernel looks ahead within it only.
+constexpr std::size_t blockSize = 4 * particles::chunkSize;
+
+/// Notes of each chunk of a block the particles whose flag is 1.
+void note(particles::NotedParticles& list, std::size_t first, std::span<const std::uint8_t> flags) {
+    for (std::size_t done = 0; done < flags.size(); done += particles::chunkSize)
+        list.note((first + done) / particles::chunkSize, flags.data() + done,
+                  std::min(particles::chunkSize, flags.size() - done));
+}
 
 }  // namespace
 
@@ -36,21 +45,16 @@ void ShapeSystem::live(const KernelStep& step) {
     deaths_.prepare(particles_.size());
     arrivals_.prepare(particles_.size());
     arriving_.resize(particles_.size());
-    parallel::forEachBlock(
-        particles_.size(), particles::chunkSize,
-        [&](std::size_t first, std::size_t count) {
-            std::array<std::uint8_t, particles::chunkSize> dead;
-            updateParticles(particles_, first, count, grid_, step, dead.data(), arriving_.data() + first);
-            deaths_.note(first / particles::chunkSize, dead.data(), count);
-        },
-        fewChunks);
-    parallel::forEachBlock(
-        particles_.size(), particles::chunkSize,
-        [&](std::size_t first, std::size_t count) {
-            dropWhereFull(particles_, first, count, grid_.voxels(), arriving_.data() + first);
-            arrivals_.note(first / particles::chunkSize, arriving_.data() + first, count);
-        },
-        fewChunks);
+    const std::span<std::uint8_t> arriving = arriving_;
+    parallel::forEachBlock(particles_.size(), blockSize, [&](std::size_t first, std::size_t count) {
+        std::array<std::uint8_t, blockSize> dead;
+        updateParticles(particles_, first, count, grid_, step, dead.data(), &arriving[first]);
+        note(deaths_, first, {dead.data(), count});
+    });
+    parallel::forEachBlock(particles_.size(), blockSize, [&](std::size_t first, std::size_t count) {
+        dropWhereFull(particles_, first, count, grid_.voxels(), &arriving[first]);
+        note(arrivals_, first, arriving.subspan(first, count));
+    });
     const std::span<const std::uint32_t> arrivals = arrivals_.collect();
     targets_.resize(arrivals.size());
     admit(particles_, arrivals, targets_, grid_.voxels());
