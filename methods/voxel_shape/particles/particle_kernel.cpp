@@ -15,19 +15,26 @@ namespace dustbench::voxel_shape {
 namespace {
 
 constexpr std::uint32_t nowhere = 0xffffffffu;
+
 /// Fewer are let in by one thread.
 constexpr std::size_t arrivalsInABlock = 2048, partsOfVoxels = 8;
 
 /// Particles that the loops pass over one after the other.
 constexpr std::size_t runSize = 128;
 
+constexpr std::size_t fourWords = 16;
+static_assert(offsetof(Voxel, forceNumber) == offsetof(Voxel, force) + 12);
+static_assert(offsetof(Voxel, fadingColour) == offsetof(Voxel, colour) + 8);
+static_assert(offsetof(Voxel, fadingSizeMetres) == offsetof(Voxel, sizeMetres) + 4);
+static_assert(offsetof(Voxel, lifetimeSeconds) == offsetof(Voxel, sizeMetres) + 8);
+
 /// What the loops over one run hand on to each other.
 struct Scratch {
-    /// Of the voxel that each particle was in or met last, what the run asks for. Lying side by side and in fours, they
-    /// are read by plain loads and a few shuffles: a gather takes a load for each particle and number.
-    alignas(64) std::array<float, 4 * runSize> force;           ///< and its number
-    alignas(64) std::array<std::uint32_t, 4 * runSize> colour;  ///< and the fading one
-    alignas(64) std::array<std::uint32_t, 4 * runSize> size;    ///< fading size, lifetime, pictures a second
+    // What the voxel says that each particle was in or met last. Four numbers a particle, one particle after the other:
+    // plain loads and a few shuffles read sixteen of them, where a gather takes a load for each of its numbers.
+    alignas(64) std::array<float, 4 * runSize> force;            ///< vector and number
+    alignas(64) std::array<std::uint32_t, 4 * runSize> colours;  ///< of who is in it, and outside
+    alignas(64) std::array<std::uint32_t, 4 * runSize> looks;    ///< size, fading size, lifetime, pictures a second
     std::array<std::uint32_t, runSize> flags;
 
     std::array<std::uint32_t, runSize> here;    ///< index of the voxel where it is now, or `nowhere`
@@ -45,10 +52,12 @@ void copyVoxels(const ShapeParticles& particles, std::size_t first, std::size_t 
         const std::size_t ahead = std::min(first + i + runSize, end - 1);
         __builtin_prefetch(voxels + (place[ahead] & ~ShapeParticles::outside));
         const Voxel& voxel = voxels[place[first + i] & ~ShapeParticles::outside];
-        std::memcpy(&scratch.force[4 * i], &voxel.force, 16);
-        std::memcpy(&scratch.colour[4 * i], &voxel.colour, 16);
-        std::memcpy(&scratch.size[4 * i], &voxel.sizeMetres, 16);
-        scratch.size[4 * i + 3] = std::bit_cast<std::uint32_t>(voxel.picturesPerSecond);
+        // Not the whole voxel: its density may be another thread's just now.
+        const auto* const bytes = reinterpret_cast<const std::byte*>(&voxel);
+        std::memcpy(&scratch.force[4 * i], bytes + offsetof(Voxel, force), fourWords);
+        std::memcpy(&scratch.colours[4 * i], bytes + offsetof(Voxel, colour), fourWords);
+        std::memcpy(&scratch.looks[4 * i], bytes + offsetof(Voxel, sizeMetres), fourWords);
+        scratch.looks[4 * i + 3] = std::bit_cast<std::uint32_t>(voxel.picturesPerSecond);
         scratch.flags[i] = voxel.flags;
     }
 }
@@ -84,6 +93,7 @@ void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t coun
         const bool on = (flags[i] & (Voxel::active | Voxel::switchedOff)) == Voxel::active;
         const bool outside = place[i] >= ShapeParticles::outside;
         here[i] = within ? index : nowhere;
+        // Neither for those outside who stay there: in no voxel, or in the same one, switched off.
         waits[i] = (same & on & outside) ? 1 : 0;
         changes[i] = (same ? !(on | outside) : (within | !outside)) ? 1 : 0;
         rx[i] = gx - static_cast<float>(cx) - 0.5f;
@@ -179,22 +189,23 @@ void changeLooks(ShapeParticles& particles, std::size_t first, std::size_t count
     float* const __restrict picture = particles.picture.data() + first;
     float* const __restrict pictureSpeed = particles.pictureSpeed.data() + first;
     const std::uint32_t* const __restrict place = particles.place.data() + first;
-    const std::uint32_t* const __restrict colours = scratch.colour.data();
-    const std::uint32_t* const __restrict sizes = scratch.size.data();
+    const std::uint32_t* const __restrict colours = scratch.colours.data();
+    const std::uint32_t* const __restrict looks = scratch.looks.data();
 #pragma GCC ivdep
     for (std::size_t i = 0; i < count; ++i) {
         const int out = static_cast<int>(place[i] >> 31);
         const bool in = out == 0;
-        const float life = std::bit_cast<float>(sizes[4 * i + 2]);
+        const float life = std::bit_cast<float>(looks[4 * i + 2]);
         const float left = in ? settling[i] : life - age[i];
         const float share = left > dt ? dt / left : 1.0f;
 
+        // By its bits: of a choice between two loads the compiler makes a branch.
         const auto chosen = [bits = 0u - static_cast<std::uint32_t>(out)](std::uint32_t inside, std::uint32_t outside) {
             return inside ^ ((inside ^ outside) & bits);
         };
         const std::uint32_t redGreen = chosen(colours[4 * i], colours[4 * i + 2]);
         const std::uint32_t blueOpacity = chosen(colours[4 * i + 1], colours[4 * i + 3]);
-        const auto size = std::bit_cast<float>(chosen(sizes[4 * i], sizes[4 * i + 1]));
+        const auto size = std::bit_cast<float>(chosen(looks[4 * i], looks[4 * i + 1]));
         constexpr float unit = 1.0f / 65535;
         const auto channel = [](std::uint32_t value) { return unit * static_cast<float>(static_cast<int>(value)); };
         red[i] += share * (channel(redGreen & 0xffffu) - red[i]);
@@ -203,7 +214,7 @@ void changeLooks(ShapeParticles& particles, std::size_t first, std::size_t count
         opacity[i] += share * (channel(blueOpacity >> 16) - opacity[i]);
         radius[i] += share * (size - radius[i]);
         const float speed =
-            pictureSpeed[i] + (in ? share : 0.0f) * (std::bit_cast<float>(sizes[4 * i + 3]) - pictureSpeed[i]);
+            pictureSpeed[i] + (in ? share : 0.0f) * (std::bit_cast<float>(looks[4 * i + 3]) - pictureSpeed[i]);
         pictureSpeed[i] = speed;
         picture[i] += dt * speed;
 

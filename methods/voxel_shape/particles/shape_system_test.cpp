@@ -163,6 +163,23 @@ TEST(ShapeSystem, LetsAParticleThatReturnsLiveOn) {
     EXPECT_EQ(system.grid().voxels()[0].density, 1u);
 }
 
+TEST(ShapeSystem, PutsAParticleOutOfAVoxelThatIsSwitchedOffAndLetsItInOnceItIsOn) {
+    ShapeSystem system = oneParticle(1, {0, 0, 0});
+    Voxel& voxel = system.grid().voxels()[0];
+    voxel.setSwitchedOff(true);
+    for (int step = 0; step < 3; ++step) {
+        system.step({}, withoutBirths(), dt);
+        EXPECT_EQ(system.particles().place[0], ShapeParticles::outside);
+        EXPECT_EQ(voxel.density, 0u);
+    }
+    EXPECT_NEAR(system.particles().store.age[0], 2 * dt, 1e-6f) << "it ages from when it is outside";
+    voxel.setSwitchedOff(false);
+    system.step({}, withoutBirths(), dt);
+    EXPECT_EQ(system.particles().place[0], 0u);
+    EXPECT_EQ(system.particles().store.age[0], 0.0f);
+    EXPECT_EQ(voxel.density, 1u);
+}
+
 TEST(ShapeSystem, LetsNobodyIntoAFullVoxelUntilThereIsRoom) {
     ShapeSystem system(ledger(), rowOfVoxels(2), pattern(), 1);
     for (Voxel& voxel : system.grid().voxels()) voxel.maximumDensity = 1;
