@@ -83,7 +83,7 @@ void BrickAssembly::writeBricks(std::span<const Brick> bricks, Octree& tree) {
                 const std::uint32_t location = found[k].location;
                 const int rise = riseOf(location);
                 const std::uint64_t local = (location << 3 * rise) & 4095u;
-                const std::uint32_t rank = place.firstVoxel + ranks[location];
+                const std::uint32_t rank = place.firstVoxel + nodes.rank(location, ranks);
                 voxels[rank] = CellEntry(bricks[i].code | local, rise, found[k].particle);
                 if (withMasses_) masses[rank] = masses_.data()[bricks[i].first + k];
             }

@@ -43,24 +43,31 @@ class BrickNodes {
     /// Whether the brick as a whole is a voxel.
     [[nodiscard]] bool isVoxel() const { return isSet(1); }
 
-    /// Numbers by location code.
-    using Ranks = std::array<std::uint16_t, brickCodes>;
-    /// Writes the brick's blocks: that of its own children to `first`, the others from `next` on. Numbers the voxels in
-    /// pre-order: in `ranks` from 0, in the blocks from `firstVoxel`.
+    /// What `write` leaves for `rank`: by location code of all but the finest cells, that of the cell's voxel; and
+    /// 1024 further, that of the first voxel in it.
+    using Ranks = std::array<std::uint16_t, 2048>;
+    /// Writes the brick's blocks: that of its own children to `first`, the others from `next` on. Voxels are numbered
+    /// in pre-order: from `firstVoxel`.
     void write(NodeBlock* blocks, std::uint32_t first, std::uint32_t next, std::uint32_t firstVoxel,
                Ranks& ranks) const;
+    /// Number of a voxel in pre-order, from 0. Without a branch, for levels come in any order.
+    [[nodiscard]] std::uint32_t rank(std::uint32_t location, const Ranks& ranks) const {
+        const std::uint64_t isFine = location >> 12;
+        const std::uint64_t siblingsBefore = (isFine << (location & 63)) - (isFine << (location & 56));
+        const int before = std::popcount(voxels_[wordOf(location)] & siblingsBefore);
+        return ranks[location >> 3 * isFine | isFine << ranksBelowBit] + static_cast<std::uint32_t>(before);
+    }
 
  private:
     struct Writer;
     // A bit for each cell: words of the location codes below 1024, then of those from 4096 on; between lie none.
     static constexpr std::uint32_t coarseWords = 16, fineWords = 64;
+    static constexpr int ranksBelowBit = 10;
     static std::uint32_t wordOf(std::uint32_t location) { return (location >> 6) - (location >> 12) * 48; }
 
     [[nodiscard]] bool isSet(std::uint32_t location) const {
         return (voxels_[wordOf(location)] >> (location & 63) & 1) != 0;
     }
-    void addParents();
-
     std::array<std::uint64_t, coarseWords + fineWords> voxels_;
     std::array<std::uint64_t, coarseWords> nodes_;  ///< voxels, and cells that have one below them, once complete
     std::uint32_t voxelCount_ = 0, blockCount_ = 0;
