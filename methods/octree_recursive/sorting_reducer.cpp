@@ -26,8 +26,9 @@ void sortByDigit(const BrickVoxel* from, BrickVoxel* to, std::uint32_t count, in
 void SortingReducer::reduce(const BrickPartition& partition, const Brick& brick, const BrickVoxels& voxels) {
     BrickVoxel* const particles = voxels.voxels;
     std::uint32_t total = 0;
-    for (const std::uint64_t key : partition.particles(brick))
+    partition.forEachParticle(brick, [&](std::uint64_t key) {
         particles[total++] = {partition.key().location(key), partition.key().particle(key)};
+    });
     sortByDigit(particles, voxels.spare, total, 0);
     sortByDigit(voxels.spare, particles, total, 7);
 

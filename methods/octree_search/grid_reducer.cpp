@@ -8,9 +8,8 @@ using namespace octree;
 
 void GridReducer::reduce(const BrickPartition& partition, const Brick& brick, const BrickVoxels& voxels) {
     const BrickKey word = partition.key();
-    const std::span<const std::uint64_t> particles = partition.particles(brick);
     std::uint32_t count = 0;
-    for (const std::uint64_t key : particles) {
+    partition.forEachParticle(brick, [&](std::uint64_t key) {
         const std::uint32_t location = word.location(key);
         const std::uint64_t holder = best_[location];
         touched_[count] = static_cast<std::uint16_t>(location);
@@ -19,11 +18,11 @@ void GridReducer::reduce(const BrickPartition& partition, const Brick& brick, co
         if (word.samePriority(holder, key) && holder != 0)  // rare: what is not in the word decides
             best = rule_.wins(word.particle(key), word.particle(holder)) ? key : holder;
         best_[location] = best;
-    }
+    });
     if (voxels.masses) {
         for (std::uint32_t i = 0; i < count; ++i) sums_[touched_[i]] = 0;
-        for (const std::uint64_t key : particles)
-            sums_[word.location(key)] += rule_.massSquareMetres(word.particle(key));
+        partition.forEachParticle(
+            brick, [&](std::uint64_t key) { sums_[word.location(key)] += rule_.massSquareMetres(word.particle(key)); });
         for (std::uint32_t i = 0; i < count; ++i) voxels.masses[i] = sums_[touched_[i]];
     }
     voxels.nodes.clear();

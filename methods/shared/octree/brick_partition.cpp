@@ -1,6 +1,7 @@
 #include "methods/shared/octree/brick_partition.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <numeric>
 
@@ -9,9 +10,12 @@
 namespace dustbench::octree {
 namespace {
 
-/// As few chunks as keep the threads busy: each has counters of its own. The order is the same whatever their number.
+/// Deeper: as few chunks as keep the threads busy: each has counters of its own. The order is the same whatever their
+/// number.
 constexpr std::size_t chunksPerThread = 4;
 constexpr std::size_t leastChunk = 16'384;
+/// Down to depth 8: a chunk's words, half a megabyte or less, stay in the cache of one core until all are in place.
+constexpr std::size_t narrowChunk = 32'768;
 /// Particles whose words are made at once, by the vector units, before they are counted.
 constexpr std::size_t stripSize = 1024;
 /// So many places before a bin comes to one, its cache line is fetched: two lines, for a line may be left at once.
@@ -37,15 +41,35 @@ template <LevelRule rule>
     }
 }
 
+/// Counts a strip's bins, and fetches the lines that its words may go to.
+void countBins(std::span<const std::uint32_t> keys, const std::uint64_t* target, std::uint32_t* __restrict counts) {
+    constexpr std::size_t lineWords = 8;
+    for (std::size_t i = 0; i < keys.size(); i += lineWords) {
+        __builtin_prefetch(target + i, 1);
+        const std::size_t end = std::min(i + lineWords, keys.size());
+        for (std::size_t k = i; k < end; ++k) ++counts[keys[k] >> brickCodeBits];
+    }
+}
+
+/// Each particle's word to its bin's next place.
+void scatter(std::span<const std::uint32_t> keys, std::uint32_t firstParticle, BrickKey word, VoxelRule rule,
+             std::uint32_t* __restrict next, std::uint64_t* __restrict sorted) {
+    std::uint32_t particle = firstParticle;
+    for (const std::uint32_t key : keys) {
+        sorted[next[key >> brickCodeBits]++] = word.make(rule.priority(particle), key & (brickCodes - 1), particle);
+        ++particle;
+    }
+}
+
 }  // namespace
 
 BrickPartition::BrickPartition(MemoryLedger& ledger)
-    : narrowKeys_(ledger.account("octree bricks")),
-      wideKeys_(ledger.account("octree bricks")),
+    : wideKeys_(ledger.account("octree bricks")),
       wideScratch_(ledger.account("octree bricks")),
       sorted_(ledger.account("octree bricks")),
+      ends_(ledger.account("octree bricks")),
       counts_(ledger.account("octree bricks")),
-      binStarts_(ledger.account("octree bricks")),
+      binSums_(ledger.account("octree bricks")),
       bricks_(ledger.account("octree bricks")),
       upper_(ledger.account("octree bricks")) {}
 
@@ -71,12 +95,12 @@ void BrickPartition::setChunks(std::size_t count, std::uint32_t bins) {
     chunks_ = (count + chunkSize_ - 1) / chunkSize_;
     bins_ = bins;
     counts_.hold(chunks_ * bins_);
-    binStarts_.hold(bins_ + 1);
+    binSums_.hold(bins_ + 1);
 }
 
 /// From how many to where the first one goes. Chunk by chunk over all bins, which the vector units take at once.
 void BrickPartition::startBins() {
-    std::uint32_t* const starts = binStarts_.data();
+    std::uint32_t* const starts = binSums_.data();
     std::fill_n(starts, bins_ + 1, 0u);
     for (std::size_t chunk = 0; chunk < chunks_; ++chunk) {
         std::uint32_t* const counts = counts_.data() + chunk * bins_;
@@ -93,50 +117,54 @@ void BrickPartition::startBins() {
     }
 }
 
-/// One stable counting sort by brick. Two bins more: voxels above the bricks, and particles outside the world.
+/// A row of ends for each chunk.
+std::uint32_t* BrickPartition::holdRuns(std::size_t runs, std::uint32_t bins) {
+    runs_ = runs;
+    runStride_ = bins + 1;
+    return ends_.hold(runs_ * runStride_);
+}
+
+/// A stable counting sort by brick in each chunk. Two bins more: voxels above the bricks, and particles outside the
+/// world.
 template <LevelRule rule>
 void BrickPartition::sortNarrow(const particles::ParticleStore& store, const CellKernel<rule>& kernel,
                                 const VoxelRule& voxelRule, int depth) {
     const std::size_t total = store.size();
-    const std::uint32_t brickBins = 1u << 3 * (depth - brickRise);
-    setChunks(total, brickBins + 2);
-    std::uint32_t* const keys = narrowKeys_.hold(total);
+    const std::uint32_t brickBins = 1u << 3 * (depth - brickRise), bins = brickBins + 2;
+    std::uint32_t* const ends = holdRuns((total + narrowChunk - 1) / narrowChunk, bins);
     std::uint64_t* const sorted = sorted_.hold(total);
-    std::uint32_t* const counts = counts_.data();
-    const BrickKey word = key_;
 
-    parallel::forEachBlock(total, chunkSize_, [&](std::size_t first, std::size_t count) {
-        std::uint32_t* const mine = counts + first / chunkSize_ * bins_;
-        std::fill_n(mine, bins_, 0u);
-        for (std::size_t strip = first; strip < first + count; strip += stripSize) {
-            const std::size_t here = std::min(stripSize, first + count - strip);
-            makeNarrowKeys(kernel, strip, here, brickBins, keys + strip);
-            for (std::size_t i = strip; i < strip + here; ++i) ++mine[keys[i] >> brickCodeBits];
+    parallel::forEachBlock(total, narrowChunk, [&](std::size_t first, std::size_t count) {
+        std::array<std::uint32_t, narrowChunk> keys;
+        std::uint32_t* const starts = ends + first / narrowChunk * runStride_;
+        std::uint32_t* const next = starts + 1;  // how many, then where the next one goes, which ends at the bin's end
+        std::fill_n(starts, runStride_, 0u);
+        for (std::size_t strip = 0; strip < count; strip += stripSize) {
+            const std::size_t here = std::min(stripSize, count - strip);
+            makeNarrowKeys(kernel, first + strip, here, brickBins, keys.data() + strip);
+            countBins({keys.data() + strip, here}, sorted + first + strip, next);
         }
-    });
-    startBins();
-    parallel::forEachBlock(total, chunkSize_, [&](std::size_t first, std::size_t count) {
-        std::uint32_t* const next = counts + first / chunkSize_ * bins_;
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t key = keys[first + i];
-            const auto particle = static_cast<std::uint32_t>(first + i);
-            const std::uint32_t place = next[key >> brickCodeBits]++;
-            __builtin_prefetch(sorted + place + ahead, 1);
-            sorted[place] = word.make(voxelRule.priority(particle), key & (brickCodes - 1), particle);
-        }
+        std::exclusive_scan(next, next + bins, next, static_cast<std::uint32_t>(first));
+        starts[0] = static_cast<std::uint32_t>(first);
+        scatter({keys.data(), count}, static_cast<std::uint32_t>(first), key_, voxelRule, next, sorted);
     });
 
-    const std::uint32_t* const starts = binStarts_.data();
+    std::uint32_t* const sums = binSums_.hold(bins);
+    std::fill_n(sums, bins, 0u);
+    for (std::size_t run = 0; run < runs_; ++run) {
+        const std::uint32_t* const starts = ends + run * runStride_;
+        for (std::uint32_t bin = 0; bin < bins; ++bin) sums[bin] += starts[bin + 1] - starts[bin];
+    }
     Brick* const bricks = bricks_.hold(brickBins);
-    brickCount_ = 0;
-    for (std::uint32_t bin = 0; bin < brickBins; ++bin)
-        if (starts[bin + 1] > starts[bin])
-            bricks[brickCount_++] = {std::uint64_t{bin} << 3 * brickRise, starts[bin], starts[bin + 1] - starts[bin]};
-    sortedCount_ = starts[brickBins];
-    const std::span<const std::uint64_t> rest = std::span<const std::uint64_t>(sorted, total).subspan(sortedCount_);
-    const std::size_t above = starts[brickBins + 1] - sortedCount_;
-    collectUpper(rest.first(above), kernel);
-    leaveOut(rest.subspan(above), store);
+    brickCount_ = sortedCount_ = 0;
+    for (std::uint32_t bin = 0; bin < brickBins; ++bin) {
+        if (sums[bin] == 0) continue;
+        const auto before = static_cast<std::uint32_t>(sortedCount_);
+        bricks[brickCount_++] = {std::uint64_t{bin} << 3 * brickRise, before, sums[bin], bin};
+        sortedCount_ += sums[bin];
+    }
+    collectUpper({.count = sums[brickBins], .bin = brickBins}, kernel);
+    leaveOut({.count = sums[brickBins + 1], .bin = brickBins + 1}, store);
 }
 
 /// Two stable counting sorts, by the lower and by the upper twelve bits of the brick.
@@ -170,21 +198,26 @@ void BrickPartition::sortWide(const particles::ParticleStore& store, const CellK
     });
 
     Brick* const bricks = bricks_.hold(total);
-    brickCount_ = 0;
+    std::uint32_t* const starts = holdRuns(1, static_cast<std::uint32_t>(total) + 2);
+    std::uint32_t count = 0, i = 0;
     std::uint64_t last = outside;
-    std::uint32_t i = 0;
     for (; i < total && keys[i] >> brickShift < aboveBricks; ++i) {
         const std::uint64_t brick = keys[i] >> brickShift;
-        if (brick != last) bricks[brickCount_++] = {brick << 3 * brickRise, i, 0};
-        ++bricks[brickCount_ - 1].count;
+        if (brick != last) {
+            starts[count] = i;
+            bricks[count] = {brick << 3 * brickRise, i, 0, count};
+            ++count;
+        }
+        ++bricks[count - 1].count;
         last = brick;
     }
-    sortedCount_ = i;
-    const std::span<const std::uint64_t> rest = std::span<const std::uint64_t>(sorted, total).subspan(sortedCount_);
-    std::size_t above = 0;
-    while (above < rest.size() && keys[sortedCount_ + above] >> brickShift == aboveBricks) ++above;
-    collectUpper(rest.first(above), kernel);
-    leaveOut(rest.subspan(above), store);
+    brickCount_ = count;
+    sortedCount_ = starts[count] = i;
+    while (i < total && keys[i] >> brickShift == aboveBricks) ++i;
+    starts[count + 1] = i;
+    starts[count + 2] = static_cast<std::uint32_t>(total);
+    collectUpper({.count = i - starts[count], .bin = count}, kernel);
+    leaveOut({.count = starts[count + 2] - i, .bin = count + 1}, store);
 }
 
 void BrickPartition::scatterWide(const std::uint64_t* from, std::uint64_t* to, std::size_t count, int shift,
@@ -206,21 +239,21 @@ void BrickPartition::scatterWide(const std::uint64_t* from, std::uint64_t* to, s
 
 /// Particles above the bricks, as entries of the whole tree.
 template <LevelRule rule>
-void BrickPartition::collectUpper(std::span<const std::uint64_t> above, const CellKernel<rule>& kernel) {
-    CellEntry* const upper = upper_.hold(above.size());
-    upperCount_ = above.size();
-    for (std::size_t k = 0; k < above.size(); ++k) {
-        const std::uint32_t particle = key_.particle(above[k]);
+void BrickPartition::collectUpper(const Brick& above, const CellKernel<rule>& kernel) {
+    CellEntry* upper = upper_.hold(above.count);
+    upperCount_ = above.count;
+    forEachParticle(above, [&](std::uint64_t word) {
+        const std::uint32_t particle = key_.particle(word);
         const ParticleCell cell = kernel(particle);
         const std::uint64_t code = static_cast<std::uint64_t>(cell.brickCode) << 3 * brickRise | cell.localCode;
-        upper[k] = CellEntry(code, static_cast<int>(cell.rise), particle);
-    }
+        *upper++ = CellEntry(code, static_cast<int>(cell.rise), particle);
+    });
 }
 
 /// Particles outside the world, which is where those end up whose position is not a number.
-void BrickPartition::leaveOut(std::span<const std::uint64_t> outside, const particles::ParticleStore& store) {
-    clipped_ = static_cast<std::int64_t>(outside.size());
-    for (const std::uint64_t key : outside) checkPosition(store, key_.particle(key));
+void BrickPartition::leaveOut(const Brick& outside, const particles::ParticleStore& store) {
+    clipped_ = static_cast<std::int64_t>(outside.count);
+    forEachParticle(outside, [&](std::uint64_t word) { checkPosition(store, key_.particle(word)); });
 }
 
 }  // namespace dustbench::octree

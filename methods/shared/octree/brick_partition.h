@@ -1,5 +1,9 @@
 // Sorts particles into bricks, keeping the order of the store inside each.
 //
+// Up to depth 8 each chunk of the store is sorted by itself, as large as the cache of one core holds: a brick's
+// particles are then a run in each chunk. Deeper, where bricks are too many to be counted in each chunk, all particles
+// are sorted at once, as one chunk.
+//
 // Owns: its working memory, on a ledger, kept from frame to frame. Threads: parallel over fixed chunks of the store;
 // the same result at any number of threads.
 #pragma once
@@ -18,7 +22,8 @@ namespace dustbench::octree {
 /// One brick that holds particles.
 struct Brick {
     std::uint64_t code = 0;              ///< Morton code of its first finest cell
-    std::uint32_t first = 0, count = 0;  ///< its particles among all sorted ones
+    std::uint32_t first = 0, count = 0;  ///< its particles among those of all bricks
+    std::uint32_t bin = 0;               ///< where its runs are looked up
 };
 
 /// How a sorted particle is one word: the first bits of its priority, its location code in the brick, its index. Of
@@ -53,9 +58,17 @@ class BrickPartition {
     [[nodiscard]] std::span<const Brick> bricks() const { return {bricks_.data(), brickCount_}; }
     /// Particles in all bricks.
     [[nodiscard]] std::size_t size() const { return sortedCount_; }
-    /// The particles of a brick, in the order of the store, as `key()` has them.
-    [[nodiscard]] std::span<const std::uint64_t> particles(const Brick& brick) const {
-        return {sorted_.data() + brick.first, brick.count};
+    /// Calls `visit(particle)` for each particle of a brick, in the order of the store, as `key()` has them.
+    template <typename Visit>
+    void forEachParticle(const Brick& brick, const Visit& visit) const {
+        const std::uint32_t* ends = ends_.data() + brick.bin;
+        for (std::size_t run = 0; run < runs_; ++run, ends += runStride_) {
+            const std::uint64_t* const end = sorted_.data() + ends[1];
+            // Here begins the run of the next brick.
+            __builtin_prefetch(end);
+            __builtin_prefetch(end + 8);
+            for (const std::uint64_t* particle = sorted_.data() + ends[0]; particle < end; ++particle) visit(*particle);
+        }
     }
     [[nodiscard]] const BrickKey& key() const { return key_; }
 
@@ -70,21 +83,23 @@ class BrickPartition {
     template <LevelRule rule>
     void sortWide(const particles::ParticleStore& store, const CellKernel<rule>& kernel, const VoxelRule& voxelRule);
     template <LevelRule rule>
-    void collectUpper(std::span<const std::uint64_t> above, const CellKernel<rule>& kernel);
-    void leaveOut(std::span<const std::uint64_t> outside, const particles::ParticleStore& store);
+    void collectUpper(const Brick& above, const CellKernel<rule>& kernel);
+    void leaveOut(const Brick& outside, const particles::ParticleStore& store);
     void setChunks(std::size_t count, std::uint32_t bins);
     void startBins();
     void scatterWide(const std::uint64_t* from, std::uint64_t* to, std::size_t count, int shift, std::uint32_t mask);
+    std::uint32_t* holdRuns(std::size_t runs, std::uint32_t bins);
 
-    Room<std::uint32_t> narrowKeys_;              ///< up to depth 8: bin, location code
-    Room<std::uint64_t> wideKeys_, wideScratch_;  ///< deeper: brick, location code, index
+    Room<std::uint64_t> wideKeys_, wideScratch_;  ///< brick, location code, index
     Room<std::uint64_t> sorted_;
-    Room<std::uint32_t> counts_;     ///< by chunk and bin: how many, then where the next one goes
-    Room<std::uint32_t> binStarts_;  ///< one more than bins
+    Room<std::uint32_t> ends_;     ///< by chunk and bin: where the bin's run begins, and the next one's, its end
+    Room<std::uint32_t> counts_;   ///< by chunk and bin: how many, then where the next one goes
+    Room<std::uint32_t> binSums_;  ///< over all chunks
     Room<Brick> bricks_;
     Room<CellEntry> upper_;
     BrickKey key_;
     std::uint32_t bins_ = 0;
+    std::size_t runs_ = 0, runStride_ = 0;
     std::size_t chunks_ = 0, chunkSize_ = 0, brickCount_ = 0, sortedCount_ = 0, upperCount_ = 0;
     std::int64_t clipped_ = 0;
 };
