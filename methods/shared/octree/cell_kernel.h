@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numbers>
 
@@ -22,8 +23,7 @@ inline constexpr float edgePerRadius = 1.2533141f;
 /// outside any world.
 [[nodiscard]] inline std::int32_t cellNumber(float metres, float cellsPerMetre) {
     const float number = std::min(std::max(-1e9f, metres * cellsPerMetre), 1e9f);
-    const auto towardsZero = static_cast<std::int32_t>(number);
-    return towardsZero - (static_cast<float>(towardsZero) > number ? 1 : 0);
+    return static_cast<std::int32_t>(std::floor(number));
 }
 
 /// Levels above the finest, by age: min(L − 1, floor(L·age/lifetime)).
