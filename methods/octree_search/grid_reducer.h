@@ -22,10 +22,13 @@ class GridReducer {
 
  private:
     octree::VoxelRule rule_;
-    /// By location code: the best particle's key, none of which is 0; 0: none yet.
-    std::array<std::uint64_t, octree::brickCodes> best_{};
-    std::array<std::uint16_t, octree::brickCodes> touched_;
-    std::array<double, octree::brickCodes> sums_;
+    /// By place: the best particle's key, none of which is 0; 0: none yet.
+    std::array<std::uint64_t, octree::placesInBrick> best_{};
+    std::array<std::uint16_t, octree::placesInBrick> touched_;  ///< places that have one, as they come
+    static constexpr std::size_t words = octree::placesInBrick / 64 + 1;
+    std::array<std::uint64_t, words> taken_{};  ///< a bit for each place that has one
+    std::array<std::uint32_t, words> takenBefore_;
+    std::array<double, octree::placesInBrick> sums_;
 };
 
 }  // namespace dustbench::octree_search

@@ -70,23 +70,16 @@ void BrickAssembly::writeBricks(std::span<const Brick> bricks, Octree& tree) {
     const bool rootIsBrick = tree.depth() == brickRise;
     const std::size_t atOnce = std::clamp<std::size_t>(bricks.size() / 64, 1, 64);
     parallel::forEachBlock(bricks.size(), atOnce, [&](std::size_t first, std::size_t count) {
-        BrickNodes::Ranks ranks;
         for (std::size_t i = first; i < first + count; ++i) {
             const BrickNodes& nodes = nodes_.data()[i];
             const Place place = places_.data()[i];
             if (rootIsBrick)
-                nodes.write(blocks, 0, 1, 0, ranks);
+                nodes.write(blocks, 0, 1, 0);
             else
-                nodes.write(blocks, place.firstBlock, place.firstBlock + 1, place.firstVoxel, ranks);
-            const BrickVoxel* const found = found_.data() + bricks[i].first;
-            for (std::uint32_t k = 0; k < nodes.voxelCount(); ++k) {
-                const std::uint32_t location = found[k].location;
-                const int rise = riseOf(location);
-                const std::uint64_t local = (location << 3 * rise) & 4095u;
-                const std::uint32_t rank = place.firstVoxel + nodes.rank(location, ranks);
-                voxels[rank] = CellEntry(bricks[i].code | local, rise, found[k].particle);
-                if (withMasses_) masses[rank] = masses_.data()[bricks[i].first + k];
-            }
+                nodes.write(blocks, place.firstBlock, place.firstBlock + 1, place.firstVoxel);
+            std::copy_n(found_.data() + bricks[i].first, nodes.voxelCount(), voxels + place.firstVoxel);
+            if (withMasses_)
+                std::copy_n(masses_.data() + bricks[i].first, nodes.voxelCount(), masses + place.firstVoxel);
         }
     });
 }

@@ -13,18 +13,12 @@
 
 namespace dustbench::octree {
 
-/// A voxel of a brick and the particle that it stands for.
-struct BrickVoxel {
-    std::uint32_t location;
-    std::uint32_t particle;
-};
-
-/// Where one brick's voxels are left, in any order.
+/// Where one brick's voxels are left, in pre-order.
 struct BrickVoxels {
-    BrickVoxel* voxels;  ///< room for as many as the brick has particles
-    BrickVoxel* spare;   ///< working memory of the same size; null: not wanted
-    double* masses;      ///< beside them; null: not wanted
-    BrickNodes& nodes;   ///< to be completed
+    CellEntry* voxels;  ///< room for as many as the brick has particles
+    CellEntry* spare;   ///< working memory of the same size; null: not wanted
+    double* masses;     ///< beside them; null: not wanted
+    BrickNodes& nodes;  ///< to be completed
 };
 
 class BrickAssembly {
@@ -50,7 +44,7 @@ class BrickAssembly {
     void addTop(std::span<const Brick> bricks, std::span<const CellEntry> upper, Octree& tree);
 
     bool withMasses_ = false, withSpare_ = false;
-    Room<BrickVoxel> found_, spare_;
+    Room<CellEntry> found_, spare_;
     Room<double> masses_, upperMasses_;
     Room<BrickNodes> nodes_;
     Room<Place> places_;

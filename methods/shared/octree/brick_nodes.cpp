@@ -61,12 +61,6 @@ EightSlots numbersFrom(std::uint64_t first, std::uint64_t before, std::uint64_t 
     return (first + bytesOf(before)) & -bytesOf(present);
 }
 
-void writeRanks(std::uint16_t* ranks, EightSlots values) {
-    using Eight [[gnu::vector_size(16)]] = std::uint16_t;
-    const Eight narrow = __builtin_convertvector(values, Eight);
-    std::memcpy(ranks, &narrow, sizeof(narrow));
-}
-
 void writeBlock(NodeBlock& block, EightSlots children, EightSlots voxels) {
     static_assert(std::endian::native == std::endian::little, "a slot's first half is the lower one");
     const EightSlots slots = children | voxels << 32;
@@ -101,9 +95,7 @@ struct BrickNodes::Writer {
     const std::uint64_t* fine;  ///< word w: the finest cells in the cell 64 + w
     NodeBlock* blocks;
     std::uint32_t nextBlock;
-    std::uint32_t firstVoxel;
-    Ranks& ranks;
-    std::uint32_t count = 0;
+    std::uint32_t nextVoxel;
 
     /// The children of `location`, whose level lies `rise` above the finest, to `block`; then what is below them.
     template <int rise>
@@ -114,10 +106,7 @@ struct BrickNodes::Writer {
             const auto octant = static_cast<std::uint32_t>(std::countr_zero(left));
             const std::uint32_t child = 8 * location + octant;
             NodeSlot& slot = out.slots[octant];
-            if (voxels[location] >> octant & 1) {
-                ranks[child] = static_cast<std::uint16_t>(count++);
-                slot.voxel = firstVoxel + count;
-            }
+            if (voxels[location] >> octant & 1) slot.voxel = ++nextVoxel;
             if (nodes[child] == 0) continue;
             slot.children = nextBlock++;
             if constexpr (rise > 3)
@@ -133,7 +122,7 @@ struct BrickNodes::Writer {
         std::uint64_t left = anyOfEight(bits);
         const std::uint64_t parents = toBytes(left), middle = toBytes(voxels[location]);
         const std::uint64_t before = sumsBefore(byteCounts(bits) + middle);
-        const std::uint64_t first = firstVoxel + count + 1;  // in a slot 0 means none
+        const std::uint64_t first = nextVoxel + 1;  // in a slot 0 means none
         writeBlock(blocks[block], numbersFrom(nextBlock, sumsBefore(parents), parents),
                    numbersFrom(first, before, middle));
         for (; left != 0; left &= left - 1) {
@@ -142,25 +131,20 @@ struct BrickNodes::Writer {
             writeBlock(blocks[nextBlock++], EightSlots{},
                        numbersFrom(first + byteOf(before + middle, octant), sumsBefore(cells), cells));
         }
-        writeRanks(&ranks[8 * location], count + bytesOf(before));
-        writeRanks(&ranks[8 * location + (1u << ranksBelowBit)], count + bytesOf(before + middle));
-        count += bitCount(bits) + bitCount(voxels[location]);
+        nextVoxel += bitCount(bits) + bitCount(voxels[location]);
     }
 };
 
-void BrickNodes::write(NodeBlock* blocks, std::uint32_t first, std::uint32_t next, std::uint32_t firstVoxel,
-                       Ranks& ranks) const {
+void BrickNodes::write(NodeBlock* blocks, std::uint32_t first, std::uint32_t next, std::uint32_t firstVoxel) const {
     static_assert(std::endian::native == std::endian::little, "bytes of a word count from its lowest bits");
-    const auto* const coarse = reinterpret_cast<const std::uint8_t*>(voxels_.data());
-    Writer writer{coarse,
+    if (blockCount_ == 0) return;
+    Writer writer{reinterpret_cast<const std::uint8_t*>(voxels_.data()),
                   reinterpret_cast<const std::uint8_t*>(nodes_.data()),
                   voxels_.data() + coarseWords,
                   blocks,
                   next,
-                  firstVoxel,
-                  ranks};
-    if (isVoxel()) ranks[1] = static_cast<std::uint16_t>(writer.count++);
-    if (blockCount_ > 0) writer.write<brickRise>(1, first);
+                  firstVoxel + (isVoxel() ? 1 : 0)};
+    writer.write<brickRise>(1, first);
 }
 
 }  // namespace dustbench::octree

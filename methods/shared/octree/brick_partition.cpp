@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <numeric>
 
@@ -10,23 +11,21 @@
 namespace dustbench::octree {
 namespace {
 
-/// Deeper: as few chunks as keep the threads busy: each has counters of its own. The order is the same whatever their
-/// number.
+/// Deeper: as few chunks as keep the threads busy, for each has counters of its own. The order is the same whatever
+/// their number.
 constexpr std::size_t chunksPerThread = 4;
 constexpr std::size_t leastChunk = 16'384;
-/// Down to depth 8: a chunk's words, half a megabyte or less, stay in the cache of one core until all are in place.
+/// Up to depth 8: a chunk's words, a quarter of a megabyte, stay in the cache of one core until all are in place.
 constexpr std::size_t narrowChunk = 32'768;
 /// Particles whose words are made at once, by the vector units, before they are counted.
 constexpr std::size_t stripSize = 1024;
-/// So many places before a bin comes to one, its cache line is fetched: two lines, for a line may be left at once.
-constexpr std::size_t ahead = 16;
 /// Up to this depth bricks are few enough to be bins.
 constexpr int narrowDepth = 8;
 constexpr std::uint32_t wideDigit = 4095;
 constexpr int wideIndexBits = 24;
 constexpr std::uint64_t wideIndexMask = (1u << wideIndexBits) - 1;
 /// So many leave no more than 32 bits for the priority.
-constexpr int leastIndexBits = 32 - brickCodeBits;
+constexpr int leastIndexBits = 32 - brickPlaceBits;
 
 /// A function of its own, so that the compiler sees that the keys lie apart from what they are made of.
 template <LevelRule rule>
@@ -37,7 +36,7 @@ template <LevelRule rule>
         const ParticleCell cell = cellOf.shallow(first + i);
         const std::uint32_t inTree = (cell.brickCode & ~cell.aboveBricks) | (brickBins & cell.aboveBricks);
         const std::uint32_t bin = (inTree & ~cell.outside) | ((brickBins + 1) & cell.outside);
-        keys[i] = bin << brickCodeBits | locationCode(cell.localCode, cell.rise);
+        keys[i] = bin << brickPlaceBits | placeInBrick(cell.localCode, cell.rise);
     }
 }
 
@@ -47,7 +46,7 @@ void countBins(std::span<const std::uint32_t> keys, const std::uint64_t* target,
     for (std::size_t i = 0; i < keys.size(); i += lineWords) {
         __builtin_prefetch(target + i, 1);
         const std::size_t end = std::min(i + lineWords, keys.size());
-        for (std::size_t k = i; k < end; ++k) ++counts[keys[k] >> brickCodeBits];
+        for (std::size_t k = i; k < end; ++k) ++counts[keys[k] >> brickPlaceBits];
     }
 }
 
@@ -56,7 +55,8 @@ void scatter(std::span<const std::uint32_t> keys, std::uint32_t firstParticle, B
              std::uint32_t* __restrict next, std::uint64_t* __restrict sorted) {
     std::uint32_t particle = firstParticle;
     for (const std::uint32_t key : keys) {
-        sorted[next[key >> brickCodeBits]++] = word.make(rule.priority(particle), key & (brickCodes - 1), particle);
+        sorted[next[key >> brickPlaceBits]++] =
+            word.make(rule.priority(particle), key & ((1u << brickPlaceBits) - 1), particle);
         ++particle;
     }
 }
@@ -131,6 +131,7 @@ void BrickPartition::sortNarrow(const particles::ParticleStore& store, const Cel
                                 const VoxelRule& voxelRule, int depth) {
     const std::size_t total = store.size();
     const std::uint32_t brickBins = 1u << 3 * (depth - brickRise), bins = brickBins + 2;
+    std::atomic<bool> allNumbers = true;
     std::uint32_t* const ends = holdRuns((total + narrowChunk - 1) / narrowChunk, bins);
     std::uint64_t* const sorted = sorted_.hold(total);
 
@@ -147,6 +148,9 @@ void BrickPartition::sortNarrow(const particles::ParticleStore& store, const Cel
         std::exclusive_scan(next, next + bins, next, static_cast<std::uint32_t>(first));
         starts[0] = static_cast<std::uint32_t>(first);
         scatter({keys.data(), count}, static_cast<std::uint32_t>(first), key_, voxelRule, next, sorted);
+        // Outside the world is where those end up whose position is not a number.
+        for (std::uint32_t i = starts[brickBins + 1]; i < starts[bins]; ++i)
+            if (!isNumber(store, key_.particle(sorted[i]))) allNumbers = false;
     });
 
     std::uint32_t* const sums = binSums_.hold(bins);
@@ -164,7 +168,8 @@ void BrickPartition::sortNarrow(const particles::ParticleStore& store, const Cel
         sortedCount_ += sums[bin];
     }
     collectUpper({.count = sums[brickBins], .bin = brickBins}, kernel);
-    leaveOut({.count = sums[brickBins + 1], .bin = brickBins + 1}, store);
+    clipped_ = static_cast<std::int64_t>(sums[brickBins + 1]);
+    if (!allNumbers) checkPositions(store);
 }
 
 /// Two stable counting sorts, by the lower and by the upper twelve bits of the brick.
@@ -181,10 +186,10 @@ void BrickPartition::sortWide(const particles::ParticleStore& store, const CellK
             const ParticleCell cell = cellOf(i);
             const std::uint64_t inTree = cell.aboveBricks ? aboveBricks : cell.brickCode;
             const std::uint64_t brick = cell.outside ? outside : inTree;
-            keys[i] = (brick << brickCodeBits | locationCode(cell.localCode, cell.rise)) << wideIndexBits | i;
+            keys[i] = (brick << brickPlaceBits | placeInBrick(cell.localCode, cell.rise)) << wideIndexBits | i;
         }
     });
-    const int brickShift = wideIndexBits + brickCodeBits;
+    const int brickShift = wideIndexBits + brickPlaceBits;
     scatterWide(keys, scratch, total, brickShift, wideDigit);
     scatterWide(scratch, keys, total, brickShift + 12, 2 * wideDigit + 1);
 
@@ -192,13 +197,14 @@ void BrickPartition::sortWide(const particles::ParticleStore& store, const CellK
     parallel::forEachBlock(total, leastChunk, [&, word = key_](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
             const auto particle = static_cast<std::uint32_t>(keys[i] & wideIndexMask);
-            const std::uint32_t location = static_cast<std::uint32_t>(keys[i] >> wideIndexBits) & (brickCodes - 1);
-            sorted[i] = word.make(voxelRule.priority(particle), location, particle);
+            const std::uint32_t place =
+                static_cast<std::uint32_t>(keys[i] >> wideIndexBits) & ((1u << brickPlaceBits) - 1);
+            sorted[i] = word.make(voxelRule.priority(particle), place, particle);
         }
     });
 
     Brick* const bricks = bricks_.hold(total);
-    std::uint32_t* const starts = holdRuns(1, static_cast<std::uint32_t>(total) + 2);
+    std::uint32_t* const starts = holdRuns(1, static_cast<std::uint32_t>(total) + 1);
     std::uint32_t count = 0, i = 0;
     std::uint64_t last = outside;
     for (; i < total && keys[i] >> brickShift < aboveBricks; ++i) {
@@ -215,9 +221,9 @@ void BrickPartition::sortWide(const particles::ParticleStore& store, const CellK
     sortedCount_ = starts[count] = i;
     while (i < total && keys[i] >> brickShift == aboveBricks) ++i;
     starts[count + 1] = i;
-    starts[count + 2] = static_cast<std::uint32_t>(total);
     collectUpper({.count = i - starts[count], .bin = count}, kernel);
-    leaveOut({.count = starts[count + 2] - i, .bin = count + 1}, store);
+    clipped_ = static_cast<std::int64_t>(total - i);
+    if (clipped_ > 0) checkPositions(store);
 }
 
 void BrickPartition::scatterWide(const std::uint64_t* from, std::uint64_t* to, std::size_t count, int shift,
@@ -248,12 +254,6 @@ void BrickPartition::collectUpper(const Brick& above, const CellKernel<rule>& ke
         const std::uint64_t code = static_cast<std::uint64_t>(cell.brickCode) << 3 * brickRise | cell.localCode;
         *upper++ = CellEntry(code, static_cast<int>(cell.rise), particle);
     });
-}
-
-/// Particles outside the world, which is where those end up whose position is not a number.
-void BrickPartition::leaveOut(const Brick& outside, const particles::ParticleStore& store) {
-    clipped_ = static_cast<std::int64_t>(outside.count);
-    forEachParticle(outside, [&](std::uint64_t word) { checkPosition(store, key_.particle(word)); });
 }
 
 }  // namespace dustbench::octree

@@ -26,23 +26,28 @@ struct Brick {
     std::uint32_t bin = 0;               ///< where its runs are looked up
 };
 
-/// How a sorted particle is one word: the first bits of its priority, its location code in the brick, its index. Of
+/// The voxel at a place of a brick.
+[[nodiscard]] inline CellEntry voxelAt(const Brick& brick, std::uint32_t place, std::uint32_t particle) {
+    return CellEntry(brick.code << 28 | std::uint64_t{brickCells[place].codeAndRise} << 24 | particle);
+}
+
+/// How a sorted particle is one word: the first bits of its priority, its place in the brick, its index. Of
 /// two particles in one cell the one with the higher word wins, unless their first bits are equal.
 struct BrickKey {
     int indexBits = 24;  ///< enough for all particles
 
-    [[nodiscard]] std::uint64_t make(std::uint32_t priority, std::uint32_t location, std::uint32_t particle) const {
-        const std::uint64_t first = priority >> (brickCodeBits + indexBits - 32);
-        return (first << brickCodeBits | location) << indexBits | particle;
+    [[nodiscard]] std::uint64_t make(std::uint32_t priority, std::uint32_t place, std::uint32_t particle) const {
+        const std::uint64_t first = priority >> (brickPlaceBits + indexBits - 32);
+        return (first << brickPlaceBits | place) << indexBits | particle;
     }
-    [[nodiscard]] std::uint32_t location(std::uint64_t key) const {
-        return static_cast<std::uint32_t>(key >> indexBits) & (brickCodes - 1);
+    [[nodiscard]] std::uint32_t place(std::uint64_t key) const {
+        return static_cast<std::uint32_t>(key >> indexBits) & ((1u << brickPlaceBits) - 1);
     }
     [[nodiscard]] std::uint32_t particle(std::uint64_t key) const {
         return static_cast<std::uint32_t>(key) & ((1u << indexBits) - 1);
     }
     [[nodiscard]] bool samePriority(std::uint64_t a, std::uint64_t b) const {
-        return (a ^ b) >> (brickCodeBits + indexBits) == 0;
+        return (a ^ b) >> (brickPlaceBits + indexBits) == 0;
     }
 };
 
@@ -50,7 +55,7 @@ class BrickPartition {
  public:
     explicit BrickPartition(MemoryLedger& ledger);
 
-    /// Throws as `checkPosition` and `checkCount` do (cell_kernel.h).
+    /// Throws as `checkPositions` and `checkCount` do (cell_kernel.h).
     void sort(const particles::ParticleStore& store, const Lattice& lattice, const OctreeSettings& settings,
               const VoxelRule& voxelRule);
 
@@ -67,6 +72,7 @@ class BrickPartition {
             // Here begins the run of the next brick.
             __builtin_prefetch(end);
             __builtin_prefetch(end + 8);
+            __builtin_prefetch(ends + 16);
             for (const std::uint64_t* particle = sorted_.data() + ends[0]; particle < end; ++particle) visit(*particle);
         }
     }
@@ -84,13 +90,12 @@ class BrickPartition {
     void sortWide(const particles::ParticleStore& store, const CellKernel<rule>& kernel, const VoxelRule& voxelRule);
     template <LevelRule rule>
     void collectUpper(const Brick& above, const CellKernel<rule>& kernel);
-    void leaveOut(const Brick& outside, const particles::ParticleStore& store);
     void setChunks(std::size_t count, std::uint32_t bins);
     void startBins();
     void scatterWide(const std::uint64_t* from, std::uint64_t* to, std::size_t count, int shift, std::uint32_t mask);
     std::uint32_t* holdRuns(std::size_t runs, std::uint32_t bins);
 
-    Room<std::uint64_t> wideKeys_, wideScratch_;  ///< brick, location code, index
+    Room<std::uint64_t> wideKeys_, wideScratch_;  ///< brick, place, index
     Room<std::uint64_t> sorted_;
     Room<std::uint32_t> ends_;     ///< by chunk and bin: where the bin's run begins, and the next one's, its end
     Room<std::uint32_t> counts_;   ///< by chunk and bin: how many, then where the next one goes

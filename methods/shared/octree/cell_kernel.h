@@ -122,10 +122,11 @@ class CellKernel {
     std::uint32_t firstX_, firstY_, firstZ_, cells_, levels_;
 };
 
+/// Whether a particle's position is.
+[[nodiscard]] bool isNumber(const particles::ParticleStore& store, std::size_t particle);
 /// Throws SimulationError with the serial of the first particle whose position is not a number, and InputError where
 /// there are more particles than a voxel can name. For builders, who call it where particles lie outside the world.
 void checkPositions(const particles::ParticleStore& store);
-void checkPosition(const particles::ParticleStore& store, std::size_t particle);
 void checkCount(const particles::ParticleStore& store);
 
 }  // namespace dustbench::octree
