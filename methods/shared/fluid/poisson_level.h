@@ -33,7 +33,8 @@ class PoissonLevel {
     float restrictTo(PoissonLevel& coarse) const;
     /// Max |f − Ap| over all cells.
     [[nodiscard]] float residual() const;
-    /// Adds the coarse solution, interpolated, to the black cells. The red ones follow with the next sweep.
+    /// Adds the coarse solution, interpolated and overcorrected, to the black cells. The red ones follow with the next
+    /// sweep.
     void addToBlack(const PoissonLevel& coarse);
     /// Brings `pressure` into the order of cells, ghosts mirrored at walls and sign-reversed at open sides.
     void fillNatural(const std::uint8_t (&openSides)[6]);

@@ -4,6 +4,7 @@
 
 #include "methods/shared/fluid/poisson_level.h"
 #include "methods/shared/fluid/poisson_rows.h"
+#include "methods/shared/fluid/relaxation.h"
 
 namespace dustbench::fluid {
 
@@ -173,6 +174,8 @@ void PoissonLevel::fillNatural(const std::uint8_t (&openSides)[6]) {
 
 void PoissonLevel::addToBlack(const PoissonLevel& coarse) {
     const CellLayout& from = coarse.cells_;
+    constexpr float nearest = overcorrection * 0.75f * 0.75f, near = overcorrection * 0.75f * 0.25f,
+                    far = overcorrection * 0.25f * 0.25f;
     forRows(layout, [&](int j, int k) {
         const int besideJ = (j >> 1) + ((j & 1) != 0 ? 1 : -1), besideK = (k >> 1) + ((k & 1) != 0 ? 1 : -1);
         const float* a = coarse.natural_ + from.at(-1, j >> 1, k >> 1);
@@ -181,7 +184,7 @@ void PoissonLevel::addToBlack(const PoissonLevel& coarse) {
         const float* d = coarse.natural_ + from.at(-1, besideJ, besideK);
         float column[2050];
         loop(static_cast<std::size_t>(from.nx) + 2,
-             [&](std::size_t m) { column[m] = 0.5625f * a[m] + 0.1875f * (b[m] + c[m]) + 0.0625f * d[m]; });
+             [&](std::size_t m) { column[m] = nearest * a[m] + near * (b[m] + c[m]) + far * d[m]; });
         // Black cells of columns 2m or 2m + 1: nearer to the coarse cell before, or to that behind.
         const bool odd = ((1 + j + k) & 1) != 0;
         const float* own = column + 1;

@@ -156,6 +156,7 @@ void PressureOnGpu::correctFrom(std::size_t number) {
     Kernel& prolong = prolong_.of(number - 1);
     prolong.set("cells", level.cells);
     prolong.set("coarse", coarse.cells);
+    prolong.set("times", fluid::overcorrection);
     prolong.run(ofOneColour(level.cells));
 }
 

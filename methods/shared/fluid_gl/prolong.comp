@@ -1,4 +1,5 @@
-// Adds the coarse pressure, interpolated, to the black cells. The red ones follow with the next sweep.
+// Adds the coarse pressure, interpolated, `times` over (fluid/relaxation.h) to the black cells. The red ones follow with
+// the next sweep.
 layout(std430, binding = 1) restrict buffer Pressure { float pressure[]; };
 layout(std430, binding = 2) restrict readonly buffer Wide { float wide[]; };
 #ifdef FINEST
@@ -9,6 +10,7 @@ layout(std430, binding = 3) restrict readonly buffer Faces { vec4 faces[]; };
 float diagonal(ivec3 c) { return faces[place(c)].w; }
 #endif
 uniform ivec3 coarse;
+uniform float times;
 
 void main() {
     ivec3 c = cellOfColour(1);
@@ -20,5 +22,5 @@ void main() {
         vec3 weights = mix(vec3(0.75), vec3(0.25), far);
         sum += weights.x * weights.y * weights.z * wide[atIn(mix(own, beside, far), coarse)];
     }
-    pressure[place(c)] += sum;
+    pressure[place(c)] += times * sum;
 }
