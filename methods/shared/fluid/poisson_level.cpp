@@ -110,7 +110,7 @@ void PoissonLevel::smooth(float relaxation) {
     // Black follows red a slab behind, while both are in the cache. Blocks meet at slabs whose red cells come first of
     // all: each black cell then finds its six red neighbours done, and no red one a black that is new.
     const auto nz = static_cast<std::size_t>(layout.nz);
-    const std::size_t slabs = std::max<std::size_t>(4, 65536 / (layout.cells() / nz));
+    const std::size_t slabs = std::max<std::size_t>(4, 16384 / (layout.cells() / nz));
     parallel::forEachBlock(nz, slabs, [&](std::size_t first, std::size_t count) {
         sweepSlab(0, static_cast<int>(first));
         if (count > 1) sweepSlab(0, static_cast<int>(first + count - 1));
