@@ -29,7 +29,7 @@ struct SplitLayout {
     [[nodiscard]] int rowK(std::size_t r) const { return static_cast<int>(r / static_cast<std::size_t>(ny)); }
     [[nodiscard]] std::size_t cells() const { return rows() * static_cast<std::size_t>(nx); }
     /// So many rows make a block of work that is worth a thread.
-    [[nodiscard]] std::size_t rowsInABlock() const { return (std::size_t{8192} + half * 2 - 1) / (half * 2); }
+    [[nodiscard]] std::size_t rowsInABlock() const { return (std::size_t{4096} + half * 2 - 1) / (half * 2); }
 
     static constexpr std::size_t front = 16;
     int nx, ny, nz;
