@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <mutex>
+#include <string>
 
 #include "methods/shared/available_memory.h"
+#include "methods/shared/errors.h"
 #include "methods/shared/fluid/density_balance.h"
 #include "methods/shared/fluid/lanes.h"
 #include "methods/shared/fluid/source_reach.h"
@@ -20,6 +24,11 @@ const FluidSettings& checked(const FluidSettings& settings) {
     // All of it at once, so that nothing is half allocated.
     const CellLayout layout(settings.box.cells);
     requireAvailable("grid of the fluid", layout.padded() * (2 * lanes * sizeof(float) + 1));
+    // Look-ups (sampling.h) count floats in 32 bits.
+    constexpr std::size_t mostCells = std::numeric_limits<std::int32_t>::max() / lanes;
+    if (layout.padded() > mostCells)
+        throw InputError("grid: got " + std::to_string(layout.padded()) +
+                         " cells with their ghosts, allowed: " + std::to_string(mostCells));
     return settings;
 }
 
