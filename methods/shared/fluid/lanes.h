@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 namespace dustbench::fluid {
@@ -34,6 +35,18 @@ template <typename Vector>
 template <typename Number, typename Vector>
 [[gnu::always_inline]] inline void store(Number* to, const Vector& vector) {
     std::memcpy(to, &vector, sizeof(Vector));
+}
+
+/// Sixteen bytes as whole numbers.
+[[gnu::always_inline]] inline Int16 widened(const std::uint8_t* bytes) {
+    Int16 numbers;
+#ifdef __AVX512F__
+    const __m512i wide = _mm512_maskz_cvtepu8_epi32(0xffff, _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes)));
+    std::memcpy(&numbers, &wide, sizeof numbers);
+#else
+    for (int i = 0; i < 16; ++i) numbers[i] = bytes[i];
+#endif
+    return numbers;
 }
 
 /// The smaller and the greater of two, lane by lane; `bound` where `x` is not a number.

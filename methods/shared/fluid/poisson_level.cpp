@@ -8,7 +8,9 @@
 #include <cstring>
 #include <vector>
 
+#include "methods/shared/fluid/lanes.h"
 #include "methods/shared/fluid/poisson_rows.h"
+#include "methods/shared/parallel/for_stages.h"
 
 namespace dustbench::fluid {
 namespace {
@@ -33,6 +35,25 @@ void split(const std::uint8_t* __restrict row, std::size_t half, std::uint8_t* _
         odd[m] = row[2 * m + 1];
     }
 }
+
+constexpr std::size_t fewCells = 4096;  ///< not worth a second thread
+
+/// One over the sum of a cell's weights, 0 where it is no fluid.
+class Reciprocals {
+ public:
+    [[gnu::always_inline]] Reciprocals() {
+        for (int weight = 1; weight < 16; ++weight) table_[weight] = 1.0f / static_cast<float>(weight);
+    }
+    [[gnu::always_inline]] [[nodiscard]] Float16 of(const std::uint8_t* weights) const {
+        const Int16 weight = widened(weights);
+        if constexpr (sixteenAtOnce) return __builtin_shuffle(table_, weight);
+        const Float16 number = __builtin_convertvector(weight, Float16);
+        return number > 0 ? 1.0f / number : Float16{};
+    }
+
+ private:
+    Float16 table_{};
+};
 
 }  // namespace
 
@@ -62,7 +83,13 @@ void PoissonLevel::build(const CellLayout& cells, const std::uint8_t* conductanc
         sumsOfWeights(conductance + cells.at(0, j, k), cells, sums.data());
         sums[nx] = 0;  // where the number of cells is odd
         const int first = (j + k) & 1;
-        split(sums.data(), layout.half, bytes_[first] + layout.at(j, k), bytes_[1 - first] + layout.at(j, k));
+        const std::size_t at = layout.at(j, k);
+        split(sums.data(), layout.half, bytes_[first] + at, bytes_[1 - first] + at);
+        // The last sixteen cells may reach beyond the row's end, where nothing is solved.
+        for (int colour = 0; colour < 2; ++colour) {
+            std::fill(bytes_[colour] + at + layout.half, bytes_[colour] + at + layout.row, std::uint8_t{0});
+            std::fill(rightSide.colour[colour] + at + layout.half, rightSide.colour[colour] + at + layout.row, 0.0f);
+        }
     });
 }
 
@@ -72,62 +99,98 @@ void PoissonLevel::clearPressure() {
     });
 }
 
-template <bool relaxed>
+void PoissonLevel::clearGhosts() {
+    const auto clear = [&](int j, int k, std::size_t rows) {
+        for (float* values : pressure.colour) std::fill_n(values + layout.at(j, k), rows * layout.row, 0.0f);
+    };
+    for (float* values : pressure.colour) std::fill_n(values, SplitLayout::front, 0.0f);
+    const std::size_t rowsOfSlab = static_cast<std::size_t>(layout.ny) + 2;
+    clear(-1, -1, rowsOfSlab);
+    clear(-1, layout.nz, rowsOfSlab);
+    for (int k = 0; k < layout.nz; ++k) {
+        clear(-1, k, 1);
+        clear(layout.ny, k, 1);
+    }
+}
+
+template <PoissonLevel::Guess guess, bool relaxed>
 void PoissonLevel::sweepRow(int colour, int j, int k, const SplitField& target, const SplitField& source,
                             [[maybe_unused]] float relaxation) const {
     const std::size_t at = layout.at(j, k);
     const Around p = aroundRow(layout, source.colour[1 - colour], colour, j, k);
     const float* f = rightSide.colour[colour] + at;
     float* out = target.colour[colour] + at;
+    const auto step = [&]<typename Number>(const Number& own, const Number& solved) {
+        if constexpr (!relaxed) return solved;
+        if constexpr (guess == Guess::memory) return own + relaxation * (solved - own);
+        return relaxation * solved;
+    };
     if (finest) {
         const std::uint8_t* weights = bytes_[colour] + at;
-        loop(layout.half, [&](std::size_t m) {
-            const float sum = (p.here[m] + p.beside[m]) + (p.below[m] + p.above[m]) + (p.near[m] + p.far[m]);
-            const auto weight = static_cast<float>(weights[m]);
-            const float solved = weight > 0 ? (sum - f[m]) / weight : 0.0f;
-            out[m] = relaxed ? out[m] + relaxation * (solved - out[m]) : solved;
-        });
+        const Reciprocals reciprocals;
+        for (std::size_t m = 0; m < layout.half; m += 16) {
+            const Float16 sum = guess == Guess::zero ? Float16{} : p.sixteen(m);
+            const Float16 solved = (sum - load<Float16>(f + m)) * reciprocals.of(weights + m);
+            store(out + m, step(load<Float16>(out + m), solved));
+        }
     } else {
         const float* weights = sum_.colour[colour] + at;
         const Around w = facesOfRow(layout, faces_, colour, j, k);
         loop(layout.half, [&](std::size_t m) {
-            const float sum = (w.here[m] * p.here[m] + w.beside[m] * p.beside[m]) +
-                              (w.below[m] * p.below[m] + w.above[m] * p.above[m]) +
-                              (w.near[m] * p.near[m] + w.far[m] * p.far[m]);
+            const float sum = guess == Guess::zero ? 0.0f
+                                                   : (w.here[m] * p.here[m] + w.beside[m] * p.beside[m]) +
+                                                         (w.below[m] * p.below[m] + w.above[m] * p.above[m]) +
+                                                         (w.near[m] * p.near[m] + w.far[m] * p.far[m]);
             const float solved = weights[m] > 0 ? (sum - f[m]) / weights[m] : 0.0f;
-            out[m] = relaxed ? out[m] + relaxation * (solved - out[m]) : solved;
+            out[m] = step(out[m], solved);
         });
     }
+    if constexpr (guess != Guess::memory) std::fill(out + layout.half, out + layout.row, 0.0f);
 }
 
-void PoissonLevel::smooth(float relaxation) {
-    const auto sweepSlab = [&](int colour, int k) {
-        if (colour == 1 && relaxation != 1)
-            for (int j = 0; j < layout.ny; ++j) sweepRow<true>(colour, j, k, pressure, pressure, relaxation);
+void PoissonLevel::sweepRed(bool fromZero, int k) {
+    for (int j = 0; j < layout.ny; ++j)
+        fromZero ? sweepRow<Guess::zero, false>(0, j, k, pressure, pressure)
+                 : sweepRow<Guess::memory, false>(0, j, k, pressure, pressure);
+}
+
+void PoissonLevel::sweepBlack(bool fromZero, float relaxation, int k) {
+    for (int j = 0; j < layout.ny; ++j)
+        if (relaxation == 1)
+            fromZero ? sweepRow<Guess::ownZero, false>(1, j, k, pressure, pressure)
+                     : sweepRow<Guess::memory, false>(1, j, k, pressure, pressure);
         else
-            for (int j = 0; j < layout.ny; ++j) sweepRow<false>(colour, j, k, pressure, pressure);
-    };
-    // Black follows red a slab behind, while both are in the cache. Blocks meet at slabs whose red cells come first of
-    // all: each black cell then finds its six red neighbours done, and no red one a black that is new.
-    const auto nz = static_cast<std::size_t>(layout.nz);
-    const std::size_t slabs = std::max<std::size_t>(4, 16384 / (layout.cells() / nz));
-    parallel::forEachBlock(nz, slabs, [&](std::size_t first, std::size_t count) {
-        sweepSlab(0, static_cast<int>(first));
-        if (count > 1) sweepSlab(0, static_cast<int>(first + count - 1));
-    });
-    parallel::forEachBlock(nz, slabs, [&](std::size_t first, std::size_t count) {
-        const int begin = static_cast<int>(first), last = static_cast<int>(first + count) - 1;
-        for (int k = begin; k <= last; ++k) {
-            if (k + 1 < last) sweepSlab(0, k + 1);
-            sweepSlab(1, k);
+            fromZero ? sweepRow<Guess::ownZero, true>(1, j, k, pressure, pressure, relaxation)
+                     : sweepRow<Guess::memory, true>(1, j, k, pressure, pressure, relaxation);
+}
+
+float PoissonLevel::smooth(const Pass& pass) {
+    if (pass.fromZero) clearGhosts();
+    // Number 0 is the correction, then red and black take turns. A restriction takes two slabs at once, and so stays a
+    // slab farther behind.
+    const std::size_t halfSweeps = 2 * pass.relaxations.size();
+    const std::size_t stages = halfSweeps + (pass.restriction != nullptr ? 3 : 1);
+    const std::size_t blocks = layout.cells() < fewCells ? 1 : 2 * parallel::threadCount();
+    std::atomic<float> most{0};
+    parallel::forStages(static_cast<std::size_t>(layout.nz), stages, blocks, [&](std::size_t stage, std::size_t slab) {
+        const int k = static_cast<int>(slab);
+        if (stage == 0) {
+            if (pass.correction != nullptr) addToBlack(*pass.correction, k);
+        } else if (stage <= halfSweeps) {
+            const bool fromZero = pass.fromZero && stage <= 2;
+            const float relaxation = pass.relaxations[(stage - 1) / 2];
+            stage % 2 == 1 ? sweepRed(fromZero, k) : sweepBlack(fromZero, relaxation, k);
+        } else if (stage == halfSweeps + 2 && (k % 2 == 1 || k + 1 == layout.nz)) {
+            maximum(most, restrictTo(*pass.restriction, k));
         }
     });
+    return most;
 }
 
 void PoissonLevel::jacobi(const SplitField& other) {
     forRows(layout, [&](int j, int k) {
-        sweepRow<false>(0, j, k, other, pressure);
-        sweepRow<false>(1, j, k, other, pressure);
+        sweepRow<Guess::memory, false>(0, j, k, other, pressure);
+        sweepRow<Guess::memory, false>(1, j, k, other, pressure);
     });
 }
 
@@ -142,14 +205,16 @@ float PoissonLevel::rowResidual(int colour, int j, int k, float* out) const {
     const auto magnitude = [](float r) { return std::bit_cast<std::int32_t>(r) & 0x7fffffff; };
     if (finest) {
         const std::uint8_t* weights = bytes_[colour] + at;
-#pragma GCC ivdep
-        for (std::size_t m = 0; m < layout.half; ++m) {
-            const float sum = (p.here[m] + p.beside[m]) + (p.below[m] + p.above[m]) + (p.near[m] + p.far[m]);
-            const auto weight = static_cast<float>(weights[m]);
-            const float r = weight > 0 ? f[m] - (sum - weight * own[m]) : 0.0f;
-            if constexpr (keep) out[m] += r;
-            most = std::max(most, magnitude(r));
+        Int16 greatest{};
+        for (std::size_t m = 0; m < layout.half; m += 16) {
+            const Float16 weight = __builtin_convertvector(widened(weights + m), Float16);
+            const Float16 r = load<Float16>(f + m) - (p.sixteen(m) - weight * load<Float16>(own + m));
+            const Int16 bits = weight > 0 ? std::bit_cast<Int16>(r) : Int16{};
+            if constexpr (keep) store(out + m, load<Float16>(out + m) + std::bit_cast<Float16>(bits));
+            const Int16 size = bits & 0x7fffffff;
+            greatest = size > greatest ? size : greatest;
         }
+        for (int lane = 0; lane < 16; ++lane) most = std::max(most, greatest[lane]);
     } else {
         const float* weights = sum_.colour[colour] + at;
         const Around w = facesOfRow(layout, faces_, colour, j, k);
@@ -168,15 +233,11 @@ float PoissonLevel::rowResidual(int colour, int j, int k, float* out) const {
 
 template float PoissonLevel::rowResidual<true>(int colour, int j, int k, float* out) const;  // poisson_transfer.cpp
 
-float PoissonLevel::redResidual() const {
-    std::atomic<float> most{0};
-    forRows(layout, [&](int j, int k) { maximum(most, rowResidual<false>(0, j, k, nullptr)); });
-    return most;
-}
-
 float PoissonLevel::residual() const {
-    std::atomic<float> most{redResidual()};
-    forRows(layout, [&](int j, int k) { maximum(most, rowResidual<false>(1, j, k, nullptr)); });
+    std::atomic<float> most{0};
+    forRows(layout, [&](int j, int k) {
+        for (int colour = 0; colour < 2; ++colour) maximum(most, rowResidual<false>(colour, j, k, nullptr));
+    });
     return most;
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "methods/shared/fluid/cell_field.h"
 #include "methods/shared/fluid/split_rows.h"
@@ -23,19 +24,25 @@ class PoissonLevel {
     void buildFrom(const PoissonLevel& finer);
 
     void clearPressure();
-    /// One Gauss-Seidel sweep: red, then black, which step `relaxation` times as far (relaxation.h).
-    void smooth(float relaxation = 1);
+    /// What is done in one pass through memory, in this order.
+    struct Pass {
+        /// The pressure is zero before, whatever is in memory; at least one sweep follows.
+        bool fromZero = false;
+        /// Its solution (fillNatural) is added, interpolated and overcorrected, to the black cells. The red ones follow
+        /// with the next sweep.
+        const PoissonLevel* correction = nullptr;
+        /// Gauss-Seidel sweeps: red cells, then black ones, which step so many times as far (relaxation.h).
+        std::span<const float> relaxations;
+        /// The sums of the residuals over each coarse cell become its right side. Those of red cells alone: black ones
+        /// have none after a sweep that is not relaxed.
+        PoissonLevel* restriction = nullptr;
+    };
+    /// Max |f − Ap| where there is a restriction.
+    float smooth(const Pass& pass);
     /// One Jacobi sweep, from `pressure` to `other`.
     void jacobi(const SplitField& other);
-    /// Max |f − Ap| over red cells. After `smooth`, not relaxed, black ones have no residual.
-    [[nodiscard]] float redResidual() const;
-    /// The same, and the sums of residuals over each coarse cell become the coarse right side.
-    float restrictTo(PoissonLevel& coarse) const;
     /// Max |f − Ap| over all cells.
     [[nodiscard]] float residual() const;
-    /// Adds the coarse solution, interpolated and overcorrected, to the black cells. The red ones follow with the next
-    /// sweep.
-    void addToBlack(const PoissonLevel& coarse);
     /// Brings `pressure` into the order of cells, ghosts mirrored at walls and sign-reversed at open sides.
     void fillNatural(const std::uint8_t (&openSides)[6]);
 
@@ -51,9 +58,17 @@ class PoissonLevel {
     using FaceRow = std::array<float, 4100>;
     /// Adds the weights of the faces behind the cells of a row; along x also that before the first.
     void readFaces(int axis, int j, int k, FaceRow& row) const;
-    template <bool relaxed>
+    /// A row's pressure before a sweep: that of its memory, zero for it and its neighbours, or zero for itself alone.
+    enum class Guess { memory, zero, ownZero };
+    template <Guess guess, bool relaxed>
     void sweepRow(int colour, int j, int k, const SplitField& target, const SplitField& source,
                   float relaxation = 1) const;
+    void sweepRed(bool fromZero, int k);
+    void sweepBlack(bool fromZero, float relaxation, int k);
+    void clearGhosts();
+    void addToBlack(const PoissonLevel& coarse, int k);
+    /// Into the coarse slab of which fine slab `k` is the last; max |f − Ap| over the red cells of its slabs.
+    float restrictTo(PoissonLevel& coarse, int k) const;
     template <bool keep>
     float rowResidual(int colour, int j, int k, float* out) const;
 

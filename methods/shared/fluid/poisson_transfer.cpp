@@ -89,31 +89,26 @@ void PoissonLevel::buildFrom(const PoissonLevel& finer) {
     });
 }
 
-float PoissonLevel::restrictTo(PoissonLevel& coarse) const {
-    std::atomic<float> most{0};
+float PoissonLevel::restrictTo(PoissonLevel& coarse, int lastK) const {
     const SplitLayout& to = coarse.layout;
-    const std::size_t coarseBlock = std::max<std::size_t>(1, layout.rowsInABlock() / 4);
-    parallel::forEachBlock(to.rows(), coarseBlock, [&](std::size_t first, std::size_t count) {
-        float sums[2049];
-        float greatest = 0;
-        for (std::size_t r = first; r < first + count; ++r) {
-            const int J = to.rowJ(r), K = to.rowK(r);
-            std::fill_n(sums, layout.half + 1, 0.0f);
-            // The red cell of fine columns 2I and 2I + 1 is number I of its row, whatever the row.
-            for (int k = 2 * K; k < std::min(2 * K + 2, layout.nz); ++k)
-                for (int j = 2 * J; j < std::min(2 * J + 2, layout.ny); ++j)
-                    greatest = std::max(greatest, rowResidual<true>(0, j, k, sums));
-            const int firstColour = (J + K) & 1;
-            float* even = coarse.rightSide.colour[firstColour] + to.at(J, K);
-            float* odd = coarse.rightSide.colour[1 - firstColour] + to.at(J, K);
-            loop(to.half, [&](std::size_t m) {
-                even[m] = sums[2 * m];
-                odd[m] = sums[2 * m + 1];
-            });
-        }
-        maximum(most, greatest);
-    });
-    return most;
+    const int K = lastK / 2;
+    float greatest = 0;
+    for (int J = 0; J < to.ny; ++J) {
+        float sums[2064];
+        std::fill_n(sums, layout.row, 0.0f);
+        // The red cell of fine columns 2I and 2I + 1 is number I of its row, whatever the row.
+        for (int k = 2 * K; k <= lastK; ++k)
+            for (int j = 2 * J; j < std::min(2 * J + 2, layout.ny); ++j)
+                greatest = std::max(greatest, rowResidual<true>(0, j, k, sums));
+        const int firstColour = (J + K) & 1;
+        float* even = coarse.rightSide.colour[firstColour] + to.at(J, K);
+        float* odd = coarse.rightSide.colour[1 - firstColour] + to.at(J, K);
+        loop(to.half, [&](std::size_t m) {
+            even[m] = sums[2 * m];
+            odd[m] = sums[2 * m + 1];
+        });
+    }
+    return greatest;
 }
 
 void PoissonLevel::fillNatural(const std::uint8_t (&openSides)[6]) {
@@ -172,11 +167,11 @@ void PoissonLevel::fillNatural(const std::uint8_t (&openSides)[6]) {
     }
 }
 
-void PoissonLevel::addToBlack(const PoissonLevel& coarse) {
+void PoissonLevel::addToBlack(const PoissonLevel& coarse, int k) {
     const CellLayout& from = coarse.cells_;
     constexpr float nearest = overcorrection * 0.75f * 0.75f, near = overcorrection * 0.75f * 0.25f,
                     far = overcorrection * 0.25f * 0.25f;
-    forRows(layout, [&](int j, int k) {
+    for (int j = 0; j < layout.ny; ++j) {
         const int besideJ = (j >> 1) + ((j & 1) != 0 ? 1 : -1), besideK = (k >> 1) + ((k & 1) != 0 ? 1 : -1);
         const float* a = coarse.natural_ + from.at(-1, j >> 1, k >> 1);
         const float* b = coarse.natural_ + from.at(-1, besideJ, k >> 1);
@@ -204,7 +199,7 @@ void PoissonLevel::addToBlack(const PoissonLevel& coarse) {
                 p[m] = weights[m] > 0 ? p[m] + more : p[m];
             });
         }
-    });
+    }
 }
 
 }  // namespace dustbench::fluid

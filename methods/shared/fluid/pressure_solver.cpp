@@ -12,10 +12,12 @@ namespace {
 
 constexpr std::size_t fewCells = 64;  ///< so many are solved exactly
 
-template <std::size_t sweeps>
-void smooth(PoissonLevel& level, const std::array<float, sweeps>& relaxations) {
-    for (const float relaxation : relaxations) level.smooth(relaxation);
-}
+/// The sweeps after one cycle, and those before the next.
+constexpr std::array relaxationsBetween = [] {
+    std::array<float, relaxationsAfter.size() + relaxationsBefore.size()> both{};
+    std::ranges::copy(relaxationsBefore, std::ranges::copy(relaxationsAfter, both.begin()).out);
+    return both;
+}();
 
 }  // namespace
 
@@ -92,20 +94,17 @@ void PressureSolver::solveCoarsest() {
             for (int i = 0; i < at.nx; ++i) level.pressure.cell(at, i, j, k) = static_cast<float>(*value++);
 }
 
-void PressureSolver::correctFrom(std::size_t coarse) {
-    cycle(coarse);
-    levels_[coarse]->fillNatural(openSides_);
-    levels_[coarse - 1]->addToBlack(*levels_[coarse]);
-}
-
 void PressureSolver::cycle(std::size_t number) {
-    if (number + 1 == levels_.size()) return solveCoarsest();
     PoissonLevel& level = *levels_[number];
-    level.clearPressure();
-    smooth(level, relaxationsBefore);
-    level.restrictTo(*levels_[number + 1]);
-    correctFrom(number + 1);
-    smooth(level, relaxationsAfter);
+    if (number + 1 == levels_.size()) {
+        solveCoarsest();
+    } else {
+        PoissonLevel& coarse = *levels_[number + 1];
+        level.smooth({.fromZero = true, .relaxations = relaxationsBefore, .restriction = &coarse});
+        cycle(number + 1);
+        level.smooth({.correction = &coarse, .relaxations = relaxationsAfter});
+    }
+    level.fillNatural(openSides_);
 }
 
 float PressureSolver::balanceClosedRegions() {
@@ -129,6 +128,7 @@ float PressureSolver::balanceClosedRegions() {
 
 PressureResult PressureSolver::sweepJacobi(const PressureRule& rule) {
     PoissonLevel& level = finest();
+    level.clearPressure();
     std::fill_n(other_.colour[0], level.layout.size(), 0.0f);
     std::fill_n(other_.colour[1], level.layout.size(), 0.0f);
     for (int sweep = 0; sweep < rule.jacobiSweeps; ++sweep) {
@@ -144,19 +144,18 @@ PressureResult PressureSolver::sweepJacobi(const PressureRule& rule) {
 PressureResult PressureSolver::solve(const PressureRule& rule) {
     PoissonLevel& level = finest();
     const float unremovable = closed_.empty() ? 0 : balanceClosedRegions();
-    level.clearPressure();
     PressureResult result;
     if (rule.method == PressureMethod::jacobi) {
         result = sweepJacobi(rule);
     } else {
         // The sweeps after one cycle are those before the next: the residual that is restricted tells when to end.
-        smooth(level, relaxationsBefore);
-        for (;; ++result.cycles) {
-            result.residual = level.restrictTo(*levels_[1]);
-            if (result.residual <= rule.tolerance || result.cycles == rule.mostCycles) break;
-            correctFrom(1);
-            smooth(level, relaxationsAfter);
-            smooth(level, relaxationsBefore);
+        PoissonLevel& coarse = *levels_[1];
+        result.residual = level.smooth({.fromZero = true, .relaxations = relaxationsBefore, .restriction = &coarse});
+        while (!(result.residual <= rule.tolerance) && result.cycles < rule.mostCycles) {
+            cycle(1);
+            result.residual =
+                level.smooth({.correction = &coarse, .relaxations = relaxationsBetween, .restriction = &coarse});
+            ++result.cycles;
         }
     }
     result.unremovable = unremovable;

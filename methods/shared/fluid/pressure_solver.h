@@ -52,7 +52,6 @@ class PressureSolver {
     void factorCoarsest();
     void solveCoarsest();
     void cycle(std::size_t level);
-    void correctFrom(std::size_t coarse);
     float balanceClosedRegions();
     PressureResult sweepJacobi(const PressureRule& rule);
 

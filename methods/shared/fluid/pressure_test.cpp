@@ -1,10 +1,13 @@
 // The pressure and the projection against the equations that they solve.
 #include <gtest/gtest.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "methods/shared/fluid/kernels_test_world.h"
@@ -53,7 +56,7 @@ struct Solved {
 Solved solve(World& world, const PressureRule& rule) {
     fillGhosts(world.from, world.layout, {world.sides, {0.3f, 0, 0}, false}, GhostUse::faces);
     PressureSolver solver(world.layout, world.sides);
-    std::vector<float> memory(solver.floatsNeeded(), 1e30f);
+    std::vector<float> memory(solver.floatsNeeded(), std::numeric_limits<float>::quiet_NaN());
     solver.build(memory, world.solids.conductance());
     gatherDivergence(world.from, world.layout, world.solids.conductance(), solver.finest());
     const PressureResult result = solver.solve(rule);
@@ -73,6 +76,78 @@ TEST(Pressure, MakesTheFacesFreeOfDivergence) {
                 EXPECT_LE(solved.divergence, 1.5e-4f + solved.result.unremovable) << cells.x << " share " << share;
                 EXPECT_LE(solved.result.cycles, share < 0.1 ? 6 : 15) << cells.x << " share " << share;
             }
+}
+
+/// Gauss-Seidel as it is written down: cell by cell, red and then black, from a pressure of zero.
+std::vector<float> sweptPressure(const World& world, const PoissonLevel& level, std::span<const float> relaxations) {
+    const CellLayout& layout = world.layout;
+    const std::uint8_t* conductance = world.solids.conductance();
+    std::vector<float> p(layout.padded(), 0.0f);
+    for (const float relaxation : relaxations)
+        for (int colour = 0; colour < 2; ++colour)
+            for (int k = 0; k < layout.nz; ++k)
+                for (int j = 0; j < layout.ny; ++j)
+                    for (int i = (colour + j + k) % 2; i < layout.nx; i += 2) {
+                        const std::size_t at = layout.at(i, j, k);
+                        if (conductance[at] != 1) continue;
+                        float sum = 0, weights = 0;
+                        for (const std::size_t step : {std::size_t{1}, layout.row, layout.slab})
+                            for (const std::size_t other : {at - step, at + step}) {
+                                sum += static_cast<float>(conductance[other]) * p[other];
+                                weights += conductance[other];
+                            }
+                        const float f = level.rightSide.cell(level.layout, i, j, k);
+                        const float solved = weights > 0 ? (sum - f) / weights : 0.0f;
+                        p[at] += (colour == 1 ? relaxation : 1) * (solved - p[at]);
+                    }
+    return p;
+}
+
+TEST(Pressure, AllSweepsOfAPassAreThoseOneAfterTheOther) {
+    for (const glm::ivec3 cells : {glm::ivec3(33, 21, 64), glm::ivec3(64, 9, 33), glm::ivec3(20, 5, 4)})
+        for (const int threads : {1, 2, 4}) {
+            World world(cells, openOverFloor);
+            world.fillRandom(1);
+            world.setRandomSolids(0.1);
+            PressureSolver solver(world.layout, world.sides);
+            std::vector<float> memory(solver.floatsNeeded(), std::numeric_limits<float>::quiet_NaN());
+            solver.build(memory, world.solids.conductance());
+            PoissonLevel& level = solver.finest();
+            gatherDivergence(world.from, world.layout, world.solids.conductance(), level);
+            std::vector<float> coarseMemory(1 << 20);
+            Arena arena(coarseMemory);
+            PoissonLevel coarse((cells + 1) / 2, false, arena);
+            constexpr std::array relaxations{1.6f, 1.2f, 1.0f};
+            float residual = 0;
+            tbb::task_arena(threads).execute([&] {
+                residual = level.smooth({.fromZero = true, .relaxations = relaxations, .restriction = &coarse});
+            });
+            const std::vector<float> swept = sweptPressure(world, level, relaxations);
+            for (int k = 0; k < cells.z; ++k)
+                for (int j = 0; j < cells.y; ++j)
+                    for (int i = 0; i < cells.x; ++i)
+                        ASSERT_NEAR(level.pressure.cell(level.layout, i, j, k), swept[world.layout.at(i, j, k)], 1e-5);
+            EXPECT_NEAR(residual, level.residual(), 1e-5);
+            // Each residual is in one coarse cell.
+            const auto residualOf = [&](int i, int j, int k) {
+                const std::size_t at = world.layout.at(i, j, k);
+                if (world.solids.conductance()[at] != 1) return 0.0f;
+                float r = level.rightSide.cell(level.layout, i, j, k);
+                for (const std::size_t step : {std::size_t{1}, world.layout.row, world.layout.slab})
+                    for (const std::size_t other : {at - step, at + step})
+                        r -= static_cast<float>(world.solids.conductance()[other]) * (swept[other] - swept[at]);
+                return r;
+            };
+            for (int k = 0; k < cells.z; k += 2)
+                for (int j = 0; j < cells.y; j += 2)
+                    for (int i = 0; i < cells.x; i += 2) {
+                        float sum = 0;
+                        for (int z = k; z < std::min(k + 2, cells.z); ++z)
+                            for (int y = j; y < std::min(j + 2, cells.y); ++y)
+                                for (int x = i; x < std::min(i + 2, cells.x); ++x) sum += residualOf(x, y, z);
+                        ASSERT_NEAR(coarse.rightSide.cell(coarse.layout, i / 2, j / 2, k / 2), sum, 1e-4);
+                    }
+        }
 }
 
 TEST(Projection, TakesOffHalfTheDifferenceOfTheNeighboursPressures) {
