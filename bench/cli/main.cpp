@@ -21,7 +21,8 @@ std::string oneLine(std::string message) {
 }
 
 int run(const std::vector<std::string>& argv) {
-    if (!argv.empty() && argv.front() == childCommandName) return measureRunCommand(argv);
+    if (!argv.empty() && argv.front() == measureRunName) return measureRunCommand(argv);
+    if (!argv.empty() && argv.front() == forecastRunName) return forecastRunCommand(argv);
     return dispatch({listCommand(), envCommand(), runCommand(), compareCommand(), suiteCommand(), mergeCommand(),
                      reproduceCommand(), reportCommand(), exportCommand(), diffCommand()},
                     "dustbench " + bench::buildFacts().version, argv);

@@ -1,23 +1,34 @@
-// The process of one run: measures and leaves the run's files; tells its parent on stdout how far it is.
+// The process of one run: measures and leaves the run's files; tells its parent on stdout how far it is. Or begins it
+// only, and tells how long it would take.
 #include <unistd.h>
 
 #include <chrono>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/results/results_folder.h"
 #include "bench/run/measured_run.h"
+#include "bench/run/plan_forecast.h"
+#include "bench/run/run_forecast.h"
 #include "methods/shared/errors.h"
 
 namespace dustbench::cli {
+namespace {
+
+bench::RunSpec specOf(const std::vector<std::string>& argv) {
+    if (argv.size() < 4 || argv[3] != "--")
+        throw InputError(argv[0] + ": got other arguments than SPEC FOLDER -- COMMAND");
+    std::ifstream file(argv[1], std::ios::binary);
+    return bench::specFromJson(std::string(std::istreambuf_iterator<char>(file), {}));
+}
+
+}  // namespace
 
 int measureRunCommand(const std::vector<std::string>& argv) {
-    if (argv.size() < 4 || argv[3] != "--")
-        throw InputError(std::string(childCommandName) + ": got other arguments than SPEC FOLDER -- COMMAND");
-    std::ifstream file(argv[1], std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const bench::RunSpec spec = specOf(argv);
     const std::filesystem::path folder = argv[2];
 
     auto lastSaid = std::chrono::steady_clock::now();
@@ -28,9 +39,13 @@ int measureRunCommand(const std::vector<std::string>& argv) {
         const std::string line = std::string(phase) + " " + std::to_string(done) + " " + std::to_string(total) + "\n";
         [[maybe_unused]] const auto written = write(STDOUT_FILENO, line.data(), line.size());
     };
-    const bench::RunRecord record =
-        bench::measureRun(bench::specFromJson(text), folder, {argv.begin() + 4, argv.end()}, progress);
+    const bench::RunRecord record = bench::measureRun(spec, folder, {argv.begin() + 4, argv.end()}, progress);
     bench::writeWhole(folder / "run.json", bench::toJson(record));
+    return exitOk;
+}
+
+int forecastRunCommand(const std::vector<std::string>& argv) {
+    std::cout << bench::forecastLine(bench::forecastRun(specOf(argv), argv[2])) << std::endl;
     return exitOk;
 }
 

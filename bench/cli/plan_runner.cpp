@@ -17,17 +17,21 @@ bench::ExecutionOptions childExecution() {
     bench::ExecutionOptions execution;
     execution.argv = bench::commandLine();
     execution.interrupted = [] { return interrupted(); };
-    execution.command = [argv = execution.argv](const std::filesystem::path& spec,
-                                                const std::filesystem::path& folder) {
-        std::vector<std::string> command{"/proc/self/exe", childCommandName, spec.string(), folder.string(), "--"};
-        command.insert(command.end(), argv.begin(), argv.end());
-        return command;
+    const auto calling = [argv = execution.argv](const char* name) -> bench::ChildCommandLine {
+        return [argv, name](const std::filesystem::path& spec, const std::filesystem::path& folder) {
+            std::vector<std::string> command{"/proc/self/exe", name, spec.string(), folder.string(), "--"};
+            command.insert(command.end(), argv.begin(), argv.end());
+            return command;
+        };
     };
+    execution.command = calling(measureRunName);
+    execution.forecastCommand = calling(forecastRunName);
     return execution;
 }
 
-int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,
-            const PlanOptions& options) {
+namespace {
+
+bench::ExecutionOptions executionOf(const PlanOptions& options) {
     { const gpu::Device mustExist; }
     bench::ExecutionOptions execution = childExecution();
     execution.force = options.force;
@@ -36,6 +40,25 @@ int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::
     execution.timeoutSeconds = options.timeoutSeconds;
     execution.cooldownSeconds = options.cooldownSeconds;
     execution.badInputEnds = options.badInputEnds;
+    execution.forecasts = options.forecasts;
+    return execution;
+}
+
+}  // namespace
+
+bench::PlanForecast forecastRuns(const std::vector<bench::PlannedRun>& plan, bench::ResultsFolder& results,
+                                 PlanOptions& options) {
+    bench::ExecutionOptions execution = executionOf(options);
+    ProgressPrinter printer;
+    bench::PlanForecast forecast = bench::forecastPlan(plan, results, execution, printer);
+    printer.eraseBar();
+    options.forecasts = std::move(execution.forecasts);
+    return forecast;
+}
+
+int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,
+            const PlanOptions& options) {
+    const bench::ExecutionOptions execution = executionOf(options);
     for (const std::string& sentence : results.setAside()) std::cerr << "warning: " << sentence << std::endl;
     ProgressPrinter printer;
     const bench::ExecutionResult result = bench::execute(plan, repetitions, results, execution, printer);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/run/executor.h"
+#include "bench/run/plan_forecast.h"
 
 namespace dustbench::cli {
 
@@ -16,10 +17,15 @@ struct PlanOptions {
     double timeoutSeconds = 0;
     double cooldownSeconds = 0;
     bool badInputEnds = false;
+    bench::Forecasts forecasts{};
 };
 
 /// How this program runs one process a run, for provenance with the user's command; Ctrl-C ends it.
 [[nodiscard]] bench::ExecutionOptions childExecution();
+
+/// Begins each cell of what is left to do and fills in `options.forecasts`. Throws InputError.
+[[nodiscard]] bench::PlanForecast forecastRuns(const std::vector<bench::PlannedRun>& plan,
+                                               bench::ResultsFolder& results, PlanOptions& options);
 
 /// Executes and gives the exit code. Where there is something to run, it makes sure first that OpenGL is there.
 /// Throws InputError.

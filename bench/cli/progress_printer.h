@@ -16,10 +16,11 @@ class ProgressPrinter : public bench::ExecutionListener {
                  double etaSeconds) override;
     void heard(std::string_view line) override;
     void ended(const bench::PlannedRun& run, bench::RunStatus status, const std::string& reason) override;
+    /// Before something else is printed.
+    void eraseBar();
 
  private:
     [[nodiscard]] int terminalWidth() const;
-    void eraseBar();
 
     bool terminal_;
     std::string last_;  ///< what the run said last

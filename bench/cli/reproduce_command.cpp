@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <vector>
 
 #include "bench/claims/claim_ledger.h"
 #include "bench/claims/published_numbers.h"
@@ -15,6 +16,7 @@
 #include "bench/cli/suite_report.h"
 #include "bench/report/page.h"
 #include "bench/report/report_reader.h"
+#include "bench/run/progress.h"
 #include "bench/suite/paper.h"
 #include "bench/suite/suite.h"
 #include "methods/shared/errors.h"
@@ -28,47 +30,108 @@ struct ReproduceOptions {
     bool quick = false, full = false;
 };
 
-int reproduce(const ReproduceOptions& options) {
-    if (options.quick && options.full) throw InputError("--quick and --full: got both, allowed: one of them");
-    std::vector<bench::Paper> papers;
-    for (const std::string& id : options.paper.empty() ? bench::listPapers() : std::vector{options.paper})
-        papers.push_back(bench::loadPaper(id));
+struct SuiteWork {
+    bench::Suite suite;
+    std::vector<bench::PlannedRun> plan;
+    PlanOptions options;
+};
 
-    int code = exitOk;
-    for (const bench::Paper& paper : papers) {
+struct PaperWork {
+    bench::Paper paper;
+    std::unique_ptr<bench::ResultsFolder> results;
+    std::vector<SuiteWork> suites;
+};
+
+/// Reads everything there is to read, so that what is wrong with the last paper shows before the first run.
+std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
+    std::vector<PaperWork> work;
+    for (const std::string& id : options.paper.empty() ? bench::listPapers() : std::vector{options.paper}) {
+        PaperWork& paper = work.emplace_back();
+        paper.paper = bench::loadPaper(id);
+        for (const std::string& suite : paper.paper.suites) {
+            SuiteWork& each = paper.suites.emplace_back();
+            each.suite = bench::loadSuite(suite, options.quick);
+            each.plan = bench::planRuns(each.suite);
+            checkWorlds(each.plan);
+            each.options.timeoutSeconds = each.suite.timeoutSeconds;
+            each.options.cooldownSeconds = each.suite.cooldownSeconds;
+        }
+    }
+    for (PaperWork& paper : work) {
         // Several papers of one call lie side by side.
         std::filesystem::path out = options.out;
-        if (options.out.empty()) out = std::filesystem::path("reports/out") / paper.id;
-        if (!options.out.empty() && options.paper.empty()) out /= paper.id;
-        bench::ResultsFolder results(out);
-        const std::string year = paper.year != 0 ? fmt::format(" ({})", paper.year) : "";
-        std::cout << fmt::format("{}{}: {}\n", paper.authors, year, paper.title);
-        for (const std::string& id : paper.suites) {
-            const bench::Suite suite = bench::loadSuite(id, options.quick);
-            const auto plan = bench::planRuns(suite);
-            checkWorlds(plan);
-            PlanOptions planOptions;
-            planOptions.timeoutSeconds = suite.timeoutSeconds;
-            planOptions.cooldownSeconds = suite.cooldownSeconds;
-            const int suiteCode = runPlan(plan, suite.repetitions, results, planOptions);
-            if (suiteCode == exitAborted) return suiteCode;
-            code = std::max(code, suiteCode);
-            std::cout << "\n" << suiteReport(suite, results.runs()) << std::flush;
+        if (options.out.empty()) out = std::filesystem::path("reports/out") / paper.paper.id;
+        if (!options.out.empty() && options.paper.empty()) out /= paper.paper.id;
+        paper.results = std::make_unique<bench::ResultsFolder>(out);
+    }
+    return work;
+}
+
+/// Says how long all that is left to do will take; false where it was interrupted.
+bool sayHowLong(std::vector<PaperWork>& work) {
+    std::cerr << "estimate: one run of each kind is begun" << std::endl;
+    std::size_t runs = 0;
+    double seconds = 0;
+    for (PaperWork& paper : work)
+        for (SuiteWork& each : paper.suites) {
+            const bench::PlanForecast forecast = forecastRuns(each.plan, *paper.results, each.options);
+            if (forecast.aborted) return false;
+            for (const std::string& warning : forecast.warnings)
+                std::cerr << "warning: " << each.suite.id << ": " << warning << std::endl;
+            std::cerr << fmt::format("    {}: {} runs, {}", each.suite.id, forecast.runs,
+                                     bench::durationText(forecast.seconds))
+                      << std::endl;
+            runs += forecast.runs;
+            seconds += forecast.seconds;
         }
-        std::vector<bench::Finding> findings;
-        for (const std::string& id : paper.experiments)
-            std::ranges::move(bench::runExperiment(id), std::back_inserter(findings));
-        if (!findings.empty()) bench::writeWhole(results.path() / "experiments.csv", bench::findingsCsv(findings));
-        const auto summary = files::CsvTable::parseFile(results.path() / "summary.csv");
-        if (const std::string numbers = publishedReport(bench::tabulatePublished(paper.id, summary)); !numbers.empty())
-            std::cout << "\n" << numbers;
-        const auto claims = bench::judgeClaims(paper.id, summary, findings);
-        bench::writeWhole(results.path() / "claims.csv", bench::claimsCsv(claims));
-        std::cout << "\n" << claimsReport(claims);
-        for (const char* file : {"summary.csv", "experiments.csv", "claims.csv"})
-            if (std::filesystem::exists(results.path() / file)) std::cout << (results.path() / file).string() << "\n";
-        const bench::ReportData report = bench::readReport(results.path(), bench::defaultPictureBytes);
-        std::cout << bench::writePage(results.path(), report).string() << "  (open it in a browser)\n";
+    std::cerr << fmt::format("estimate: {} for {} runs; the papers' small experiments after them are not counted",
+                             bench::durationText(seconds), runs)
+              << std::endl;
+    return true;
+}
+
+/// Runs, tables, verdicts and the page of one paper.
+int reproducePaper(const PaperWork& work) {
+    const bench::Paper& paper = work.paper;
+    bench::ResultsFolder& results = *work.results;
+    const std::string year = paper.year != 0 ? fmt::format(" ({})", paper.year) : "";
+    std::cout << fmt::format("{}{}: {}\n", paper.authors, year, paper.title);
+    int code = exitOk;
+    for (const SuiteWork& each : work.suites) {
+        const int suiteCode = runPlan(each.plan, each.suite.repetitions, results, each.options);
+        if (suiteCode == exitAborted) return suiteCode;
+        code = std::max(code, suiteCode);
+        std::cout << "\n" << suiteReport(each.suite, results.runs()) << std::flush;
+    }
+    std::vector<bench::Finding> findings;
+    for (const std::string& id : paper.experiments)
+        std::ranges::move(bench::runExperiment(id), std::back_inserter(findings));
+    if (!findings.empty()) bench::writeWhole(results.path() / "experiments.csv", bench::findingsCsv(findings));
+    const auto summary = files::CsvTable::parseFile(results.path() / "summary.csv");
+    if (const std::string numbers = publishedReport(bench::tabulatePublished(paper.id, summary)); !numbers.empty())
+        std::cout << "\n" << numbers;
+    const auto claims = bench::judgeClaims(paper.id, summary, findings);
+    bench::writeWhole(results.path() / "claims.csv", bench::claimsCsv(claims));
+    std::cout << "\n" << claimsReport(claims);
+    for (const char* file : {"summary.csv", "experiments.csv", "claims.csv"})
+        if (std::filesystem::exists(results.path() / file)) std::cout << (results.path() / file).string() << "\n";
+    const bench::ReportData report = bench::readReport(results.path(), bench::defaultPictureBytes);
+    std::cout << bench::writePage(results.path(), report).string() << "  (open it in a browser)\n";
+    return code;
+}
+
+int reproduce(const ReproduceOptions& options) {
+    if (options.quick && options.full) throw InputError("--quick and --full: got both, allowed: one of them");
+    std::vector<PaperWork> work = gatherWork(options);
+    if (!options.quick && !sayHowLong(work)) {
+        std::cerr << "aborted before the first run" << std::endl;
+        return exitAborted;
+    }
+    int code = exitOk;
+    for (const PaperWork& paper : work) {
+        const int paperCode = reproducePaper(paper);
+        if (paperCode == exitAborted) return paperCode;
+        code = std::max(code, paperCode);
     }
     return code;
 }
@@ -83,7 +146,8 @@ Command reproduceCommand() {
                 arguments.text("--paper", "ID", "carr2006 …: a folder of data/papers; all of them unless given",
                                options->paper);
                 arguments.flag("--quick", "the suites' short forms: minutes instead of hours", options->quick);
-                arguments.flag("--full", "the whole suites (as without --quick)", options->full);
+                arguments.flag("--full", "the whole suites (as without --quick); says first how long they will take",
+                               options->full);
                 arguments.text("--out", "DIR", "folder for the results; reports/out/<paper> unless given",
                                options->out);
             },

@@ -138,12 +138,18 @@ Outcome runOne(const PlannedRun& run, ResultsFolder& results, const ExecutionOpt
 
 }  // namespace
 
+std::vector<const PlannedRun*> runsToDo(const std::vector<PlannedRun>& plan, const ResultsFolder& results,
+                                        const ExecutionOptions& options) {
+    ExecutionResult counts;
+    return chooseRuns(plan, results, options, counts);
+}
+
 ExecutionResult execute(const std::vector<PlannedRun>& plan, int repetitions, ResultsFolder& results,
                         const ExecutionOptions& options, ExecutionListener& listener) {
     using Clock = std::chrono::steady_clock;
     ExecutionResult result;
     const std::vector<const PlannedRun*> toDo = chooseRuns(plan, results, options, result);
-    RemainingTime remaining(toDo);
+    RemainingTime remaining(toDo, options.forecasts, options.cooldownSeconds);
     for (const PlannedRun* run : toDo) {
         listener.started(static_cast<std::size_t>(run - plan.data()) + 1, plan.size(), *run, repetitions,
                          remaining.seconds());

@@ -12,6 +12,7 @@
 
 #include "bench/results/results_folder.h"
 #include "bench/results/run_record.h"
+#include "bench/run/forecasts.h"
 #include "bench/suite/suite.h"
 
 namespace dustbench::bench {
@@ -28,6 +29,9 @@ class ExecutionListener {
     virtual void ended(const PlannedRun& /*run*/, RunStatus /*status*/, const std::string& /*reason*/) {}
 };
 
+using ChildCommandLine =
+    std::function<std::vector<std::string>(const std::filesystem::path& spec, const std::filesystem::path& folder)>;
+
 struct ExecutionOptions {
     bool force = false;         ///< do again what is there
     bool retryFailed = false;   ///< do again what failed or ran out of time
@@ -36,8 +40,11 @@ struct ExecutionOptions {
     double cooldownSeconds = 0;     ///< of rest before each run but the first
     std::vector<std::string> argv;  ///< the user's command, for provenance
     /// The command that measures one run: it reads the specification and leaves a run's files in the folder.
-    std::function<std::vector<std::string>(const std::filesystem::path& spec, const std::filesystem::path& folder)>
-        command;
+    ChildCommandLine command;
+    /// The same, but the run is only begun; it says on stdout what the whole of it will take (plan_forecast.h).
+    ChildCommandLine forecastCommand;
+    /// What is known before the first run.
+    Forecasts forecasts;
     std::function<bool()> interrupted;
     /// Exit code 3 of a run is the user's mistake: nothing is kept and InputError is thrown with the run's last words.
     bool badInputEnds = false;
@@ -52,6 +59,10 @@ struct ExecutionResult {
     std::string whyOutdated{};  ///< the first of them
     bool aborted = false;
 };
+
+/// The parts of the plan that `execute` would do, in order.
+[[nodiscard]] std::vector<const PlannedRun*> runsToDo(const std::vector<PlannedRun>& plan, const ResultsFolder& results,
+                                                      const ExecutionOptions& options);
 
 /// Throws InputError where the disk is full or the folder cannot be written any more: nothing finished is lost, and the
 /// same call goes on once that is mended.

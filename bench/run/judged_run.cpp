@@ -125,7 +125,8 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         ++steps;
         return true;
     };
-    const auto judging = [&](std::string_view, std::int64_t done, std::int64_t of) { progress("metrics", done, of); };
+    const std::int64_t allSteps = preroll + spec.warmup + spec.frames;
+    const auto judging = [&](std::string_view, std::int64_t, std::int64_t) { progress("metrics", steps, allSteps); };
     replay({spec, runner, preroll, spec.frames - 1, stepped, judge, judging});
 
     if (const std::string again = fmt::format("{:016x}", world.stateHash()); again != stateHash)

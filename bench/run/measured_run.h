@@ -12,7 +12,8 @@
 
 namespace dustbench::bench {
 
-/// `phase` is `preroll`, `warmup`, `frames` or `metrics`.
+/// `phase` is `preroll`, `warmup`, `frames` or `metrics`, whose steps are those of all three. Heard before each step,
+/// and once at the end of `frames` and `metrics`.
 using RunProgress = std::function<void(std::string_view phase, std::int64_t done, std::int64_t total)>;
 
 /// Measures and leaves frames.csv, stages.csv, metrics.csv, images/ and volumes/ in `folder`. `argv` is the command the

@@ -2,16 +2,19 @@
 
 namespace dustbench::bench {
 
-RemainingTime::RemainingTime(const std::vector<const PlannedRun*>& toDo) {
+RemainingTime::RemainingTime(const std::vector<const PlannedRun*>& toDo, const Forecasts& forecasts,
+                             double cooldownSeconds) {
     for (const PlannedRun* run : toDo) {
         RunSpec cell = run->spec;
         cell.repetition = 1;
-        cells_.push_back(canonicalKey(cell));
+        const double forecast = forecasts.seconds(run->spec);
+        const double rest = runs_.empty() ? 0 : cooldownSeconds;
+        runs_.push_back({canonicalKey(cell), forecast < 0 ? forecast : forecast + rest});
     }
 }
 
 void RemainingTime::ended(double seconds) {
-    for (Ended* each : {&byCell_[cells_[next_]], &all_}) {
+    for (Ended* each : {&byCell_[runs_[next_].cell], &all_}) {
         each->sum += seconds;
         ++each->count;
     }
@@ -19,11 +22,17 @@ void RemainingTime::ended(double seconds) {
 }
 
 double RemainingTime::seconds() const {
-    if (all_.count == 0) return -1;
     double sum = 0;
-    for (std::size_t run = next_; run < cells_.size(); ++run) {
-        const auto cell = byCell_.find(cells_[run]);
-        sum += cell == byCell_.end() ? all_.mean() : cell->second.mean();
+    for (std::size_t run = next_; run < runs_.size(); ++run) {
+        const auto& [cell, forecast] = runs_[run];
+        if (const auto ended = byCell_.find(cell); ended != byCell_.end())
+            sum += ended->second.mean();
+        else if (forecast >= 0)
+            sum += forecast;
+        else if (all_.count > 0)
+            sum += all_.mean();
+        else
+            return -1;
     }
     return sum;
 }

@@ -263,9 +263,19 @@ class ReportPage(unittest.TestCase):
             with open(file, "w", encoding="utf-8") as stream:
                 stream.write(text)
         out = os.path.join(place, "out")
-        called = subprocess.run([PROGRAM, "reproduce", "--paper", "tiny", "--quick", "--out", out], capture_output=True, text=True,
-                                env=os.environ | {"DUSTBENCH_DATA": data})
-        self.assertEqual(called.returncode, 0, called.stderr)
+        def reproduce(size):
+            called = subprocess.run([PROGRAM, "reproduce", "--paper", "tiny", size, "--out", out], capture_output=True, text=True,
+                                    env=os.environ | {"DUSTBENCH_DATA": data})
+            self.assertEqual(called.returncode, 0, called.stderr)
+            return called
+
+        full = reproduce("--full").stderr
+        self.assertRegex(full.partition("[1/2]")[0], r"estimate: \d+ s for 2 runs")
+        self.assertRegex(full, r"\[1/2\] .* ETA \d+ s")
+        # What is left to do is estimated, which is nothing now.
+        self.assertIn("estimate: 0 s for 0 runs", reproduce("--full").stderr)
+        called = reproduce("--quick")
+        self.assertNotIn("estimate", called.stderr)
         self.assertIn(os.path.join(out, "index.html"), called.stdout)
         self.touch()
         self.browser.open(os.path.join(out, "index.html"))

@@ -1,0 +1,90 @@
+#include "bench/run/plan_forecast.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <optional>
+#include <sstream>
+
+#include "bench/run/child_process.h"
+#include "bench/run/progress.h"
+#include "bench/run/remaining_time.h"
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view lineStart = "forecast ";
+
+std::optional<RunForecast> parseForecast(std::string_view line) {
+    if (!line.starts_with(lineStart)) return {};
+    std::istringstream words{std::string(line.substr(lineStart.size()))};
+    RunForecast forecast;
+    if (!(words >> forecast.measuring >> forecast.judging)) return {};
+    return forecast;
+}
+
+std::string nameOf(const PlannedRun& run) {
+    return run.spec.method + " " + run.spec.scene + (run.label.empty() ? "" : " " + run.label);
+}
+
+}  // namespace
+
+std::string forecastLine(const RunForecast& forecast) {
+    return fmt::format("{}{:.3f} {:.3f}", lineStart, forecast.measuring, forecast.judging);
+}
+
+PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& results, ExecutionOptions& options,
+                          ExecutionListener& listener) {
+    using Clock = std::chrono::steady_clock;
+    const std::vector<const PlannedRun*> toDo = runsToDo(plan, results, options);
+    PlanForecast result;
+    result.runs = toDo.size();
+    // One run of each cell, which is the one with the metrics if any of them has metrics.
+    std::map<std::string, const PlannedRun*> cells;
+    for (const PlannedRun* run : toDo) {
+        RunSpec cell = run->spec;
+        cell.repetition = 1;
+        cell.judging.reset();
+        const PlannedRun*& chosen = cells[canonicalKey(cell)];
+        if (chosen == nullptr || run->spec.judging) chosen = run;
+    }
+    std::size_t begun = 0;
+    for (const auto& [key, run] : cells) {
+        listener.heard(fmt::format("begun {} {}", begun++, cells.size()));
+        const std::string id = runId(run->spec);
+        const fs::path folder = results.beginRun(id);
+        writeWhole(folder / "spec.json", specToJson(run->spec));
+        std::optional<RunForecast> forecast;
+        ChildCommand command;
+        command.argv = options.forecastCommand(folder / "spec.json", folder);
+        command.log = folder / "log.txt";
+        command.timeoutSeconds = options.timeoutSeconds;
+        command.interrupted = options.interrupted;
+        command.onLine = [&](std::string_view line) {
+            if (const auto parsed = parseForecast(line)) forecast = parsed;
+            listener.heard("");
+        };
+        const auto start = Clock::now();
+        const ChildOutcome outcome = runChild(command);
+        results.discard(id);
+        if (outcome.end == ChildOutcome::End::interrupted) {
+            result.aborted = true;
+            return result;
+        }
+        if (!outcome.succeeded() || !forecast) {
+            // The run itself is likely to end in the same way.
+            result.warnings.push_back(nameOf(*run) + ": " + outcome.reason());
+            forecast = RunForecast{std::chrono::duration<double>(Clock::now() - start).count(), 0};
+        } else if (options.timeoutSeconds > 0 && forecast->seconds() > options.timeoutSeconds) {
+            result.warnings.push_back(fmt::format("{}: will take {}, allowed: {}", nameOf(*run),
+                                                  durationText(forecast->seconds()),
+                                                  durationText(options.timeoutSeconds)));
+        }
+        options.forecasts.set(run->spec, *forecast);
+    }
+    if (!toDo.empty()) result.seconds = RemainingTime(toDo, options.forecasts, options.cooldownSeconds).seconds();
+    return result;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,107 @@
+#include "bench/run/run_forecast.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "bench/measure/clock.h"
+#include "bench/measure/image/popping.h"
+#include "bench/run/judged_run.h"
+#include "bench/run/measured_run.h"
+#include "bench/run/thread_limit.h"
+#include "methods/shared/gpu/device.h"
+#include "methods/shared/registry.h"
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+namespace {
+
+/// Frames are begun until both are reached; a run that is shorter ends by itself.
+constexpr std::int64_t fewestFrames = 4;
+constexpr double leastSeconds = 0.3;
+
+/// Thrown out of a run that has gone far enough.
+struct Enough {};
+
+double seconds(std::int64_t nanoseconds) {
+    return 1e-9 * static_cast<double>(nanoseconds);
+}
+
+FramesBegun beginFrames(RunSpec spec, const fs::path& folder) {
+    spec.judging.reset();
+    FramesBegun begun;
+    const double untilCall = secondsSinceProcessStart();
+    const std::int64_t called = steadyNow();
+    std::int64_t first = 0, last = 0, frames = -1;
+    const auto hear = [&](std::string_view phase, std::int64_t, std::int64_t) {
+        if (phase == "preroll") return;
+        last = steadyNow();
+        if (++frames == 0) first = last;
+        if (frames >= fewestFrames && seconds(last - first) >= leastSeconds) throw Enough();
+    };
+    try {
+        (void)measureRun(spec, folder, {}, hear);
+    } catch (const Enough&) {
+    }
+    // A method that cannot take the scene has no frames.
+    begun.untilFrames = untilCall + seconds((frames < 0 ? steadyNow() : first) - called);
+    if (frames > 0) begun.perFrame = seconds(last - first) / static_cast<double>(frames);
+    return begun;
+}
+
+/// The metrics of a run as short as has every kind of frame: plain ones, a moment, the beginning of a stretch.
+MetricsBegun beginMetrics(RunSpec spec, const fs::path& folder, gpu::Device& device) {
+    constexpr std::int64_t moment = 1, stretch = 2, end = 4;
+    spec.warmup = 1;
+    spec.frames = stretch + PoppingSummary::fewestPairs + 1;
+    spec.judging->moments = FrameRange{moment, moment, 1};
+
+    const std::int64_t called = steadyNow();
+    std::map<std::int64_t, double> begins;  // of each frame, since the call
+    const auto hear = [&](std::string_view, std::int64_t step, std::int64_t steps) {
+        const std::int64_t frame = step - (steps - spec.frames);
+        begins[frame] = seconds(steadyNow() - called);
+        if (frame == end) throw Enough();
+    };
+    try {
+        (void)judgeRun(spec, folder, device, {}, hear);
+    } catch (const Enough&) {
+    }
+    return {.untilFrames = begins.at(-1),
+            .perPlainFrame = (begins.at(moment) - begins.at(-1)) / (moment + 1),
+            .perMoment = begins.at(stretch) - begins.at(moment),
+            .perStretchFrame = (begins.at(end) - begins.at(stretch)) / (end - stretch)};
+}
+
+}  // namespace
+
+RunForecast extrapolate(const RunSpec& spec, const FramesBegun& frames, const MetricsBegun& metrics) {
+    RunForecast forecast;
+    forecast.measuring = frames.untilFrames + frames.perFrame * static_cast<double>(spec.warmup + spec.frames);
+    if (!spec.judging) return forecast;
+    const std::vector<std::int64_t> moments = spec.judging->momentsOf(spec.frames);
+    std::int64_t stretch = 0;
+    for (const std::int64_t frame : JudgingPlan::stretchOf(spec.frames))
+        if (!std::ranges::binary_search(moments, frame)) ++stretch;
+    const auto judged = static_cast<std::int64_t>(moments.size());
+    const std::int64_t plain = spec.warmup + spec.frames - judged - stretch;
+    forecast.judging = metrics.untilFrames + metrics.perPlainFrame * static_cast<double>(plain) +
+                       metrics.perMoment * static_cast<double>(judged) +
+                       metrics.perStretchFrame * static_cast<double>(stretch);
+    return forecast;
+}
+
+RunForecast forecastRun(const RunSpec& spec, const fs::path& folder) {
+    const FramesBegun frames = beginFrames(spec, folder);
+    if (!spec.judging || frames.perFrame == 0) return extrapolate(spec, frames, {});
+    MetricsBegun metrics;
+    withThreads(spec.threads, [&] {
+        gpu::Device device;
+        const MethodInfo& info = findMethod(spec.method);
+        const auto method = info.create(resolveParameters(info, spec.parameters).method);
+        if (whyNotJudged(*spec.judging, *method).empty()) metrics = beginMetrics(spec, folder, device);
+    });
+    return extrapolate(spec, frames, metrics);
+}
+
+}  // namespace dustbench::bench
