@@ -27,8 +27,7 @@ struct RowFaces {
           before(beyond(k == 0, -slab)),
           behind(beyond(k + 1 == layout.nz, slab)) {}
 
-    /// Of the ghosts that lie towards `step` where the row is at a side; no cell of fluid conducts 2, so that nothing
-    /// is plain at a wall.
+    /// Towards `step`. A wall conducts 0, so that with 1 expected nothing is plain beside it.
     [[nodiscard]] std::uint8_t beyond(bool atSide, std::ptrdiff_t step) const {
         return atSide && own[step] != 0 ? own[step] : 1;
     }
