@@ -11,11 +11,13 @@
 
 namespace dustbench::bench {
 
+/// What all repetitions of a cell have in common; the first alone is judged.
+[[nodiscard]] std::string cellOf(RunSpec run);
+
 class Forecasts {
  public:
     /// Of all repetitions of a cell.
     void set(const RunSpec& cell, const RunForecast& forecast);
-    [[nodiscard]] bool knows(const RunSpec& run) const;
     /// The metrics count only where the run has them. Negative where nothing is known.
     [[nodiscard]] double seconds(const RunSpec& run) const;
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <map>
 #include <optional>
 #include <sstream>
 
@@ -43,10 +44,7 @@ PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& re
     // One run of each cell, which is the one with the metrics if any of them has metrics.
     std::map<std::string, const PlannedRun*> cells;
     for (const PlannedRun* run : toDo) {
-        RunSpec cell = run->spec;
-        cell.repetition = 1;
-        cell.judging.reset();
-        const PlannedRun*& chosen = cells[canonicalKey(cell)];
+        const PlannedRun*& chosen = cells[cellOf(run->spec)];
         if (chosen == nullptr || run->spec.judging) chosen = run;
     }
     std::size_t begun = 0;
@@ -74,7 +72,7 @@ PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& re
         }
         if (!outcome.succeeded() || !forecast) {
             // The run itself is likely to end in the same way.
-            result.warnings.push_back(nameOf(*run) + ": " + outcome.reason());
+            result.warnings.push_back(nameOf(*run) + ": " + (outcome.succeeded() ? "said nothing" : outcome.reason()));
             forecast = RunForecast{std::chrono::duration<double>(Clock::now() - start).count(), 0};
         } else if (options.timeoutSeconds > 0 && forecast->seconds() > options.timeoutSeconds) {
             result.warnings.push_back(fmt::format("{}: will take {}, allowed: {}", nameOf(*run),

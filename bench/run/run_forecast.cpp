@@ -51,10 +51,11 @@ FramesBegun beginFrames(RunSpec spec, const fs::path& folder) {
 
 /// The metrics of a run as short as has every kind of frame: plain ones, a moment, the beginning of a stretch.
 MetricsBegun beginMetrics(RunSpec spec, const fs::path& folder, gpu::Device& device) {
+    // A second moment behind the end: what goes along up to the last moment does so here.
     constexpr std::int64_t moment = 1, stretch = 2, end = 4;
     spec.warmup = 1;
     spec.frames = stretch + PoppingSummary::fewestPairs + 1;
-    spec.judging->moments = FrameRange{moment, moment, 1};
+    spec.judging->moments = FrameRange{moment, end + 1, end + 1 - moment};
 
     const std::int64_t called = steadyNow();
     std::map<std::int64_t, double> begins;  // of each frame, since the call

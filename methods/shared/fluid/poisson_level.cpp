@@ -86,9 +86,10 @@ void PoissonLevel::build(const CellLayout& cells, const std::uint8_t* conductanc
         const std::size_t at = layout.at(j, k);
         split(sums.data(), layout.half, bytes_[first] + at, bytes_[1 - first] + at);
         // The last sixteen cells may reach beyond the row's end, where nothing is solved.
+        const std::size_t beyond = (16 - layout.half % 16) % 16;
         for (int colour = 0; colour < 2; ++colour) {
-            std::fill(bytes_[colour] + at + layout.half, bytes_[colour] + at + layout.row, std::uint8_t{0});
-            std::fill(rightSide.colour[colour] + at + layout.half, rightSide.colour[colour] + at + layout.row, 0.0f);
+            std::fill_n(bytes_[colour] + at + layout.half, beyond, std::uint8_t{0});
+            std::fill_n(rightSide.colour[colour] + at + layout.half, beyond, 0.0f);
         }
     });
 }
