@@ -28,7 +28,7 @@ void SortingReducer::reduce(const BrickPartition& partition, const Brick& brick,
     sortByDigit(particles, voxels.spare, total, 0);
     sortByDigit(voxels.spare, particles, total, 7);
 
-    voxels.nodes.clear();
+    PlaceBits taken{};
     std::uint32_t count = 0;
     for (std::uint32_t begin = 0; begin < total;) {
         const auto place = static_cast<std::uint32_t>(particles[begin].code());
@@ -39,12 +39,12 @@ void SortingReducer::reduce(const BrickPartition& partition, const Brick& brick,
             if (voxels.masses) mass += rule_.massSquareMetres(particles[end].index());
             if (rule_.wins(particles[end].index(), winner)) winner = particles[end].index();
         }
-        voxels.nodes.setVoxel(place);
+        taken[place / 64] |= std::uint64_t{1} << place % 64;
         if (voxels.masses) voxels.masses[count] = mass;
         particles[count++] = voxelAt(brick, place, winner);
         begin = end;
     }
-    voxels.nodes.complete();
+    voxels.nodes.set(taken);
 }
 
 }  // namespace dustbench::octree_recursive

@@ -24,10 +24,9 @@ class GridReducer {
     octree::VoxelRule rule_;
     /// By place: the best particle's key, none of which is 0; 0: none yet.
     std::array<std::uint64_t, octree::placesInBrick> best_{};
-    std::array<std::uint16_t, octree::placesInBrick> touched_;  ///< places that have one, as they come
-    static constexpr std::size_t words = octree::placesInBrick / 64 + 1;
-    std::array<std::uint64_t, words> taken_{};  ///< a bit for each place that has one
-    std::array<std::uint32_t, words> takenBefore_;
+    static constexpr std::size_t bits = 64 * std::tuple_size_v<octree::PlaceBits>;
+    std::array<std::uint8_t, bits> isTaken_{};    ///< by place: 1 where there is a particle
+    std::array<std::uint16_t, bits + 31> taken_;  ///< the places that have one
     std::array<double, octree::placesInBrick> sums_;
 };
 

@@ -16,6 +16,7 @@
 #include "methods/octree_search/grid_reducer.h"
 #include "methods/octree_search/insertion_builder.h"
 #include "methods/shared/octree/brick_builder.h"
+#include "methods/shared/octree/octree_march_tree.h"
 #include "tests/octree_pair/octree_oracle.h"
 
 namespace dustbench::octree_pair {
@@ -140,6 +141,27 @@ TEST(OctreePair, GivesTheSameVoxelsInEveryWayOfBuilding) {
             ASSERT_TRUE(std::ranges::equal(built.voxels(), first.voxels()));
             ASSERT_TRUE(std::ranges::equal(built.masses(), first.masses()));  // to the last bit
             ASSERT_EQ(built.countNodes(), first.countNodes());
+        }
+    }
+}
+
+TEST(OctreePair, IsMarchedAlikeInEveryWayOfBuilding) {
+    std::mt19937_64 random(40);
+    MemoryLedger ledger;
+    ParticleStore store(ledger);
+    Octree tree(ledger);
+    const auto builders = allBuilders(ledger);
+    for (int set = 0; set < 200; ++set) {
+        const Case made = makeCase(random, 1 + random() % 400, store);
+        SCOPED_TRACE("set " + std::to_string(set) + ": " + described(made, store.size()));
+        octree::OctreeMarchTree marched, first;
+        for (const NamedBuilder& each : builders) {
+            each.builder->build(store, made.lattice, made.settings, tree);
+            std::vector<float> extinctions(tree.voxels().size());
+            for (std::size_t i = 0; i < extinctions.size(); ++i) extinctions[i] = 0.5f + static_cast<float>(i);
+            octree::OctreeMarchTree& march = &each == builders.data() ? first : marched;
+            march.set({made.lattice, tree.blocks(), extinctions, {}});
+            ASSERT_TRUE(std::ranges::equal(march.slots(), first.slots())) << each.name;
         }
     }
 }

@@ -3,49 +3,21 @@
 #include <bit>
 #include <cstring>
 
+#ifdef __BMI2__
+#include <immintrin.h>
+#endif
+
+#include "methods/shared/octree/bits.h"
+
 namespace dustbench::octree {
 namespace {
 
-constexpr std::uint64_t oneInEachByte = 0x0101'0101'0101'0101ull;
-
-/// One bit for each byte that has any: eight cells to the one above them.
+/// A bit for each byte that has any.
 std::uint64_t anyOfEight(std::uint64_t bits) {
     bits |= bits >> 4;
     bits |= bits >> 2;
     bits |= bits >> 1;
-    return ((bits & oneInEachByte) * 0x0102'0408'1020'4080ull) >> 56;
-}
-
-/// The cells above those of eight words.
-std::uint64_t parentsOf(const std::uint64_t* words) {
-    std::uint64_t parents = 0;
-    for (int i = 0; i < 8; ++i) parents |= anyOfEight(words[i]) << 8 * i;
-    return parents;
-}
-
-std::uint32_t bitCount(std::uint64_t bits) {
-    return static_cast<std::uint32_t>(std::popcount(bits));
-}
-
-/// Bit k of eight to byte k.
-std::uint64_t toBytes(std::uint64_t bits) {
-    return ((bits * oneInEachByte & 0x8040'2010'0804'0201ull) + 0x7f7f'7f7f'7f7f'7f7full) >> 7 & oneInEachByte;
-}
-
-/// The bits in each byte.
-std::uint64_t byteCounts(std::uint64_t bits) {
-    bits -= bits >> 1 & 0x5555'5555'5555'5555ull;
-    bits = (bits & 0x3333'3333'3333'3333ull) + (bits >> 2 & 0x3333'3333'3333'3333ull);
-    return (bits + (bits >> 4)) & 0x0f0f'0f0f'0f0f'0f0full;
-}
-
-/// For each byte the sum of those before it.
-std::uint64_t sumsBefore(std::uint64_t bytes) {
-    return (bytes * oneInEachByte) << 8;
-}
-
-std::uint64_t byteOf(std::uint64_t bytes, int k) {
-    return bytes >> 8 * k & 255;
+    return ((bits & 0x0101'0101'0101'0101ull) * 0x0102'0408'1020'4080ull) >> 56;
 }
 
 /// Numbers for the eight slots of a block; the compiler makes of it what vectors the processor has.
@@ -56,9 +28,10 @@ EightSlots bytesOf(std::uint64_t bytes) {
     return bytes >> shifts & 255;
 }
 
-/// `first`, and so many further as each byte of `before` says; 0 where the byte of `present` is 0, not 1.
-EightSlots numbersFrom(std::uint64_t first, std::uint64_t before, std::uint64_t present) {
-    return (first + bytesOf(before)) & -bytesOf(present);
+/// The numbers where `flags` are not 0, else 0.
+EightSlots where(EightSlots flags, EightSlots numbers) {
+    const EightSlots none{};
+    return flags != 0 ? numbers : none;
 }
 
 void writeBlock(NodeBlock& block, EightSlots children, EightSlots voxels) {
@@ -67,26 +40,75 @@ void writeBlock(NodeBlock& block, EightSlots children, EightSlots voxels) {
     std::memcpy(static_cast<void*>(&block), &slots, sizeof(block));
 }
 
+/// Four cells of nine places, one and then the eight finest in it: the fours, and the finest by eights.
+struct FourCells {
+    std::uint32_t own, finest;
+};
+FourCells fourCells(std::uint64_t places) {
+#ifdef __BMI2__
+    return {static_cast<std::uint32_t>(_pext_u64(places, 0x0'0804'0201ull)),
+            static_cast<std::uint32_t>(_pext_u64(places, 0xf'f7fb'fdfeull))};
+#else
+    FourCells cells{};
+    for (int k = 0; k < 4; ++k) {
+        cells.own |= static_cast<std::uint32_t>(places >> 9 * k & 1) << k;
+        cells.finest |= static_cast<std::uint32_t>(places >> (9 * k + 1) & 255) << 8 * k;
+    }
+    return cells;
+#endif
+}
+
+/// At least 57 bits from a place on.
+std::uint64_t bitsFrom(const PlaceBits& bits, std::uint32_t place) {
+    std::uint64_t word;
+    std::memcpy(&word, reinterpret_cast<const char*>(bits.data()) + place / 8, sizeof(word));
+    return word >> place % 8;
+}
+
 }  // namespace
 
+void BrickNodes::set(const PlaceBits& voxels) {
+    sortByLevel(voxels);
+    findNodes();
+}
+
+/// From pre-order to level by level.
+void BrickNodes::sortByLevel(const PlaceBits& voxels) {
+    std::fill_n(voxels_.data(), 8, 0);
+    voxels_[0] = (bitsFrom(voxels, 1) & 1) << 1;
+    std::uint32_t place = 1;
+    for (std::uint32_t third = 8; third < 16; ++third) {
+        voxels_[0] |= (bitsFrom(voxels, ++place) & 1) << third;
+        std::uint64_t second = 0, middle = 0;
+        for (std::uint32_t octant = 0; octant < 8; ++octant) {
+            const std::uint64_t bits = bitsFrom(voxels, ++place);
+            second |= (bits & 1) << octant;
+            const FourCells lower = fourCells(bits >> 1), upper = fourCells(bitsFrom(voxels, place + 37));
+            middle |= std::uint64_t{upper.own << 4 | lower.own} << 8 * octant;
+            voxels_[coarseWords + 8 * (third - 8) + octant] = std::uint64_t{upper.finest} << 32 | lower.finest;
+            place += 72;
+        }
+        voxels_[1] |= second << 8 * (third - 8);
+        voxels_[third] = middle;
+    }
+}
+
 /// Every node: a voxel, or what has one below it. A word holds the children of the eight cells that are one byte of the
-/// word whose number has three bits less. A block for each cell that has children.
-void BrickNodes::complete() {
+/// word whose number has three bits less. A block for each cell whose children are no finest cells.
+void BrickNodes::findNodes() {
     voxelCount_ = 0;
     for (const std::uint64_t word : voxels_) voxelCount_ += bitCount(word);
-    blockCount_ = 0;
     for (std::uint32_t word = 8; word < coarseWords; ++word) {
-        const std::uint64_t above = parentsOf(&voxels_[coarseWords + 8 * (word - 8)]);
+        const std::uint64_t above = whichAreSet(&voxels_[coarseWords + 8 * (word - 8)]);
         nodes_[word] = voxels_[word] | above;
-        blockCount_ += bitCount(above);
     }
-    const std::uint64_t aboveThese = parentsOf(&nodes_[8]);
+    const std::uint64_t aboveThese = whichAreSet(&nodes_[8]);
     nodes_[1] = voxels_[1] | aboveThese;
     const std::uint64_t brickChildren = anyOfEight(nodes_[1]);
     nodes_[0] = voxels_[0] | brickChildren << 8;
     const bool hasChildren = (nodes_[0] & 0xff00) != 0;  // bits 8 to 15
     nodes_[0] |= hasChildren ? 2 : 0;                    // the brick itself, bit 1
-    blockCount_ += bitCount(aboveThese) + bitCount(brickChildren) + (hasChildren ? 1 : 0);
+    blockCount_ = bitCount(aboveThese) + bitCount(brickChildren) + (hasChildren ? 1 : 0);
 }
 
 struct BrickNodes::Writer {
@@ -116,22 +138,15 @@ struct BrickNodes::Writer {
         }
     }
 
-    /// Two levels: the eight children of `location`, and the finest cells in them.
+    /// The eight children of `location`, with the finest cells in each as a family.
     void writeLowest(std::uint32_t location, std::uint32_t block) {
-        const std::uint64_t bits = fine[location - 64];
-        std::uint64_t left = anyOfEight(bits);
-        const std::uint64_t parents = toBytes(left), middle = toBytes(voxels[location]);
-        const std::uint64_t before = sumsBefore(byteCounts(bits) + middle);
+        const std::uint64_t finest = fine[location - 64], own = bitsToBytes(voxels[location]);
+        const std::uint64_t before = sumsBefore(byteCounts(finest) + own);
+        const EightSlots which = bytesOf(finest), isVoxel = bytesOf(own);
+        const EightSlots families = NodeSlot::familyFlag | isVoxel * NodeSlot::ownVoxelFlag | which;
         const std::uint64_t first = nextVoxel + 1;  // in a slot 0 means none
-        writeBlock(blocks[block], numbersFrom(nextBlock, sumsBefore(parents), parents),
-                   numbersFrom(first, before, middle));
-        for (; left != 0; left &= left - 1) {
-            const int octant = std::countr_zero(left);
-            const std::uint64_t cells = toBytes(byteOf(bits, octant));
-            writeBlock(blocks[nextBlock++], EightSlots{},
-                       numbersFrom(first + byteOf(before + middle, octant), sumsBefore(cells), cells));
-        }
-        nextVoxel += bitCount(bits) + bitCount(voxels[location]);
+        writeBlock(blocks[block], where(which, families), where(which | isVoxel, first + bytesOf(before)));
+        nextVoxel += bitCount(finest) + bitCount(voxels[location]);
     }
 };
 

@@ -31,32 +31,22 @@ inline constexpr int brickPlaceBits = 13;
     return code + (code >> 3) + (code >> 6) + (code >> 9) + 1 + brickRise - up;
 }
 
-/// What is at a place.
-struct BrickCell {
-    std::uint16_t bit;          ///< its number in BrickNodes
-    std::uint16_t codeAndRise;  ///< as a CellEntry has them: 12 bits, 4 bits
-};
-inline constexpr std::array<BrickCell, placesInBrick> brickCells = [] {
-    std::array<BrickCell, placesInBrick> cells{};
+/// What a voxel at each place has in its entry: 12 bits of its code, 4 bits of its rise.
+inline constexpr std::array<std::uint16_t, placesInBrick> codeAndRiseOfPlace = [] {
+    std::array<std::uint16_t, placesInBrick> cells{};
     for (std::uint32_t rise = 0; rise <= brickRise; ++rise)
-        for (std::uint32_t code = 0; code < finestInBrick; code += 1u << 3 * rise) {
-            // Location codes below 1024, then those from 4096 on; between lie none.
-            const std::uint32_t location = (finestInBrick | code) >> 3 * rise;
-            cells[placeInBrick(code, rise)] = {static_cast<std::uint16_t>(rise > 0 ? location : location - 3072),
-                                               static_cast<std::uint16_t>(code << 4 | rise)};
-        }
+        for (std::uint32_t code = 0; code < finestInBrick; code += 1u << 3 * rise)
+            cells[placeInBrick(code, rise)] = static_cast<std::uint16_t>(code << 4 | rise);
     return cells;
 }();
 
+/// A bit for each place of a brick.
+using PlaceBits = std::array<std::uint64_t, (placesInBrick + 63) / 64>;
+
 class BrickNodes {
  public:
-    void clear() { voxels_.fill(0); }
-    void setVoxel(std::uint32_t place) {
-        const std::uint32_t bit = brickCells[place].bit;
-        voxels_[bit / 64] |= std::uint64_t{1} << bit % 64;
-    }
-    /// After the last voxel: counts what will be there.
-    void complete();
+    /// From the places that have a voxel.
+    void set(const PlaceBits& voxels);
 
     [[nodiscard]] std::uint32_t voxelCount() const { return voxelCount_; }
     /// Blocks of eight, the one of the brick's own children included.
@@ -70,6 +60,10 @@ class BrickNodes {
 
  private:
     struct Writer;
+
+    void sortByLevel(const PlaceBits& voxels);
+    void findNodes();
+
     // A bit for each cell: words of the coarse ones, then of the finest.
     static constexpr std::uint32_t coarseWords = 16, fineWords = 64;
 

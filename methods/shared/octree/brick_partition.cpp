@@ -19,6 +19,8 @@ constexpr std::size_t leastChunk = 16'384;
 constexpr std::size_t narrowChunk = 32'768;
 /// Particles whose words are made at once, by the vector units, before they are counted.
 constexpr std::size_t stripSize = 1024;
+/// Bins whose particles are counted over all chunks at once.
+constexpr std::size_t binBlock = 512;
 /// Up to this depth bricks are few enough to be bins.
 constexpr int narrowDepth = 8;
 constexpr std::uint32_t wideDigit = 4095;
@@ -117,10 +119,12 @@ void BrickPartition::startBins() {
     }
 }
 
-/// A row of ends for each chunk.
+/// A row of ends for each chunk. Rows begin an odd number of cache lines apart, so that a bin's ends in all of them
+/// find room in the cache side by side.
 std::uint32_t* BrickPartition::holdRuns(std::size_t runs, std::uint32_t bins) {
     runs_ = runs;
-    runStride_ = bins + 1;
+    constexpr std::size_t lineEnds = 16;
+    runStride_ = ((bins + lineEnds) / lineEnds | 1) * lineEnds;
     return ends_.hold(runs_ * runStride_);
 }
 
@@ -139,7 +143,7 @@ void BrickPartition::sortNarrow(const particles::ParticleStore& store, const Cel
         std::array<std::uint32_t, narrowChunk> keys;
         std::uint32_t* const starts = ends + first / narrowChunk * runStride_;
         std::uint32_t* const next = starts + 1;  // how many, then where the next one goes, which ends at the bin's end
-        std::fill_n(starts, runStride_, 0u);
+        std::fill_n(starts, bins + 1, 0u);
         for (std::size_t strip = 0; strip < count; strip += stripSize) {
             const std::size_t here = std::min(stripSize, count - strip);
             makeNarrowKeys(kernel, first + strip, here, brickBins, keys.data() + strip);
@@ -154,19 +158,23 @@ void BrickPartition::sortNarrow(const particles::ParticleStore& store, const Cel
     });
 
     std::uint32_t* const sums = binSums_.hold(bins);
-    std::fill_n(sums, bins, 0u);
-    for (std::size_t run = 0; run < runs_; ++run) {
-        const std::uint32_t* const starts = ends + run * runStride_;
-        for (std::uint32_t bin = 0; bin < bins; ++bin) sums[bin] += starts[bin + 1] - starts[bin];
-    }
+    parallel::forEachBlock(bins, binBlock, [&](std::size_t first, std::size_t count) {
+        std::fill_n(sums + first, count, 0u);
+        for (std::size_t run = 0; run < runs_; ++run) {
+            const std::uint32_t* const starts = ends + run * runStride_ + first;
+            for (std::size_t i = 0; i < count; ++i) sums[first + i] += starts[i + 1] - starts[i];
+        }
+    });
     Brick* const bricks = bricks_.hold(brickBins);
-    brickCount_ = sortedCount_ = 0;
+    std::size_t brickCount = 0;
+    std::uint32_t before = 0;
     for (std::uint32_t bin = 0; bin < brickBins; ++bin) {
-        if (sums[bin] == 0) continue;
-        const auto before = static_cast<std::uint32_t>(sortedCount_);
-        bricks[brickCount_++] = {std::uint64_t{bin} << 3 * brickRise, before, sums[bin], bin};
-        sortedCount_ += sums[bin];
+        bricks[brickCount] = {std::uint64_t{bin} << 3 * brickRise, before, sums[bin], bin};
+        brickCount += sums[bin] > 0 ? 1 : 0;
+        before += sums[bin];
     }
+    brickCount_ = brickCount;
+    sortedCount_ = before;
     collectUpper({.count = sums[brickBins], .bin = brickBins}, kernel);
     clipped_ = static_cast<std::int64_t>(sums[brickBins + 1]);
     if (!allNumbers) checkPositions(store);

@@ -28,7 +28,7 @@ struct Brick {
 
 /// The voxel at a place of a brick.
 [[nodiscard]] inline CellEntry voxelAt(const Brick& brick, std::uint32_t place, std::uint32_t particle) {
-    return CellEntry(brick.code << 28 | std::uint64_t{brickCells[place].codeAndRise} << 24 | particle);
+    return CellEntry(brick.code << 28 | std::uint64_t{codeAndRiseOfPlace[place]} << 24 | particle);
 }
 
 /// How a sorted particle is one word: the first bits of its priority, its place in the brick, its index. Of

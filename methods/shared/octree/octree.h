@@ -29,25 +29,24 @@ class Octree {
         [[nodiscard]] int level() const { return level_; }
         /// Morton code of the first finest cell inside.
         [[nodiscard]] std::uint64_t code() const { return code_; }
-        [[nodiscard]] bool hasVoxel() const { return slot_.voxel != 0; }
+        [[nodiscard]] bool hasVoxel() const { return slot_.hasVoxel(); }
         /// Index into `voxels()`.
         [[nodiscard]] std::uint32_t voxel() const { return slot_.voxel - 1; }
         [[nodiscard]] bool hasChildren() const { return level_ == 0 || slot_.children != 0; }
         /// Whether there is a node for the octant; `child` only where there is.
-        [[nodiscard]] bool hasChild(unsigned octant) const {
-            if (!hasChildren()) return false;
-            const NodeSlot& slot = tree_->blocks_.data()[slot_.children].slots[octant];
-            return slot.voxel != 0 || slot.children != 0;
-        }
+        [[nodiscard]] bool hasChild(unsigned octant) const { return hasChildren() && slotOf(octant).exists(); }
         [[nodiscard]] Cursor child(unsigned octant) const {
             const std::uint64_t below = static_cast<std::uint64_t>(octant) << 3 * (tree_->depth_ - level_ - 1);
-            return {*tree_, tree_->blocks_.data()[slot_.children].slots[octant], level_ + 1, code_ | below};
+            return {*tree_, slotOf(octant), level_ + 1, code_ | below};
         }
 
      private:
         friend class Octree;
         Cursor(const Octree& tree, NodeSlot slot, int level, std::uint64_t code)
             : tree_(&tree), slot_(slot), level_(level), code_(code) {}
+        [[nodiscard]] NodeSlot slotOf(unsigned octant) const {
+            return NodeBlock::childOf(slot_, octant, tree_->blocks_.data());
+        }
 
         const Octree* tree_;
         NodeSlot slot_;
@@ -73,7 +72,8 @@ class Octree {
     [[nodiscard]] std::size_t countNodes() const {
         std::size_t nodes = 0;
         for (const NodeBlock& block : blocks())
-            for (const NodeSlot& slot : block.slots) nodes += slot.voxel != 0 || slot.children != 0 ? 1 : 0;
+            for (const NodeSlot& slot : block.slots)
+                nodes += (slot.exists() ? 1 : 0) + (slot.hasFamily() ? slot.familySize() : 0);
         return nodes;
     }
 

@@ -25,26 +25,27 @@ void OctreeMarchTree::set(const MarchedTree& tree) {
         throw std::invalid_argument(std::to_string(tree.colours.size()) + " colours for " +
                                     std::to_string(tree.extinctionPerMetre.size()) + " voxels");
     queue_.clear();
-    slots_.resize(8 * tree.blocks.size());
-    colours_.resize(tree.colours.empty() ? 0 : slots_.size());
+    slots_.clear();
+    colours_.clear();
+    blocksLeft_ = tree.blocks.size();
     least_ = glm::ivec3(std::numeric_limits<int>::max());
     most_ = glm::ivec3(0);
 
-    if (!tree.blocks.empty()) queue_.push_back({0, 1, glm::ivec3(0), 0, glm::vec3(0)});
+    if (!tree.blocks.empty()) queue_.push_back({NodeSlot{}, 1, glm::ivec3(0), 0, glm::vec3(0)});
     for (std::size_t next = 0; next < queue_.size(); ++next) {
         const Pending pending = queue_[next];  // the queue grows meanwhile
+        slots_.resize(8 * (next + 1));
+        if (!tree.colours.empty()) colours_.resize(slots_.size());
         write(tree, pending, 8 * next);
     }
-    slots_.resize(8 * queue_.size());
-    colours_.resize(tree.colours.empty() ? 0 : slots_.size());
 }
 
 void OctreeMarchTree::write(const MarchedTree& tree, const Pending& pending, std::size_t slot) {
     const int depth = tree.lattice.depth, cells = 1 << (depth - pending.level);
     const float scale = -static_cast<float>(tree.lattice.cellEdgeMetres(depth) * std::numbers::log2e);
     for (int octant = 0; octant < 8; ++octant, ++slot) {
-        const NodeSlot& node = tree.blocks[pending.block].slots[static_cast<std::size_t>(octant)];
-        if (node.voxel == 0 && node.children == 0) {  // as most are
+        const NodeSlot node = NodeBlock::childOf(pending.node, static_cast<std::size_t>(octant), tree.blocks.data());
+        if (!node.exists()) {  // as most are
             slots_[slot] = scale * pending.extinctionPerMetre;
             if (!tree.colours.empty()) colours_[slot] = meanColour(pending.weightedColour, pending.extinctionPerMetre);
             continue;
@@ -52,7 +53,7 @@ void OctreeMarchTree::write(const MarchedTree& tree, const Pending& pending, std
         const glm::ivec3 least = pending.least + cells * glm::ivec3(octant >> 2, octant >> 1 & 1, octant & 1);
         float extinction = pending.extinctionPerMetre;
         glm::vec3 colour = pending.weightedColour;
-        if (node.voxel > 0) {
+        if (node.hasVoxel()) {
             const std::size_t voxel = node.voxel - 1;
             if (voxel >= tree.extinctionPerMetre.size())
                 throw std::invalid_argument("octree node with voxel " + std::to_string(voxel) + " of " +
@@ -66,13 +67,14 @@ void OctreeMarchTree::write(const MarchedTree& tree, const Pending& pending, std
             most_ = glm::max(most_, least + cells);
         }
         if (node.children > 0) {
-            if (node.children >= tree.blocks.size() || queue_.size() >= tree.blocks.size() || pending.level == depth)
+            const bool noBlock = !node.hasFamily() && (node.children >= tree.blocks.size() || --blocksLeft_ == 0);
+            if (noBlock || pending.level == depth)
                 throw std::invalid_argument("octree node of level " + std::to_string(pending.level) + " with block " +
                                             std::to_string(node.children) + " of " +
                                             std::to_string(tree.blocks.size()) + " as children: no tree of depth " +
                                             std::to_string(depth));
             slots_[slot] = static_cast<float>(queue_.size());
-            queue_.push_back({node.children, pending.level + 1, least, extinction, colour});
+            queue_.push_back({node, pending.level + 1, least, extinction, colour});
         } else {
             slots_[slot] = scale * extinction;
             if (!tree.colours.empty()) colours_[slot] = meanColour(colour, extinction);

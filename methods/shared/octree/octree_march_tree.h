@@ -52,10 +52,10 @@ class OctreeMarchTree {
     }
 
  private:
-    /// A block yet to be written, with what lies over it.
+    /// A node whose children are yet to be written, with what lies over them.
     struct Pending {
-        std::uint32_t block;
-        int level;         ///< of its nodes
+        NodeSlot node;
+        int level;         ///< of its children
         glm::ivec3 least;  ///< in finest cells
         float extinctionPerMetre;
         glm::vec3 weightedColour;
@@ -63,6 +63,7 @@ class OctreeMarchTree {
     void write(const MarchedTree& tree, const Pending& pending, std::size_t slot);
 
     std::vector<Pending> queue_;
+    std::size_t blocksLeft_ = 0;  ///< of the tree's, the one at hand included: each is met once
     std::vector<float> slots_;
     std::vector<glm::vec4> colours_;
     glm::ivec3 least_{0}, most_{0};
