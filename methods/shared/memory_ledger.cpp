@@ -2,15 +2,37 @@
 
 #include <sys/mman.h>
 
+#include <cstddef>
+#include <cstdint>
+
 #include "methods/shared/available_memory.h"
 
 namespace dustbench {
+namespace {
 
-void* allocateLarge(const MemoryAccount& account, std::size_t bytes, std::align_val_t alignment) {
+/// Lines into the first page, and 4 KiB blocks: what caches choose their sets by. Far apart for arrays that are made
+/// one after the other.
+constexpr std::size_t line = 64, linesOfBlock = 64, blocks = 8;
+std::size_t nextOffset() {
+    static std::atomic<std::size_t> made{0};
+    const std::size_t number = made.fetch_add(1, std::memory_order_relaxed);
+    return line * (39 * number % linesOfBlock + linesOfBlock * (number % blocks));
+}
+
+}  // namespace
+
+void* allocateLarge(const MemoryAccount& account, std::size_t bytes) {
     requireAvailable(account.structure(), bytes);
-    void* memory = ::operator new(bytes, alignment);
-    madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: where it is not granted, all works as well
-    return memory;
+    const std::size_t offset = nextOffset();
+    auto* const pages = static_cast<std::byte*>(::operator new (offset + bytes, std::align_val_t{largePage}));
+    madvise(pages, offset + bytes, MADV_HUGEPAGE);  // a wish: where it is not granted, all works as well
+    return pages + offset;
+}
+
+void freeLarge(void* memory) {
+    // All offsets are smaller than a page.
+    auto* const bytes = static_cast<std::byte*>(memory);
+    ::operator delete (bytes - reinterpret_cast<std::uintptr_t>(memory) % largePage, std::align_val_t{largePage});
 }
 
 MemoryAccount& MemoryLedger::account(std::string_view structure) {

@@ -50,19 +50,23 @@ class MemoryLedger {
     std::list<MemoryAccount> accounts_;
 };
 
-/// Memory for a large array, aligned to large pages, which save address look-ups where the system grants them. Throws
-/// InputError where the machine has not that much left.
-[[nodiscard]] void* allocateLarge(const MemoryAccount& account, std::size_t bytes, std::align_val_t alignment);
+/// From here on an array is large.
+inline constexpr std::size_t largePage = std::size_t{2} << 20;
+
+/// Memory for a large array, in large pages, which save address look-ups where the system grants them. Each array
+/// begins elsewhere in its first page: side by side at the same place of their pages, the columns of a store would all
+/// want the same few lines of a cache. Throws InputError where the machine has not that much left.
+[[nodiscard]] void* allocateLarge(const MemoryAccount& account, std::size_t bytes);
+void freeLarge(void* memory);
 
 /// Standard allocator that books on an account; InputError where the machine has not enough. Memory is aligned to a
-/// cache line (64 bytes) for the vector units, and large arrays to large pages.
+/// cache line (64 bytes) for the vector units.
 template <typename T>
 class LedgerAllocator {
  public:
     using value_type = T;
     using propagate_on_container_move_assignment = std::true_type;
     using propagate_on_container_swap = std::true_type;
-    static constexpr std::size_t largePage = std::size_t{2} << 20;
 
     explicit LedgerAllocator(MemoryAccount& account) : account_(&account) {}
     template <typename U>
@@ -70,14 +74,17 @@ class LedgerAllocator {
 
     [[nodiscard]] T* allocate(std::size_t count) {
         const std::size_t bytes = count * sizeof(T);
-        void* memory = bytes >= largePage ? allocateLarge(*account_, bytes, alignment(count))
-                                          : ::operator new(bytes, alignment(count));
+        void* memory = bytes >= largePage ? allocateLarge(*account_, bytes) : ::operator new(bytes, cacheLine);
         account_->book(bytes);
         return static_cast<T*>(memory);
     }
     void deallocate(T* memory, std::size_t count) {
-        account_->release(count * sizeof(T));
-        ::operator delete(memory, alignment(count));
+        const std::size_t bytes = count * sizeof(T);
+        account_->release(bytes);
+        if (bytes >= largePage)
+            freeLarge(memory);
+        else
+            ::operator delete(memory, cacheLine);
     }
     [[nodiscard]] MemoryAccount* account() const { return account_; }
 
@@ -87,9 +94,7 @@ class LedgerAllocator {
     }
 
  private:
-    static std::align_val_t alignment(std::size_t count) {
-        return std::align_val_t{count * sizeof(T) >= largePage ? largePage : 64};
-    }
+    static constexpr std::align_val_t cacheLine{64};
 
     MemoryAccount* account_;
 };
