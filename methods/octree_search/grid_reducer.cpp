@@ -25,9 +25,11 @@ void GridReducer::reduce(const BrickPartition& partition, const Brick& brick, co
     isTaken_.fill(0);
     voxels.nodes.set(taken);
     const std::uint32_t count = numbersOfBits(taken, taken_.data());
-    for (std::uint32_t i = 0; i < count; ++i)
-        voxels.voxels[i] = voxelAt(brick, taken_[i], word.particle(best_[taken_[i]]));
-    for (std::uint32_t i = 0; i < count; ++i) best_[taken_[i]] = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t place = taken_[i];
+        voxels.voxels[i] = voxelAt(brick, place, word.particle(best_[place]));
+        best_[place] = 0;
+    }
 
     if (voxels.masses) {
         for (std::uint32_t i = 0; i < count; ++i) sums_[taken_[i]] = 0;

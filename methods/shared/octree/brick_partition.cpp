@@ -4,8 +4,10 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <limits>
 #include <numeric>
 
+#include "methods/shared/octree/narrow_keys.h"
 #include "methods/shared/parallel/for_each_block.h"
 
 namespace dustbench::octree {
@@ -17,49 +19,36 @@ constexpr std::size_t chunksPerThread = 4;
 constexpr std::size_t leastChunk = 16'384;
 /// Up to depth 8: a chunk's words, a quarter of a megabyte, stay in the cache of one core until all are in place.
 constexpr std::size_t narrowChunk = 32'768;
+static_assert(narrowChunk - 1 <= std::numeric_limits<std::uint16_t>::max(), "a particle's rank in its bin has 16 bits");
 /// Particles whose words are made at once, by the vector units, before they are counted.
 constexpr std::size_t stripSize = 1024;
 /// Bins whose particles are counted over all chunks at once.
 constexpr std::size_t binBlock = 512;
-/// Up to this depth bricks are few enough to be bins.
-constexpr int narrowDepth = 8;
 constexpr std::uint32_t wideDigit = 4095;
 constexpr int wideIndexBits = 24;
 constexpr std::uint64_t wideIndexMask = (1u << wideIndexBits) - 1;
 /// So many leave no more than 32 bits for the priority.
 constexpr int leastIndexBits = 32 - brickPlaceBits;
 
-/// A function of its own, so that the compiler sees that the keys lie apart from what they are made of.
-template <LevelRule rule>
-[[gnu::noinline]] void makeNarrowKeys(const CellKernel<rule>& kernel, std::size_t first, std::size_t count,
-                                      std::uint32_t brickBins, std::uint32_t* __restrict keys) {
-    const CellKernel<rule> cellOf = kernel;
-    for (std::size_t i = 0; i < count; ++i) {
-        const ParticleCell cell = cellOf.shallow(first + i);
-        const std::uint32_t inTree = (cell.brickCode & ~cell.aboveBricks) | (brickBins & cell.aboveBricks);
-        const std::uint32_t bin = (inTree & ~cell.outside) | ((brickBins + 1) & cell.outside);
-        keys[i] = bin << brickPlaceBits | placeInBrick(cell.localCode, cell.rise);
-    }
-}
-
-/// Counts a strip's bins, and fetches the lines that its words may go to.
-void countBins(std::span<const std::uint32_t> keys, const std::uint64_t* target, std::uint32_t* __restrict counts) {
+/// Counts a strip's bins: each particle's rank among those of its bin. Fetches the lines that its words may go to.
+void rankInBins(std::span<const std::uint32_t> keys, const std::uint64_t* target, std::uint32_t* __restrict counts,
+                std::uint16_t* __restrict ranks) {
     constexpr std::size_t lineWords = 8;
     for (std::size_t i = 0; i < keys.size(); i += lineWords) {
         __builtin_prefetch(target + i, 1);
         const std::size_t end = std::min(i + lineWords, keys.size());
-        for (std::size_t k = i; k < end; ++k) ++counts[keys[k] >> brickPlaceBits];
+        for (std::size_t k = i; k < end; ++k) ranks[k] = static_cast<std::uint16_t>(counts[narrowBin(keys[k])]++);
     }
 }
 
-/// Each particle's word to its bin's next place.
-void scatter(std::span<const std::uint32_t> keys, std::uint32_t firstParticle, BrickKey word, VoxelRule rule,
-             std::uint32_t* __restrict next, std::uint64_t* __restrict sorted) {
-    std::uint32_t particle = firstParticle;
-    for (const std::uint32_t key : keys) {
-        sorted[next[key >> brickPlaceBits]++] =
-            word.make(rule.priority(particle), key & ((1u << brickPlaceBits) - 1), particle);
-        ++particle;
+/// Each particle's word to its place in its bin.
+void scatter(std::span<const std::uint32_t> keys, const std::uint16_t* ranks, const std::uint32_t* starts,
+             std::uint32_t firstParticle, BrickKey word, VoxelRule rule, std::uint64_t* sorted) {
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const std::uint32_t particle = firstParticle + static_cast<std::uint32_t>(i);
+        sorted[starts[narrowBin(keys[i])] + ranks[i]] =
+            word.make(rule.priority(particle), narrowPlace(keys[i]), particle);
+        asm volatile("");  // one by one: to store a vector to as many places takes longer
     }
 }
 
@@ -141,17 +130,16 @@ void BrickPartition::sortNarrow(const particles::ParticleStore& store, const Cel
 
     parallel::forEachBlock(total, narrowChunk, [&](std::size_t first, std::size_t count) {
         std::array<std::uint32_t, narrowChunk> keys;
+        std::array<std::uint16_t, narrowChunk> ranks;
         std::uint32_t* const starts = ends + first / narrowChunk * runStride_;
-        std::uint32_t* const next = starts + 1;  // how many, then where the next one goes, which ends at the bin's end
         std::fill_n(starts, bins + 1, 0u);
         for (std::size_t strip = 0; strip < count; strip += stripSize) {
             const std::size_t here = std::min(stripSize, count - strip);
             makeNarrowKeys(kernel, first + strip, here, brickBins, keys.data() + strip);
-            countBins({keys.data() + strip, here}, sorted + first + strip, next);
+            rankInBins({keys.data() + strip, here}, sorted + first + strip, starts, ranks.data() + strip);
         }
-        std::exclusive_scan(next, next + bins, next, static_cast<std::uint32_t>(first));
-        starts[0] = static_cast<std::uint32_t>(first);
-        scatter({keys.data(), count}, static_cast<std::uint32_t>(first), key_, voxelRule, next, sorted);
+        std::exclusive_scan(starts, starts + bins + 1, starts, static_cast<std::uint32_t>(first));
+        scatter({keys.data(), count}, ranks.data(), starts, static_cast<std::uint32_t>(first), key_, voxelRule, sorted);
         // Outside the world is where those end up whose position is not a number.
         for (std::uint32_t i = starts[brickBins + 1]; i < starts[bins]; ++i)
             if (!isNumber(store, key_.particle(sorted[i]))) allNumbers = false;

@@ -4,6 +4,10 @@
 // Source: Carr2006, 3.2 (older particles, larger voxels). Departs: the formulas are ours; the paper gives none.
 #pragma once
 
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -32,16 +36,19 @@ inline constexpr float edgePerRadius = 1.2533141f;
         static_cast<std::int32_t>(std::min(std::max(0.0f, levels * age / lifetime), levels - 1)));
 }
 
+/// A cell's edge is as good as twice that on the scale of doubling from here on.
+inline constexpr float edgesOfRadius = edgePerRadius / std::numbers::sqrt2_v<float>;
+
 /// By radius: the edge `finest·2^k` nearest 1.253·r on the scale of doubling, k below `levels`.
 [[nodiscard]] inline std::uint32_t riseByRadius(float radiusMetres, float finestEdgeMetres, std::uint32_t levels) {
-    const float edges = edgePerRadius / std::numbers::sqrt2_v<float> * radiusMetres / finestEdgeMetres;
+    const float edges = edgesOfRadius * radiusMetres / finestEdgeMetres;
     std::uint32_t rise = 0;
     for (std::uint32_t step = 1; step < levels; ++step) rise += edges >= static_cast<float>(1u << (step - 1)) ? 1 : 0;
     return rise;
 }
 
 /// Bit k of a number below 2^8 to bit 3·k, in 32 bits.
-[[nodiscard]] inline std::uint32_t spreadByte(std::uint32_t x) {
+[[nodiscard]] constexpr std::uint32_t spreadByte(std::uint32_t x) {
     x = (x | x << 8) & 0x0000f00fu;
     x = (x | x << 4) & 0x000c30c3u;
     x = (x | x << 2) & 0x00249249u;
@@ -56,6 +63,16 @@ struct ParticleCell {
     std::uint32_t outside;      ///< the world: all bits set, and the rest is meaningless; else 0
     std::uint32_t aboveBricks;  ///< all bits set where the voxel is larger than a brick; else 0
 };
+
+#ifdef __AVX512F__
+using Sixteen [[gnu::vector_size(64)]] = std::uint32_t;
+
+/// The finest cells of sixteen particles, and the rise of their voxels.
+struct SixteenCells {
+    Sixteen x, y, z, rise;
+    Sixteen outside;  ///< the world: not 0, and the rest is meaningless
+};
+#endif
 
 /// Maps particles of one store to the cells of one lattice.
 template <LevelRule rule>
@@ -83,15 +100,15 @@ class CellKernel {
         cell.brickCode = spread(x >> 4 & 255, y >> 4 & 255, z >> 4 & 255);
         return cell;
     }
-    /// The same down to depth 8, where the whole code is one spread of bytes.
-    [[nodiscard]] ParticleCell shallow(std::size_t i) const {
-        const auto [x, y, z] = finestCell(i);
-        ParticleCell cell = belonging(i, x | y | z);
-        const std::uint32_t code = spread(x & 255, y & 255, z & 255);
-        cell.localCode = code & 4095;
-        cell.brickCode = code >> 12;
-        return cell;
+#ifdef __AVX512F__
+    /// The particles `i` to `i` + 15.
+    [[nodiscard]] SixteenCells sixteen(std::size_t i) const {
+        SixteenCells cells{
+            cellNumbers(x_ + i) - firstX_, cellNumbers(y_ + i) - firstY_, cellNumbers(z_ + i) - firstZ_, rises(i), {}};
+        cells.outside = Sixteen((cells.x | cells.y | cells.z) >= cells_);
+        return cells;
     }
+#endif
 
  private:
     struct Cell {
@@ -113,6 +130,34 @@ class CellKernel {
         cell.aboveBricks = -static_cast<std::uint32_t>(cell.rise > std::uint32_t{brickRise});
         return cell;
     }
+#ifdef __AVX512F__
+    using Floats [[gnu::vector_size(64)]] = float;
+    using Integers [[gnu::vector_size(64)]] = std::int32_t;
+
+    [[nodiscard]] static Floats load(const float* from) {
+        return Floats(_mm512_loadu_ps(from));
+    }
+    /// What is not a number, or too far away, becomes the least integer.
+    [[nodiscard]] Sixteen cellNumbers(const float* metres) const {
+        const Floats numbers = load(metres) * cellsPerMetre_;
+        return Sixteen(
+            _mm512_maskz_cvt_roundps_epi32(0xffff, __m512(numbers), _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
+    }
+    [[nodiscard]] Sixteen rises(std::size_t i) const {
+        if constexpr (rule == LevelRule::age) {
+            const auto levels = static_cast<float>(levels_);
+            const Floats rise = levels * load(age_ + i) / load(lifetime_ + i);
+            const Floats least = Floats{} < rise ? rise : Floats{}, most = Floats{} + (levels - 1);
+            return Sixteen(__builtin_convertvector(most < least ? most : least, Integers));
+        } else {
+            const Floats edges = edgesOfRadius * load(radius_ + i) / finestEdge_;
+            Sixteen rise{};
+            for (std::uint32_t step = 1; step < levels_; ++step)
+                rise -= Sixteen(edges >= static_cast<float>(1u << (step - 1)));
+            return rise;
+        }
+    }
+#endif
     [[nodiscard]] static std::uint32_t spread(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
         return spreadByte(x) << 2 | spreadByte(y) << 1 | spreadByte(z);
     }
