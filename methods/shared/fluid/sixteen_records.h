@@ -77,7 +77,8 @@ class SixteenRecords {
     /// among eight.
     template <int number, int half>
     [[gnu::always_inline]] static Float16 paired(const Quantities& q) {
-        return shuffled(q[2 * number], q[2 * number + 1],
+        constexpr std::size_t first = 2 * std::size_t{number};
+        return shuffled(q[first], q[first + 1],
                         [](int place) { return place % 2 * 16 + half * 8 + ((3 * (place / 2 - number)) & 7); });
     }
     template <int half>
