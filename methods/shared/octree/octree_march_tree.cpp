@@ -25,19 +25,22 @@ void OctreeMarchTree::set(const MarchedTree& tree) {
         throw std::invalid_argument(std::to_string(tree.colours.size()) + " colours for " +
                                     std::to_string(tree.extinctionPerMetre.size()) + " voxels");
     queue_.clear();
-    slots_.clear();
-    colours_.clear();
+    const auto resize = [&](std::size_t blocks) {
+        slots_.resize(8 * blocks);
+        colours_.resize(tree.colours.empty() ? 0 : slots_.size());
+    };
+    resize(tree.blocks.size());
     blocksLeft_ = tree.blocks.size();
     least_ = glm::ivec3(std::numeric_limits<int>::max());
     most_ = glm::ivec3(0);
 
     if (!tree.blocks.empty()) queue_.push_back({NodeSlot{}, 1, glm::ivec3(0), 0, glm::vec3(0)});
     for (std::size_t next = 0; next < queue_.size(); ++next) {
-        const Pending pending = queue_[next];  // the queue grows meanwhile
-        slots_.resize(8 * (next + 1));
-        if (!tree.colours.empty()) colours_.resize(slots_.size());
+        const Pending pending = queue_[next];             // the queue grows meanwhile
+        if (8 * next >= slots_.size()) resize(2 * next);  // families become blocks
         write(tree, pending, 8 * next);
     }
+    resize(queue_.size());
 }
 
 void OctreeMarchTree::write(const MarchedTree& tree, const Pending& pending, std::size_t slot) {
