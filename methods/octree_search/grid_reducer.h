@@ -25,7 +25,7 @@ class GridReducer {
     /// By place: the best particle's key, none of which is 0; 0: none yet.
     std::array<std::uint64_t, octree::placesInBrick> best_{};
     static constexpr std::size_t bits = 64 * std::tuple_size_v<octree::PlaceBits>;
-    std::array<std::uint8_t, bits> isTaken_{};    ///< by place: 1 where there is a particle
+    std::array<std::uint8_t, bits> isTaken_{};    ///< by place: whether `best_` has one, an eighth of its size
     std::array<std::uint16_t, bits + 31> taken_;  ///< the places that have one
     std::array<double, octree::placesInBrick> sums_;
 };

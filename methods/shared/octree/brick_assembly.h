@@ -18,7 +18,7 @@ struct BrickVoxels {
     CellEntry* voxels;  ///< room for as many as the brick has particles
     CellEntry* spare;   ///< working memory of the same size; null: not wanted
     double* masses;     ///< beside them; null: not wanted
-    BrickNodes& nodes;  ///< to be completed
+    BrickNodes& nodes;  ///< to be set
 };
 
 class BrickAssembly {

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 
 #include "methods/shared/octree/node_block.h"
@@ -68,7 +67,7 @@ class BrickNodes {
     static constexpr std::uint32_t coarseWords = 16, fineWords = 64;
 
     std::array<std::uint64_t, coarseWords + fineWords> voxels_;
-    std::array<std::uint64_t, coarseWords> nodes_;  ///< voxels, and cells that have one below them, once complete
+    std::array<std::uint64_t, coarseWords> nodes_;  ///< voxels, and cells that have one below them
     std::uint32_t voxelCount_ = 0, blockCount_ = 0;
 };
 

@@ -23,9 +23,9 @@ namespace dustbench::octree {
 /// √(π/2): a cube of this edge per radius keeps the puff's τ, edge² = 2π(r/2)².
 inline constexpr float edgePerRadius = 1.2533141f;
 
-/// Number of the cell of a coordinate, floor(x / edge). What is not a number, or too far away for an integer, lands
-/// outside any world.
-[[nodiscard]] inline std::int32_t cellNumber(float metres, float cellsPerMetre, float furthest = 1e9f) {
+/// Number of the cell of a coordinate, floor(x / edge). What is not a number, or beyond the cells ±`furthest`, lands
+/// there: outside any world.
+[[nodiscard]] inline std::int32_t cellNumber(float metres, float cellsPerMetre, float furthest) {
     const float number = std::min(std::max(-furthest, metres * cellsPerMetre), furthest);
     return static_cast<std::int32_t>(std::floor(number));
 }

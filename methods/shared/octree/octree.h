@@ -92,7 +92,7 @@ class Octree {
         return static_cast<std::uint32_t>(blockCount_++);
     }
     /// The node that lies `rise` levels above the finest and holds the finest cell `code`; nodes that are missing on
-    /// its path are added. May move all blocks.
+    /// its path are added. Not below a family (node_block.h). May move all blocks.
     NodeSlot& makeNode(std::uint64_t code, int rise) {
         std::uint32_t block = 0;
         int shift = 3 * (depth_ - 1);
