@@ -5,7 +5,9 @@ SHELL := /bin/bash
 MAKEFLAGS += --no-print-directory
 
 PAPER ?= carr2006
+METHOD ?= grid_fluid
 JOBS ?= $(shell nproc)
+LINT = $(if $(SINCE),--since $(SINCE)) $(if $(LINT_SECONDS),--seconds $(LINT_SECONDS))
 PROGRAM := build/release/dustbench
 
 # Paths inside the tree count relative to it, so that a copy of the tree finds its objects in the compiler cache.
@@ -47,6 +49,10 @@ bench: build/release/build.ninja ## Run every benchmark program
 	@cmake --build --preset release --parallel $(JOBS) --target benches
 	@for program in build/release/*_bench; do echo "== $$program"; "$$program"; done
 
+.PHONY: without
+without: packages ## Build and list without one method (METHOD=grid_fluid), in a copy of the tree
+	@tests/without_a_method/without_a_method.sh $(METHOD)
+
 .PHONY: asan
 asan: build/asan/build.ninja ## The unit tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@cmake --build --preset asan --parallel $(JOBS) --target unit_tests
@@ -68,10 +74,10 @@ format-check: ## Say which sources `make format` would change
 	@clang-format-14 --dry-run --Werror $(SOURCES)
 
 .PHONY: lint
-lint: ## Build all sources with clang-tidy beside the compiler
+lint: build/release/build.ninja ## Run clang-tidy over all sources, or what changed since a revision (SINCE=origin/main)
 	@.ci/install lint
-	@$(MAKE) build/tidy/build.ninja
-	@cmake --build --preset tidy --parallel $(JOBS)
+	@cmake --build --preset release --parallel $(JOBS) --target shader_headers
+	@.ci/lint $(LINT)
 
 .PHONY: clean
 clean: ## Remove all that was built (results in reports/out/ stay)

@@ -6,17 +6,20 @@
 #include <array>
 #include <sstream>
 
-#include "bench/experiments/experiment.h"
+#include "bench/claims/experiments.h"
 #include "bench/results/summary.h"
 #include "bench/suite/suite.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/files/toml_reader.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/toml_reader.h"
 
 namespace dustbench::bench {
 namespace {
 
-const std::vector<std::string> quantityNames{"none", "ratio", "share", "growth", "exponent", "value", "finding"};
+constexpr Choices<Quantity> quantities{{"none", Quantity::none},         {"ratio", Quantity::ratio},
+                                       {"share", Quantity::share},       {"growth", Quantity::growth},
+                                       {"exponent", Quantity::exponent}, {"value", Quantity::value},
+                                       {"finding", Quantity::finding}};
 
 Selection selectionIn(files::TomlReader& table, const std::string& key) {
     return parseSelection(table.text(key), table.where(key) + "key '" + key + "'");
@@ -30,12 +33,12 @@ std::string readColumn(files::TomlReader& table, const std::string& key) {
 
 void readRange(files::TomlReader& table, Claim& claim) {
     constexpr double any = 1e300;
-    if (table.has("least")) claim.least = table.number("least", -any, any);
-    if (table.has("greatest")) claim.greatest = table.number("greatest", -any, any);
-    if (!claim.least && !claim.greatest)
-        throw InputError(claim.where + "claim " + claim.id + ": got neither 'least' nor 'greatest', expected one");
-    if (claim.least && claim.greatest && *claim.least > *claim.greatest)
-        throw InputError(claim.where + "claim " + claim.id + ": 'least' is above 'greatest'");
+    if (table.has("min")) claim.minimum = table.number("min", -any, any);
+    if (table.has("max")) claim.maximum = table.number("max", -any, any);
+    if (!claim.minimum && !claim.maximum)
+        throw InputError(claim.where + "claim " + claim.id + ": got neither 'min' nor 'max', expected one");
+    if (claim.minimum && claim.maximum && *claim.minimum > *claim.maximum)
+        throw InputError(claim.where + "claim " + claim.id + ": 'min' is above 'max'");
 }
 
 Claim readClaim(files::TomlReader& table) {
@@ -43,8 +46,7 @@ Claim readClaim(files::TomlReader& table) {
     claim.where = table.where();
     claim.id = table.text("id");
     claim.text = table.text("text");
-    const std::string quantity = table.choice("quantity", quantityNames);
-    claim.quantity = static_cast<Quantity>(std::ranges::find(quantityNames, quantity) - quantityNames.begin());
+    claim.quantity = table.choice("quantity", quantities);
     if (claim.quantity == Quantity::none) {
         claim.missing = table.text("missing");
         table.finish();
@@ -112,9 +114,9 @@ Selection parseSelection(const std::string& text, const std::string& what) {
 }
 
 std::string Claim::expected() const {
-    if (least && greatest) return fmt::format("{:g} to {:g}", *least, *greatest);
-    if (least) return fmt::format("{:g} or more", *least);
-    return greatest ? fmt::format("{:g} or less", *greatest) : "";
+    if (minimum && maximum) return fmt::format("{:g} to {:g}", *minimum, *maximum);
+    if (minimum) return fmt::format("{:g} or more", *minimum);
+    return maximum ? fmt::format("{:g} or less", *maximum) : "";
 }
 
 std::vector<Claim> loadClaims(const std::string& paper) {

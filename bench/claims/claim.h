@@ -16,7 +16,7 @@ enum class Quantity {
     none,      ///< cannot be tested, and `missing` says why
     ratio,     ///< of one selection's column over another's, row by row in the same world
     share,     ///< of the sum of some columns in another column
-    growth,    ///< of a column from the least value of `against` to the greatest
+    growth,    ///< of a column from the minimum value of `against` to the maximum
     exponent,  ///< k of column = a + b·against^k
     value,     ///< of a column
     finding    ///< of an experiment, with its own interval
@@ -45,7 +45,7 @@ struct Claim {
     /// True: the column does not depend on the machine (bytes, counts, metrics), so the spread over the rows takes the
     /// place of an interval over repetitions.
     bool exact = false;
-    std::optional<double> least, greatest;  ///< where the claim is true
+    std::optional<double> minimum, maximum;  ///< where the claim is true
     std::string missing;
     std::string where;  ///< `file:line: `, for messages
 

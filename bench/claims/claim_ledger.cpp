@@ -8,7 +8,7 @@
 #include <map>
 
 #include "bench/suite/suite.h"
-#include "methods/shared/files/csv.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 namespace {
@@ -37,7 +37,7 @@ std::set<std::string> runIdsOf(const std::string& suiteId, const files::CsvTable
 }
 
 std::vector<JudgedClaim> judgeClaims(const std::string& paper, const files::CsvTable& summary,
-                                     const std::vector<Finding>& findings) {
+                                     const std::vector<StoredFinding>& findings) {
     std::map<std::string, std::set<std::string>> runIds;
     std::vector<JudgedClaim> judged;
     for (Claim& claim : loadClaims(paper)) {

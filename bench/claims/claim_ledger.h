@@ -22,7 +22,7 @@ struct JudgedClaim {
 /// Of each claim the runs of its suite count, in its whole and its quick form, or what its experiment found. Throws
 /// InputError for a claims.toml or a suite that cannot be read.
 [[nodiscard]] std::vector<JudgedClaim> judgeClaims(const std::string& paper, const files::CsvTable& summary,
-                                                   const std::vector<Finding>& findings = {});
+                                                   const std::vector<StoredFinding>& findings = {});
 
 /// `id,paper,claim,verdict,measured,expected,interval,runs`, as reports/SCHEMA.md defines them.
 [[nodiscard]] std::string claimsCsv(const std::vector<JudgedClaim>& claims);

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -12,8 +11,9 @@
 #include <stdexcept>
 
 #include "bench/measure/cost_fit.h"
-#include "bench/measure/paired_comparison.h"
+#include "bench/measure/paired_ratio.h"
 #include "bench/measure/statistics.h"
+#include "methods/contract/choices.h"
 
 namespace dustbench::bench {
 namespace {
@@ -112,12 +112,12 @@ Samples growths(const Claim& claim, const ResultRows& rows) {
     Samples samples;
     for (const auto& [key, members] : curves(claim, rows, samples)) {
         const auto load = [&](std::size_t row) { return *rows.number(row, claim.against); };
-        const double least = load(*std::ranges::min_element(members, {}, load));
-        const double greatest = load(*std::ranges::max_element(members, {}, load));
-        if (least == greatest) continue;
+        const double minimum = load(*std::ranges::min_element(members, {}, load));
+        const double maximum = load(*std::ranges::max_element(members, {}, load));
+        if (minimum == maximum) continue;
         for (const std::size_t last : members)
             for (const std::size_t first : members) {
-                if (load(last) != greatest || load(first) != least) continue;
+                if (load(last) != maximum || load(first) != minimum) continue;
                 const double start = *valueOf(claim, rows, first);
                 const double end = *valueOf(claim, rows, last);
                 if (rows.repetition(first) == rows.repetition(last) && start > 0 && (end > 0 || claim.exact))
@@ -130,21 +130,21 @@ Samples growths(const Claim& claim, const ResultRows& rows) {
 }
 
 bool isTrueAt(const Claim& claim, double value) {
-    return (!claim.least || value >= *claim.least) && (!claim.greatest || value <= *claim.greatest);
+    return (!claim.minimum || value >= *claim.minimum) && (!claim.maximum || value <= *claim.maximum);
 }
 
 ClaimVerdict verdictOf(const Claim& claim, const ClaimResult& result) {
     if (isTrueAt(claim, result.low) && isTrueAt(claim, result.high)) return ClaimVerdict::confirmed;
-    const bool below = claim.least && result.high < *claim.least;
-    const bool above = claim.greatest && result.low > *claim.greatest;
+    const bool below = claim.minimum && result.high < *claim.minimum;
+    const bool above = claim.maximum && result.low > *claim.maximum;
     return below || above ? ClaimVerdict::refuted : ClaimVerdict::unresolved;
 }
 
 /// Which cells they are, where it can be said in a line; `keys`: of all cells.
 std::string listed(const std::vector<std::string>& cells, const std::vector<std::string>& keys, const char* intro,
                    const ResultRows& rows) {
-    constexpr std::size_t mostListed = 3;
-    if (cells.size() > mostListed) return "";
+    constexpr std::size_t maximumListed = 3;
+    if (cells.size() > maximumListed) return "";
     std::vector<std::string> texts;
     for (const std::string& cell : cells) texts.push_back(rows.cellText(cell, keys));
     return fmt::format(": {} {}", intro, fmt::join(texts, "; "));
@@ -205,9 +205,9 @@ void judgeRepeated(const Claim& claim, const Samples& samples, bool logarithmic,
         result.high = back(mean + half);
     }
     result.verdict = ClaimVerdict::unresolved;
-    if (means.size() < fewestPairs)
+    if (means.size() < minimumPairs)
         result.note = fmt::format("{} complete repetition{}, {} are needed", means.size(), means.size() == 1 ? "" : "s",
-                                  fewestPairs);
+                                  minimumPairs);
     else
         result.verdict = verdictOf(claim, result);
 }
@@ -242,8 +242,11 @@ ClaimResult judgeExponent(const Claim& claim, const ResultRows& rows, Samples& s
 }  // namespace
 
 std::string_view verdictName(ClaimVerdict verdict) {
-    constexpr std::array<std::string_view, 4> names{"confirmed", "refuted", "unresolved", "not-tested"};
-    return names[static_cast<std::size_t>(verdict)];
+    static constexpr Choices<ClaimVerdict> verdicts{{"confirmed", ClaimVerdict::confirmed},
+                                                    {"refuted", ClaimVerdict::refuted},
+                                                    {"unresolved", ClaimVerdict::unresolved},
+                                                    {"not-tested", ClaimVerdict::notTested}};
+    return verdicts.wordOf(verdict);
 }
 
 ClaimResult judgeClaim(const Claim& claim, const ResultRows& rows) {
@@ -289,9 +292,9 @@ ClaimResult judgeClaim(const Claim& claim, const ResultRows& rows) {
     return result;
 }
 
-ClaimResult judgeFinding(const Claim& claim, const std::vector<Finding>& findings) {
+ClaimResult judgeFinding(const Claim& claim, const std::vector<StoredFinding>& findings) {
     ClaimResult result;
-    const auto found = std::ranges::find_if(findings, [&](const Finding& finding) {
+    const auto found = std::ranges::find_if(findings, [&](const StoredFinding& finding) {
         return finding.experiment == claim.experiment && finding.quantity == claim.column;
     });
     if (found == findings.end()) {

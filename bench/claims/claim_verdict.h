@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "bench/claims/claim.h"
+#include "bench/claims/experiments.h"
 #include "bench/claims/result_rows.h"
-#include "bench/experiments/experiment.h"
 
 namespace dustbench::bench {
 
@@ -38,6 +38,6 @@ struct ClaimResult {
 
 /// Of every quantity but `finding`, which has this of its own:
 [[nodiscard]] ClaimResult judgeClaim(const Claim& claim, const ResultRows& rows);
-[[nodiscard]] ClaimResult judgeFinding(const Claim& claim, const std::vector<Finding>& findings);
+[[nodiscard]] ClaimResult judgeFinding(const Claim& claim, const std::vector<StoredFinding>& findings);
 
 }  // namespace dustbench::bench

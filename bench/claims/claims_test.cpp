@@ -7,12 +7,12 @@
 #include <iterator>
 
 #include "bench/claims/claim_ledger.h"
-#include "bench/claims/published_numbers.h"
+#include "bench/claims/printed_numbers.h"
 #include "bench/results/run_record.h"
 #include "bench/suite/paper.h"
 #include "bench/suite/suite.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/maths/philox.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/maths/philox.h"
 #include "source_folder.h"
 
 namespace dustbench::bench {
@@ -65,7 +65,7 @@ Value ratioOf(double ratio) {
 }
 
 const std::string faster =
-    "quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze\"\nwith = \"mist\"\ngreatest = 1\n";
+    "quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze\"\nwith = \"mist\"\nmax = 1\n";
 
 TEST(ClaimRules, ARatioTurnsRoundWithTheTimes) {
     const ClaimResult holds = judged(faster, ratioOf(0.9));
@@ -97,11 +97,17 @@ TEST(ClaimRules, ARatioPairsTheSameWorldAndRepetitionAlone) {
 TEST(ClaimRules, AFindingIsJudgedByItsOwnInterval) {
     const Claim claim = parseClaims(
                             "[[claim]]\nid = \"X\"\ntext = \"t\"\nquantity = \"finding\"\nexperiment = \"sampling\"\n"
-                            "column = \"acceptance\"\nleast = 0.53\n",
+                            "column = \"acceptance\"\nmin = 0.53\n",
                             "claims.toml")
                             .at(0);
     const auto judgedAt = [&](double value) {
-        return judgeFinding(claim, {{"sampling", "acceptance", value, value - 0.01, value + 0.01, 100}}).verdict;
+        StoredFinding finding;
+        finding.experiment = "sampling";
+        finding.quantity = "acceptance";
+        finding.value = value;
+        finding.low = value - 0.01;
+        finding.high = value + 0.01;
+        return judgeFinding(claim, {finding}).verdict;
     };
     EXPECT_EQ(judgedAt(0.55), ClaimVerdict::confirmed);
     EXPECT_EQ(judgedAt(0.51), ClaimVerdict::refuted);
@@ -120,20 +126,20 @@ TEST(ClaimRules, FewerRepetitionsThanSixResolveNothing) {
 }
 
 TEST(ClaimRules, AShareIsOfTheSumOfItsParts) {
-    const auto rule = [](double least) {
+    const auto rule = [](double minimum) {
         return fmt::format(
-            "quantity = \"share\"\ncolumn = \"frame_ms_median\"\nparts = [\"draw_ms_median\"]\nof = \"mist\"\nleast = "
+            "quantity = \"share\"\ncolumn = \"frame_ms_median\"\nparts = [\"draw_ms_median\"]\nof = \"mist\"\nmin = "
             "{}\n",
-            least);
+            minimum);
     };
     EXPECT_EQ(judged(rule(0.5), ratioOf(1)).verdict, ClaimVerdict::confirmed);
     EXPECT_EQ(judged(rule(0.9), ratioOf(1)).verdict, ClaimVerdict::refuted);
     EXPECT_NEAR(judged(rule(0.9), ratioOf(1)).measured, 0.8, 1e-9);
 }
 
-TEST(ClaimRules, AGrowthIsFromTheLeastLoadToTheGreatest) {
+TEST(ClaimRules, AGrowthIsFromTheMinimumLoadToTheMaximum) {
     const std::string rule =
-        "quantity = \"growth\"\ncolumn = \"frame_ms_median\"\nagainst = \"p.particles\"\nof = \"mist\"\nleast = ";
+        "quantity = \"growth\"\ncolumn = \"frame_ms_median\"\nagainst = \"p.particles\"\nof = \"mist\"\nmin = ";
     const ClaimResult result = judged(rule + "2\n", ratioOf(1));
     EXPECT_NEAR(result.measured, 13.0 / 6, 0.05);
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
@@ -143,7 +149,7 @@ TEST(ClaimRules, AGrowthIsFromTheLeastLoadToTheGreatest) {
 TEST(ClaimRules, AColumnMayBeTakenPerUnitOfAnother) {
     const std::string rule =
         "quantity = \"growth\"\ncolumn = \"frame_ms_median\"\nper = \"p.particles\"\nagainst = \"p.particles\"\n"
-        "of = \"mist\"\ngreatest = 1.1\n";
+        "of = \"mist\"\nmax = 1.1\n";
     const auto power = [](double k) {
         return [k](const std::string&, int particles, int repetition) {
             return std::pow(particles, k) * scatter(particles, repetition, 5);
@@ -162,12 +168,12 @@ TEST(ClaimRules, AnExponentIsThatOfTheFittedCurve) {
             return (1 + 0.01 * std::pow(particles, k)) * (1 + 0.1 * (scatter(particles, repetition, 4) - 1));
         };
     };
-    EXPECT_EQ(judged(rule + "least = 0.8\ngreatest = 1.2\n", power(1)).verdict, ClaimVerdict::confirmed);
-    EXPECT_EQ(judged(rule + "least = 0.8\ngreatest = 1.2\n", power(2)).verdict, ClaimVerdict::refuted);
+    EXPECT_EQ(judged(rule + "min = 0.8\nmax = 1.2\n", power(1)).verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(judged(rule + "min = 0.8\nmax = 1.2\n", power(2)).verdict, ClaimVerdict::refuted);
 }
 
 TEST(ClaimRules, AValueHasAnIntervalOverRepetitionsOrTheRangeOfTheCells) {
-    const std::string rule = "quantity = \"value\"\ncolumn = \"frame_ms_median\"\nof = \"mist\"\ngreatest = 10\n";
+    const std::string rule = "quantity = \"value\"\ncolumn = \"frame_ms_median\"\nof = \"mist\"\nmax = 10\n";
     EXPECT_EQ(judged(rule, ratioOf(1)).verdict, ClaimVerdict::confirmed);  // 6, 7, 9 and 13: 8.75 on average
     EXPECT_EQ(judged(rule + "exact = true\n", ratioOf(1)).verdict, ClaimVerdict::unresolved);
     EXPECT_EQ(judged(rule + "exact = true\n", ratioOf(1)).note, "true in 3 of 4 cells: not with particles=800");
@@ -177,7 +183,7 @@ TEST(ClaimRules, AValueHasAnIntervalOverRepetitionsOrTheRangeOfTheCells) {
 
 TEST(ClaimRules, ExactRatiosNeedOneRepetitionAndHoldInAllCellsOrNone) {
     const std::string rule =
-        "quantity = \"ratio\"\ncolumn = \"popping\"\nof = \"haze\"\nwith = \"mist\"\nexact = true\ngreatest = 1\n";
+        "quantity = \"ratio\"\ncolumn = \"popping\"\nof = \"haze\"\nwith = \"mist\"\nexact = true\nmax = 1\n";
     EXPECT_EQ(judged(rule, ratioOf(0.9)).verdict, ClaimVerdict::confirmed);
     EXPECT_EQ(judged(rule, ratioOf(1.1)).verdict, ClaimVerdict::refuted);
     EXPECT_EQ(
@@ -207,10 +213,10 @@ TEST(Claims, MistakesNameTheirLine) {
     };
     const std::string start = "quantity = \"value\"\nof = \"mist\"\n";
     EXPECT_NE(message(start + "column = \"frame_ms_meridian\"").find("'frame_ms_median'"), std::string::npos);
-    EXPECT_NE(message(start + "column = \"fps_avg\"").find("neither 'least' nor 'greatest'"), std::string::npos);
-    EXPECT_NE(message(start + "column = \"fps_avg\"\nleast = 2\ngreatest = 1").find("above"), std::string::npos);
+    EXPECT_NE(message(start + "column = \"fps_avg\"").find("neither 'min' nor 'max'"), std::string::npos);
+    EXPECT_NE(message(start + "column = \"fps_avg\"\nmin = 2\nmax = 1").find("above"), std::string::npos);
     EXPECT_NE(message("quantity = \"mean\"").find("claims.toml:5"), std::string::npos);
-    EXPECT_NE(message(start + "column = \"fps_avg\"\nleast = 2\nexpect = 1").find("expect"), std::string::npos);
+    EXPECT_NE(message(start + "column = \"fps_avg\"\nmin = 2\nexpect = 1").find("expect"), std::string::npos);
 }
 
 TEST(Claims, ThoseOfEveryPaperCanBeReadAndTheirSuitesAreThePapers) {
@@ -264,16 +270,16 @@ TEST(PublishedNumbers, StandBesideTheSumOfOurColumns) {
         "run_id,status,method,scene,repetition,p.particles,cpu_bytes,gpu_bytes\n"
         "a,done,haze,plain,1,100,30,12\nb,failed,haze,plain,1,200,7,7\n",
         "summary.csv");
-    const TextRows table = tabulatePublished(
-        files::CsvTable::parseText(head + "small,,haze particles=100,cpu_bytes gpu_bytes,about 40,40\n"
-                                          "failed,,haze particles=200,cpu_bytes,7,7\n",
-                                   "numbers.csv"),
-        summary);
+    const TextRows table =
+        tabulatePrinted(files::CsvTable::parseText(head + "small,,haze particles=100,cpu_bytes gpu_bytes,about 40,40\n"
+                                                          "failed,,haze particles=200,cpu_bytes,7,7\n",
+                                                   "numbers.csv"),
+                        summary);
     ASSERT_EQ(table.rows.size(), 2u);
     EXPECT_EQ(table.rows[0], (std::vector<std::string>{"small", "about 40", "40", "42", "1.050"}));
     EXPECT_EQ(table.rows[1], (std::vector<std::string>{"failed", "7", "7", "", ""}));
     for (const char* wrong : {"x,,haze,cpu_byte,1,1\n", "x,,haze =3,cpu_bytes,1,1\n"})
-        EXPECT_THROW((void)tabulatePublished(files::CsvTable::parseText(head + wrong, "p.csv"), summary), InputError);
+        EXPECT_THROW((void)tabulatePrinted(files::CsvTable::parseText(head + wrong, "p.csv"), summary), InputError);
 }
 
 }  // namespace

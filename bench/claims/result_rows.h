@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/claims/claim.h"
-#include "methods/shared/files/csv.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 

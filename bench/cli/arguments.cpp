@@ -4,7 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "methods/shared/errors.h"
+#include "bench/cli/slurm_script.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::cli {
 namespace {
@@ -49,7 +50,8 @@ InputError unexpected(const CLI::App& app, const CLI::App* command, const std::v
     if (!command) {
         std::vector<std::string> known;
         for (const CLI::App* each : app.get_subcommands({})) known.push_back(each->get_name());
-        if (!argv.empty() && !argv.front().starts_with('-')) return unknownName("command", argv.front(), known);
+        const std::vector<std::string> words = withoutOptions(argv, optionNames(app));
+        if (!words.empty() && !words.front().starts_with('-')) return unknownName("command", words.front(), known);
         return InputError(error.what());
     }
     for (const std::string& word : argv) {
@@ -104,17 +106,21 @@ void Arguments::givenOptions(std::vector<std::string>& names) {
     });
 }
 
-int dispatch(const std::vector<Command>& commands, std::string_view version, const std::vector<std::string>& argv) {
+int dispatch(const std::vector<Command>& commands, const CommonOptions& common, std::string_view version,
+             const std::vector<std::string>& argv) {
     CLI::App app("Real-time volumetric effects behind one vehicle, compared and measured.", "dustbench");
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);
     app.set_version_flag("--version", std::string(version));
+    Arguments before(app);
+    common.declare(before);
     std::vector<std::pair<CLI::App*, const Command*>> declared;
     for (const Command& command : commands) {
         CLI::App* sub = app.add_subcommand(command.name, command.summary);
         sub->footer(command.footer);
         Arguments arguments(*sub);
         command.declare(arguments);
+        common.declare(arguments);
         declared.emplace_back(sub, &command);
     }
 
@@ -139,6 +145,7 @@ int dispatch(const std::vector<Command>& commands, std::string_view version, con
             throw unexpected(app, entry ? entry->first : nullptr, argv, error);
         throw InputError(error.what());
     }
+    common.apply();
     return chosen()->second->run();
 }
 

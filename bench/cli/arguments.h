@@ -50,9 +50,15 @@ struct Command {
     std::function<int()> run;
 };
 
+/// Options that every subcommand takes, before or after its name.
+struct CommonOptions {
+    std::function<void(Arguments&)> declare;
+    std::function<void()> apply;  ///< before the subcommand runs
+};
+
 /// Parses the command line, runs the command that it names and gives the exit code. `--help` and `--version` print and
 /// give 0. Throws InputError for wrong use.
-[[nodiscard]] int dispatch(const std::vector<Command>& commands, std::string_view version,
+[[nodiscard]] int dispatch(const std::vector<Command>& commands, const CommonOptions& common, std::string_view version,
                            const std::vector<std::string>& argv);
 
 }  // namespace dustbench::cli

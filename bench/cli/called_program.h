@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "methods/shared/registry.h"
+#include "methods/contract/registry.h"
 
 namespace dustbench::cli {
 namespace fs = std::filesystem;

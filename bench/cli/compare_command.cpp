@@ -8,15 +8,15 @@
 #include <set>
 
 #include "bench/cli/commands.h"
-#include "bench/cli/compare_folders.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
+#include "bench/cli/regression_check.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/suite_report.h"
 #include "bench/cli/world_options.h"
-#include "bench/run/comparison_sheet.h"
-#include "bench/suite/method_comparison.h"
-#include "methods/shared/errors.h"
+#include "bench/report/side_by_side_sheet.h"
+#include "bench/suite/side_by_side.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::cli {
 namespace {
@@ -34,7 +34,7 @@ struct CompareOptions {
 
 /// Throws where an option was given that only the other kind of comparison knows.
 void refuseOthers(const CompareOptions& options, bool folders) {
-    static const std::set<std::string> both{"--out"},
+    static const std::set<std::string> both{"--out", "--adapter"},
         ofFolders{"--columns", "--fail-on-regression", "--across-machines"};
     for (const std::string& name : options.given)
         if (!both.contains(name) && ofFolders.contains(name) != folders)
@@ -70,7 +70,7 @@ void writeSheet(const bench::Suite& suite, const bench::ResultsFolder& results) 
         return;
     }
     const std::filesystem::path file = results.path() / "contact_sheet.png";
-    draw::writeImage(bench::drawSheet(bench::comparisonSheet(results, runs, suite.title)), file);
+    pictures::writeImage(bench::drawSheet(bench::sideBySideSheet(results, runs, suite.title)), file);
     std::cout << file.string() << "\n";
 }
 
@@ -95,10 +95,10 @@ int compareFolderArguments(const CompareOptions& options) {
     if (options.methods.size() != 2)
         throw InputError(fmt::format("compare: got {} result folders, allowed: 2", options.methods.size()));
     refuseOthers(options, true);
-    FolderCompareOptions folders{options.methods[0],    options.methods[1], options.columns, options.out, {},
-                                 options.acrossMachines};
+    RegressionOptions folders{options.methods[0],    options.methods[1], options.columns, options.out, {},
+                              options.acrossMachines};
     if (!options.failPercent.empty()) folders.failPercent = parsePercent(options.failPercent);
-    return compareResultFolders(folders);
+    return checkRegression(folders);
 }
 
 int compare(const CompareOptions& options) {
@@ -108,12 +108,13 @@ int compare(const CompareOptions& options) {
     base.frames = options.frames;
     base.judging.emplace();
     if (!options.moments.empty()) base.judging->moments = bench::parseFrameRange("--moments", options.moments);
-    bench::Suite suite = bench::compareMethods(options.methods, singleValues(options.world.parameters), base,
-                                               static_cast<int>(options.repetitions));
+    bench::Suite suite = bench::sideBySideSuite(options.methods, singleValues(options.world.parameters), base,
+                                                static_cast<int>(options.repetitions));
     suite.title +=
         fmt::format(": {}{}, {} frames", base.scene, base.drive.empty() ? "" : ", " + base.drive, base.frames);
     const auto plan = bench::planRuns(suite);
     checkWorlds(plan);
+    requireOpenGl();
     bench::ResultsFolder results(options.out.empty() ? "out/compare" : options.out);
     PlanOptions planOptions;
     planOptions.timeoutSeconds = suite.timeoutSeconds;

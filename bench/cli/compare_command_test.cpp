@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "bench/cli/called_program.h"
-#include "methods/shared/draw/image.h"
-#include "methods/shared/files/csv.h"
+#include "methods/kit/files/csv.h"
+#include "methods/kit/pictures/image.h"
 
 namespace dustbench::cli {
 namespace {
@@ -34,7 +34,7 @@ TEST_F(CompareCommand, WritesMetricsSummaryAndContactSheetAndGoesOnWhereItWas) {
     ASSERT_EQ(summary.rows(), 4u);
     for (std::size_t row = 0; row < 4; ++row)
         EXPECT_EQ(summary.cell(row, "flip").empty(), summary.cell(row, "repetition") != "1");
-    const draw::Image sheet = draw::readImage(fs::path(out()) / "contact_sheet.png");
+    const pictures::Image sheet = pictures::readImage(fs::path(out()) / "contact_sheet.png");
     EXPECT_GT(sheet.width, 5 * 400);
     EXPECT_GT(sheet.height, 5 * 300);
 
@@ -51,7 +51,7 @@ TEST_F(CompareCommand, ShowsAMethodWithASimulationOfItsOwnBesideTheJudged) {
         "grid_fluid:grid=16x8x8 billboard --size 96x72 --frames 6 --warmup 1 --repetitions 1 -P preroll=0.1 "
         "-P particles=50");
     ASSERT_EQ(called.code, 0) << called.err;
-    const draw::Image sheet = draw::readImage(fs::path(out()) / "contact_sheet.png");
+    const pictures::Image sheet = pictures::readImage(fs::path(out()) / "contact_sheet.png");
     // Exact, both methods, and the difference of one.
     EXPECT_GT(sheet.width, 4 * 400);
     EXPECT_LT(sheet.width, 5 * 400);

@@ -14,7 +14,7 @@
 #include "bench/measure/image/heat_map.h"
 #include "bench/measure/image/picture_error.h"
 #include "bench/measure/image/ssim.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::cli {
 namespace {
@@ -34,7 +34,7 @@ struct Differences {
 
 bench::Picture pictureOf(const std::string& file) {
     if (std::filesystem::is_directory(file)) throw InputError("cannot read image '" + file + "': it is a folder");
-    return bench::preparePicture(draw::readImage(file), "'" + file + "'");
+    return bench::preparePicture(pictures::readImage(file), "'" + file + "'");
 }
 
 /// The shortest number that reads back as this one, `null` for none.
@@ -70,7 +70,7 @@ int diff(const DiffOptions& options) {
     const bench::Picture reference = pictureOf(options.reference), image = pictureOf(options.image);
     const Differences found{bench::pictureError(reference, image), bench::ssim(reference, image),
                             bench::flip(reference, image, options.pixelsPerDegree)};
-    if (!options.out.empty()) draw::writeImage(bench::heatMap(found.flip.map), options.out);
+    if (!options.out.empty()) pictures::writeImage(bench::heatMap(found.flip.map), options.out);
     if (options.json)
         printJson(found);
     else
@@ -93,7 +93,7 @@ Command diffCommand() {
             arguments.text("--out", "FILE.png", "a picture of FLIP's map: black for 0, pale yellow for 1",
                            options->out);
             arguments.number("--pixels-per-degree", "how finely the viewer sees the pixels, for FLIP",
-                             options->pixelsPerDegree, bench::leastPixelsPerDegree, bench::mostPixelsPerDegree);
+                             options->pixelsPerDegree, bench::minimumPixelsPerDegree, bench::maximumPixelsPerDegree);
         },
         [options] { return diff(*options); }};
 }

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/cli/called_program.h"
-#include "methods/shared/draw/image.h"
+#include "methods/kit/pictures/image.h"
 
 namespace dustbench::cli {
 namespace {
@@ -15,8 +15,8 @@ using testing::HasSubstr;
 class DiffCommand : public Dustbench {
  protected:
     /// A gradient, `brighter` by so much in its left half.
-    static draw::Image gradient(int width, int height, float brighter) {
-        draw::Image image{width, height, {}};
+    static pictures::Image gradient(int width, int height, float brighter) {
+        pictures::Image image{width, height, {}};
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 const float value = 0.2f + 0.5f * static_cast<float>(x + y) / static_cast<float>(width + height);
@@ -24,9 +24,9 @@ class DiffCommand : public Dustbench {
             }
         return image;
     }
-    std::string write(const std::string& name, const draw::Image& image) const {
+    std::string write(const std::string& name, const pictures::Image& image) const {
         const fs::path file = folder_ / name;
-        draw::writeImage(image, file);
+        pictures::writeImage(image, file);
         return "'" + file.string() + "'";
     }
     [[nodiscard]] Called diff(const std::string& a, const std::string& b, const std::string& more = "") const {
@@ -67,7 +67,7 @@ TEST_F(DiffCommand, GivesTheSameNumbersAsTableAndAsJson) {
 }
 
 TEST_F(DiffCommand, ReadsAnEncodedPngAndALinearExrAsTheSamePicture) {
-    const draw::Image image = gradient(64, 48, 0);
+    const pictures::Image image = gradient(64, 48, 0);
     const Called called = diff(write("a.exr", image), write("a.png", image), "--json");
     ASSERT_EQ(called.code, 0) << called.err;
     // What is left is the rounding to 256 steps: RMS of about 1/√12 of a step, 58.9 dB.
@@ -80,7 +80,7 @@ TEST_F(DiffCommand, WritesAHeatMapThatIsBrightWhereThePicturesDiffer) {
     const std::string a = write("a.png", gradient(64, 48, 0)), b = write("b.png", gradient(64, 48, 0.3f));
     const fs::path map = folder_ / "map.png";
     ASSERT_EQ(diff(a, b, "--out '" + map.string() + "'").code, 0);
-    const draw::Image image = draw::readImage(map);
+    const pictures::Image image = pictures::readImage(map);
     ASSERT_EQ(image.width, 64);
     ASSERT_EQ(image.height, 48);
     EXPECT_GT(image.at(8, 24).r, 5 * image.at(56, 24).r);
@@ -89,7 +89,7 @@ TEST_F(DiffCommand, WritesAHeatMapThatIsBrightWhereThePicturesDiffer) {
 
 TEST_F(DiffCommand, SeesLessFromFartherAway) {
     // Stripes one pixel wide: a viewer for whom a degree holds more pixels sees them blurred.
-    draw::Image stripes = gradient(64, 48, 0), even = stripes;
+    pictures::Image stripes = gradient(64, 48, 0), even = stripes;
     for (std::size_t i = 0; i < stripes.pixels.size(); ++i)
         stripes.pixels[i] += glm::vec4(glm::vec3(i % 2 ? 0.1f : -0.1f), 0);
     const std::string a = write("a.exr", even), b = write("b.exr", stripes);
@@ -109,12 +109,12 @@ TEST_F(DiffCommand, RefusesWhatItCannotCompareInOneLine) {
     std::ofstream(folder_ / "text.png") << "not a picture";
     expectRefused(diff(good, "'" + (folder_ / "text.png").string() + "'"), "text.png");
 
-    draw::Image broken = gradient(40, 30, 0);
+    pictures::Image broken = gradient(40, 30, 0);
     broken.pixels[40 * 7 + 5].r = std::numeric_limits<float>::quiet_NaN();
     broken.pixels[40 * 9].b = std::numeric_limits<float>::infinity();
     expectRefused(diff(good, write("broken.exr", broken)), "broken.exr': 2 pixels are not finite, the first at (5, 7)");
 
-    draw::Image clear = gradient(40, 30, 0);
+    pictures::Image clear = gradient(40, 30, 0);
     clear.pixels[3].a = 0.25f;
     expectRefused(diff(write("clear.png", clear), good), "clear.png': 1 pixel is not opaque (expected alpha 1)");
 

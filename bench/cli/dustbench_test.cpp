@@ -14,9 +14,11 @@
 
 #include "bench/cli/called_program.h"
 #include "bench/results/stored_run.h"
-#include "methods/shared/files/csv.h"
-#include "methods/shared/registry.h"
-#include "methods/shared/stage_clock.h"
+#include "methods/contract/registry.h"
+#include "methods/contract/stage_clock.h"
+#include "methods/kit/files/csv.h"
+#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part_toml.h"
 
 namespace dustbench::cli {
 namespace {
@@ -94,6 +96,17 @@ TEST_F(Dustbench, HelpAndListsGoToStdout) {
         EXPECT_THAT(list, HasSubstr(method.id));
         for (const Parameter& parameter : method.parameters.all()) EXPECT_THAT(list, HasSubstr(parameter.name));
     }
+    const std::string parts = call("list parts").out;
+    for (const particles::PartInfo& part : particles::partTable()) {
+        EXPECT_THAT(parts, HasSubstr(fmt::format("{}/{} ", particles::kindName(part.kind), part.name)));
+        for (const std::string& text : {part.help, part.source}) EXPECT_THAT(parts, HasSubstr(text));
+        for (const Parameter& key : particles::tableKeys(part.parameters))
+            EXPECT_THAT(parts, HasSubstr(key.name + " = "));
+    }
+    const std::string wind = call("list parts force/wind --json").out;
+    for (const char* text : {"\"id\": \"force/wind\"", "\"part_kind\": \"force\"", "\"part\": \"wind\"",
+                             "\"name\": \"gust_speed\"", "\"unit\": \"m/s\""})
+        EXPECT_THAT(wind, HasSubstr(text));
     EXPECT_THAT(call("list suites --json").out, HasSubstr("\"id\": \"carr2006-fig5\""));
     EXPECT_THAT(call("env --json").out, HasSubstr("\"gl_renderer\""));
 }

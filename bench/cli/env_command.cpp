@@ -11,19 +11,29 @@
 #include "bench/measure/energy_counter.h"
 #include "bench/results/run_record.h"
 #include "bench/run/harness_cost.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/gpu/timer_query.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/gpu/egl_context.h"
+#include "methods/kit/gpu/timer_query.h"
 
 namespace dustbench::cli {
 namespace {
 
+struct Found {
+    bench::Provenance provenance;
+    std::vector<gpu::Adapter> adapters;
+    std::optional<bench::HarnessCost> harness;
+    bool cpuEnergy = false, gpuEnergy = false;
+};
+
 /// OpenGL may be missing: that is what this command is there to say.
-void lookAtGpu(bench::Provenance& provenance) {
+void lookAtGpu(Found& found) {
+    bench::Provenance& provenance = found.provenance;
     try {
+        found.adapters = gpu::listAdapters();
         gpu::Device device;
         provenance.device = device.info();
         provenance.gpuTimersTrusted = gpu::timerQueriesAreTrue(device);
-        if (bench::isSoftwareRenderer(provenance.device))
+        if (device.isSoftware())
             provenance.warnings.push_back(
                 "no GPU: pictures are drawn by the CPU, whose cores they share with the rest");
         if (!provenance.gpuTimersTrusted)
@@ -33,16 +43,13 @@ void lookAtGpu(bench::Provenance& provenance) {
     }
 }
 
-struct Found {
-    bench::Provenance provenance;
-    std::optional<bench::HarnessCost> harness;
-    bool cpuEnergy = false, gpuEnergy = false;
-};
-
 Found look() {
+    // Nothing to be said of the machine, but a mistake of the user.
+    if (const std::string asked = gpu::askedAdapter(); !asked.empty())
+        (void)gpu::findAdapter(gpu::listAdapters(), asked);
     Found found;
     found.provenance = bench::startProvenance(bench::commandLine());
-    lookAtGpu(found.provenance);
+    lookAtGpu(found);
     try {
         found.harness = bench::measureHarness(childExecution());
     } catch (const InputError& error) {
@@ -66,7 +73,16 @@ std::string json(const Found& found) {
         cells.emplace_back("harness_frame_ms", found.harness->frameMs);
         cells.emplace_back("start_s", found.harness->startSeconds);
     }
-    return bench::provenanceToJson(found.provenance, cells);
+    return bench::provenanceToJson(found.provenance, found.adapters, cells);
+}
+
+/// `1: surfaceless, llvmpipe (LLVM 15.0.6, 256 bits), software; taken: no hardware adapter: surfaceless`
+std::string adapterText(const gpu::Adapter& adapter, const gpu::DeviceInfo& taken) {
+    std::string text = fmt::format("{}: {}, ", adapter.index, adapter.name);
+    if (!adapter.problem.empty()) return text + adapter.problem;
+    if (adapter.platform == gpu::Adapter::Platform::surfaceless) text += adapter.renderer + ", ";
+    text += gpu::kindName(adapter.kind);
+    return adapter.index == taken.adapterIndex ? text + "; taken: " + taken.adapterWhy : text;
 }
 
 void print(const Found& found) {
@@ -86,6 +102,7 @@ void print(const Found& found) {
                        ? "none"
                        : fmt::format("{} ({}, EGL {})", provenance.device.version, provenance.device.vendor,
                                      provenance.device.platform));
+    for (const gpu::Adapter& adapter : found.adapters) line("adapter", adapterText(adapter, provenance.device));
     line("energy", energyText(found));
     line("clock",
          fmt::format("{:.0f} ns a reading, {:.0f} ns a stage", provenance.clock.readingNs, provenance.clock.stageNs));

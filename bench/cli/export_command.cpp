@@ -5,14 +5,15 @@
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/interruption.h"
+#include "bench/cli/plan_runner.h"
 #include "bench/cli/progress_printer.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/volume_options.h"
 #include "bench/cli/world_options.h"
 #include "bench/measure/provenance.h"
 #include "bench/run/export_run.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/registry.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
 
 namespace dustbench::cli {
 namespace {
@@ -36,6 +37,7 @@ bench::PlannedRun plannedExport(const ExportOptions& options) {
 
 int exportVolumes(const ExportOptions& options) {
     const bench::PlannedRun run = plannedExport(options);
+    requireOpenGl();
     listenForInterruption();
     ProgressPrinter printer;
     printer.started(1, 1, run, 1, -1);

@@ -18,8 +18,8 @@
 
 #include "bench/cli/called_program.h"
 #include "bench/results/run_record.h"
-#include "methods/shared/files/csv.h"
-#include "methods/shared/maths/transmittance.h"
+#include "methods/kit/files/csv.h"
+#include "methods/kit/maths/transmittance.h"
 
 namespace dustbench::cli {
 namespace {

@@ -8,7 +8,8 @@
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/suite/catalogue.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/particles/part_toml.h"
 
 namespace dustbench::cli {
 namespace {
@@ -27,10 +28,24 @@ void printParameters(const std::vector<Parameter>& parameters) {
     }
 }
 
-void printItem(const bench::CatalogueItem& item, bool withParameters) {
+/// As a file says them: `direction = [0, 1, 0]`.
+void printKeys(const std::vector<Parameter>& keys) {
+    for (const Parameter& key : keys) {
+        const std::string value = key.name + " = " + particles::valueToToml(key, key.initial);
+        std::cout << fmt::format("      {:<27} {}  ({}{})\n", value, key.help, key.allowed(),
+                                 key.unit.empty() ? "" : " " + key.unit);
+    }
+}
+
+void printItem(const bench::CatalogueItem& item, bool inDetail) {
     std::cout << fmt::format("  {:<20} {}\n", item.id, item.title);
     if (!item.summary.empty()) std::cout << fmt::format("  {:<20} {}\n", "", item.summary);
-    if (withParameters) printParameters(item.parameters);
+    if (!inDetail) return;
+    if (item.kind == "methods") printParameters(item.parameters);
+    if (item.kind == "parts") {
+        if (!item.source.empty()) std::cout << fmt::format("  {:<20} Source: {}\n", "", item.source);
+        printKeys(item.parameters);
+    }
 }
 
 int list(const ListOptions& options) {
@@ -45,7 +60,7 @@ int list(const ListOptions& options) {
         if (!options.id.empty()) items = {bench::findItem(kind, items, options.id)};
         if (!options.json) {
             std::cout << kind << ":\n";
-            for (const bench::CatalogueItem& item : items) printItem(item, kind == "methods" && !options.what.empty());
+            for (const bench::CatalogueItem& item : items) printItem(item, !options.what.empty());
             if (kind == "methods" && !options.what.empty() && options.id.empty()) {
                 std::cout << "every method, from the world that it is shown:\n";
                 printParameters(bench::worldParameterList());
@@ -61,15 +76,19 @@ int list(const ListOptions& options) {
 
 Command listCommand() {
     auto options = std::make_shared<ListOptions>();
-    return {"list", "What there is: methods, scenes, drives, suites, metrics",
-            "`dustbench list methods` shows every parameter that -P sets, with its default and what is allowed.",
-            [options](Arguments& arguments) {
-                arguments.text("what", "", "methods, scenes, drives, suites or metrics; all where left out",
-                               options->what);
-                arguments.text("id", "", "only this one", options->id);
-                arguments.flag("--json", "an array of objects with `id`", options->json);
-            },
-            [options] { return list(*options); }};
+    return {
+        "list", "What there is: methods, scenes, drives, suites, experiments, metrics, parts of particle systems",
+        "`dustbench list methods` shows every parameter that -P sets, with its default and what is allowed. `dustbench "
+        "list parts` is the manual of particle systems, the files of data/particles: `size/linear` is a table [size] "
+        "with part = \"linear\" and any of the keys shown. Of life, shading and force there may be several: [[force]].",
+        [options](Arguments& arguments) {
+            arguments.text("what", "",
+                           "methods, scenes, drives, suites, experiments, metrics or parts; all where left out",
+                           options->what);
+            arguments.text("id", "", "only this one", options->id);
+            arguments.flag("--json", "an array of objects with `id`", options->json);
+        },
+        [options] { return list(*options); }};
 }
 
 }  // namespace dustbench::cli

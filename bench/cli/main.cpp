@@ -2,14 +2,15 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/measure/provenance.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/simulation_error.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/gpu/device.h"
 
 namespace dustbench::cli {
 namespace {
@@ -20,12 +21,26 @@ std::string oneLine(std::string message) {
     return message;
 }
 
+/// `--adapter`, for this process and those that it starts.
+CommonOptions commonOptions() {
+    auto adapter = std::make_shared<std::string>();
+    return {[adapter](Arguments& arguments) {
+                arguments.text("--adapter", "N|NAME",
+                               "what to draw with: index or part of the name of one that `dustbench env` lists; the "
+                               "first hardware adapter unless given",
+                               *adapter);
+            },
+            [adapter] {
+                if (!adapter->empty()) gpu::askForAdapter(*adapter);
+            }};
+}
+
 int run(const std::vector<std::string>& argv) {
     if (!argv.empty() && argv.front() == measureRunName) return measureRunCommand(argv);
     if (!argv.empty() && argv.front() == forecastRunName) return forecastRunCommand(argv);
     return dispatch({listCommand(), envCommand(), runCommand(), compareCommand(), suiteCommand(), mergeCommand(),
                      reproduceCommand(), reportCommand(), exportCommand(), diffCommand()},
-                    "dustbench " + bench::buildFacts().version, argv);
+                    commonOptions(), "dustbench " + bench::buildFacts().version, argv);
 }
 
 }  // namespace

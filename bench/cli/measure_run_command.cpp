@@ -13,7 +13,7 @@
 #include "bench/run/measured_run.h"
 #include "bench/run/plan_forecast.h"
 #include "bench/run/run_forecast.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::cli {
 namespace {

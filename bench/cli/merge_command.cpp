@@ -11,7 +11,7 @@
 #include "bench/results/measured_on.h"
 #include "bench/results/merge.h"
 #include "bench/results/stored_folder.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "bench/cli/interruption.h"
 #include "bench/cli/progress_printer.h"
 #include "bench/measure/provenance.h"
-#include "methods/shared/gpu/device.h"
+#include "methods/kit/gpu/device.h"
 
 namespace dustbench::cli {
 
@@ -32,7 +32,6 @@ bench::ExecutionOptions childExecution() {
 namespace {
 
 bench::ExecutionOptions executionOf(const PlanOptions& options) {
-    { const gpu::Device mustExist; }
     bench::ExecutionOptions execution = childExecution();
     execution.force = options.force;
     execution.retryFailed = options.retryFailed;
@@ -45,6 +44,10 @@ bench::ExecutionOptions executionOf(const PlanOptions& options) {
 }
 
 }  // namespace
+
+void requireOpenGl() {
+    const gpu::Device mustExist;
+}
 
 bench::PlanForecast forecastRuns(const std::vector<bench::PlannedRun>& plan, bench::ResultsFolder& results,
                                  PlanOptions& options) {

@@ -51,7 +51,7 @@ void ProgressPrinter::heard(std::string_view line) {
 void ProgressPrinter::ended(const bench::PlannedRun&, bench::RunStatus status, const std::string& reason) {
     eraseBar();
     if (status != bench::RunStatus::done)
-        std::cerr << "    " << bench::statusName(status) << ": " << reason << std::endl;
+        std::cerr << "    " << bench::runStatuses.wordOf(status) << ": " << reason << std::endl;
 }
 
 }  // namespace dustbench::cli

@@ -10,7 +10,7 @@
 #include "bench/report/chart_file.h"
 #include "bench/report/page.h"
 #include "bench/report/report_reader.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::cli {
 namespace {
@@ -23,12 +23,12 @@ struct ReportOptions {
 
 /// The tables that `suite` and `reproduce` print, of whatever is there.
 void printTables(const bench::ReportData& data) {
-    for (const bench::Experiment& experiment : data.experiments) {
-        if (experiment.suite.empty()) continue;
-        bench::Suite suite = bench::loadSuite(experiment.suite, experiment.id != experiment.suite);
-        for (const bench::ReportCell& cell : experiment.cells)
+    for (const bench::RunGroup& group : data.groups) {
+        if (group.suite.empty()) continue;
+        bench::Suite suite = bench::loadSuite(group.suite, group.id != group.suite);
+        for (const bench::ReportCell& cell : group.cells)
             suite.repetitions = std::max(suite.repetitions, static_cast<int>(cell.done.size()));
-        std::cout << experiment.id << ": " << suiteReport(suite, data.runs) << "\n";
+        std::cout << group.id << ": " << suiteReport(suite, data.runs) << "\n";
     }
     std::cout << claimsReport(data.claims);
 }

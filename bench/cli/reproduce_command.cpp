@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/claims/claim_ledger.h"
-#include "bench/claims/published_numbers.h"
+#include "bench/claims/printed_numbers.h"
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/plan_runner.h"
@@ -19,8 +19,8 @@
 #include "bench/run/progress.h"
 #include "bench/suite/paper.h"
 #include "bench/suite/suite.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/csv.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::cli {
 namespace {
@@ -57,6 +57,7 @@ std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
             each.options.cooldownSeconds = each.suite.cooldownSeconds;
         }
     }
+    requireOpenGl();
     for (PaperWork& paper : work) {
         // Several papers of one call lie side by side.
         std::filesystem::path out = options.out;
@@ -103,12 +104,12 @@ int reproducePaper(const PaperWork& work) {
         code = std::max(code, suiteCode);
         std::cout << "\n" << suiteReport(each.suite, results.runs()) << std::flush;
     }
-    std::vector<bench::Finding> findings;
+    std::vector<bench::StoredFinding> findings;
     for (const std::string& id : paper.experiments)
         std::ranges::move(bench::runExperiment(id), std::back_inserter(findings));
     if (!findings.empty()) bench::writeWhole(results.path() / "experiments.csv", bench::findingsCsv(findings));
     const auto summary = files::CsvTable::parseFile(results.path() / "summary.csv");
-    if (const std::string numbers = publishedReport(bench::tabulatePublished(paper.id, summary)); !numbers.empty())
+    if (const std::string numbers = publishedReport(bench::tabulatePrinted(paper.id, summary)); !numbers.empty())
         std::cout << "\n" << numbers;
     const auto claims = bench::judgeClaims(paper.id, summary, findings);
     bench::writeWhole(results.path() / "claims.csv", bench::claimsCsv(claims));

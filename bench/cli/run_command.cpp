@@ -11,8 +11,8 @@
 #include "bench/cli/text_table.h"
 #include "bench/cli/volume_options.h"
 #include "bench/cli/world_options.h"
-#include "methods/shared/registry.h"
-#include "methods/shared/stage_clock.h"
+#include "methods/contract/registry.h"
+#include "methods/contract/stage_clock.h"
 
 namespace dustbench::cli {
 namespace {
@@ -28,7 +28,7 @@ struct RunOptions {
 bench::RunSpec toSpec(const RunOptions& options) {
     bench::RunSpec spec = options.world.toSpec();
     spec.frames = options.frames;
-    spec.sync = bench::parseSync(options.sync);
+    spec.sync = bench::syncs.parse("sync", options.sync);
     spec.imagesEvery = options.images;
     spec.volumes = options.volumes.over({});
     if (options.metrics) spec.judging.emplace();
@@ -42,7 +42,7 @@ void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results)
     const bench::StoredRun& stored = results.runs().at(id);
     std::cout << results.runFolder(id).string() << (run.label.empty() ? "" : "  " + run.label) << "\n";
     if (stored.status != bench::RunStatus::done) {
-        std::cout << "  " << bench::statusName(stored.status) << ": " << stored.reason << "\n";
+        std::cout << "  " << bench::runStatuses.wordOf(stored.status) << ": " << stored.reason << "\n";
         return;
     }
     const auto number = [&stored](const std::string& name) { return std::stod(stored.cells.at(name)); };
@@ -64,6 +64,7 @@ int run(const RunOptions& options) {
     const bench::RunSpec spec = toSpec(options);
     const auto plan = bench::expandParameters(spec, findMethod(spec.method), parseParameters(options.world.parameters));
     checkWorlds(plan);
+    requireOpenGl();
     bench::ResultsFolder results(options.out);
     PlanOptions planOptions;
     planOptions.force = true;

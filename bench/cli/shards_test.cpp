@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "bench/cli/called_program.h"
-#include "methods/shared/files/csv.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::cli {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "bench/scene/world.h"
 #include "bench/suite/value_list.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/registry.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
 
 namespace dustbench::cli {
 

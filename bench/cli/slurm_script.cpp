@@ -59,7 +59,7 @@ std::vector<std::string> withoutOptions(const std::vector<std::string>& words,
 std::string slurmScript(const SlurmJob& job) {
     const double around = secondsAroundRun + job.cooldownSeconds;
     const double seconds =
-        secondsAroundShard + static_cast<double>(job.mostRunsOfShard) * (job.timeoutSeconds + around);
+        secondsAroundShard + static_cast<double>(job.maximumRunsOfShard) * (job.timeoutSeconds + around);
     std::string arguments;
     for (const std::string& word : job.arguments) arguments += " " + shellQuoted(word);
     return fmt::format(R"script(#!/bin/bash
@@ -102,7 +102,7 @@ echo "$array ${{merging%%;*}}"
 )script",
                        fmt::arg("name", plainName(job.name)), fmt::arg("shards", job.shards),
                        fmt::arg("time", slurmTime(seconds)), fmt::arg("runs", job.runs),
-                       fmt::arg("most", job.mostRunsOfShard), fmt::arg("timeout", job.timeoutSeconds),
+                       fmt::arg("most", job.maximumRunsOfShard), fmt::arg("timeout", job.timeoutSeconds),
                        fmt::arg("around", around), fmt::arg("extra", secondsAroundShard),
                        fmt::arg("program", shellQuoted(job.program)), fmt::arg("folder", shellQuoted(job.folder)),
                        fmt::arg("out", shellQuoted(job.out)), fmt::arg("arguments", arguments));

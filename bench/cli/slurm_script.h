@@ -12,7 +12,7 @@ struct SlurmJob {
     std::string program, folder, out;    ///< absolute; `folder` is where the command was given
     std::vector<std::string> arguments;  ///< of `dustbench`, without --out, --slurm and --shard
     int shards = 1;
-    std::size_t runs = 0, mostRunsOfShard = 0;
+    std::size_t runs = 0, maximumRunsOfShard = 0;
     double timeoutSeconds = 0;   ///< of one run
     double cooldownSeconds = 0;  ///< between two runs
 };

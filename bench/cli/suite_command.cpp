@@ -19,7 +19,7 @@
 #include "bench/results/stored_folder.h"
 #include "bench/suite/shard.h"
 #include "bench/suite/suite.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::cli {
 namespace {
@@ -54,7 +54,7 @@ int printSlurmScript(const SuiteOptions& options, const bench::Suite& suite, dou
     for (const int shard : bench::shardOfCells(suite, job.shards)) ++cells[static_cast<std::size_t>(shard)];
     const auto repetitions = static_cast<std::size_t>(suite.repetitions);
     job.runs = suite.cells.size() * repetitions;
-    job.mostRunsOfShard = *std::ranges::max_element(cells) * repetitions;
+    job.maximumRunsOfShard = *std::ranges::max_element(cells) * repetitions;
     if (const auto empty = std::count(cells.begin() + 1, cells.end(), 0U); empty > 0)
         std::cerr << fmt::format("note: {} of {} shards have no runs: runs of one world stay together\n", empty,
                                  job.shards);
@@ -73,10 +73,11 @@ int printPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, const
         const std::string id = bench::runId(run.spec);
         std::string_view state = "to do";
         if (const auto found = stored.find(id); found != stored.end()) {
-            state = freshness.whyOutdated(found->second).empty() ? bench::statusName(found->second.status) : "outdated";
+            state = freshness.whyOutdated(found->second).empty() ? bench::runStatuses.wordOf(found->second.status)
+                                                                 : "outdated";
         } else {
             ++toDo;
-            bytes += bench::mostBytesOf(run.spec);
+            bytes += bench::maximumBytesOf(run.spec);
         }
         std::cout << fmt::format("{}  {:<8}  {} {} {}{}rep {}/{}\n", id, state, run.spec.method, run.spec.scene,
                                  run.label, run.label.empty() ? "" : " ", run.spec.repetition, repetitions);
@@ -87,7 +88,7 @@ int printPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, const
 
 int runSuite(const SuiteOptions& options) {
     bench::Suite suite = bench::loadSuite(options.suite, options.quick);
-    if (!options.order.empty()) suite.order = bench::parseOrder(options.order);
+    if (!options.order.empty()) suite.order = bench::orders.parse("order", options.order);
     if (options.repetitions > 0) suite.repetitions = static_cast<int>(options.repetitions);
     for (bench::PlannedRun& cell : suite.cells) {
         cell.spec.volumes = options.volumes.over(cell.spec.volumes);
@@ -107,6 +108,7 @@ int runSuite(const SuiteOptions& options) {
                                  suite.id);
     if (options.dryRun) return printPlan(plan, suite.repetitions, options.out);
     checkWorlds(plan);
+    if (!plan.empty()) requireOpenGl();
     bench::ResultsFolder results(options.out);
     PlanOptions planOptions;
     planOptions.force = options.force;
@@ -152,7 +154,7 @@ Command suiteCommand() {
                                "the I-th of N parts alone, from 1; `dustbench merge` puts their folders together",
                                options->shard);
                 arguments.integer("--slurm", "print a script for Slurm that works through N shards and merges them",
-                                  options->slurmShards, 0, bench::mostShards);
+                                  options->slurmShards, 0, bench::maximumShards);
             },
             [options] { return runSuite(*options); }};
 }

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include "bench/cli/text_table.h"
-#include "bench/suite/suite_comparison.h"
 #include "bench/suite/suite_fit.h"
 #include "bench/suite/suite_table.h"
+#include "bench/suite/suite_verdicts.h"
 
 namespace dustbench::cli {
 namespace {
 
 /// So many rows are better read as columns where there are many numbers.
-constexpr std::size_t mostColumns = 6;
+constexpr std::size_t maximumColumns = 6;
 
 bench::TextRows transposed(const bench::TextRows& table) {
     bench::TextRows turned;
@@ -39,12 +39,12 @@ std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs
     text += textOf(bench::tabulate(suite, runs));
     if (bench::TextRows metrics = bench::tabulateMetrics(suite, runs); !metrics.rows.empty())
         text += "\nmetrics, means over the judged moments (reports/METRICS.md)\n" +
-                textOf(metrics.rows.size() <= mostColumns ? transposed(metrics) : std::move(metrics));
+                textOf(metrics.rows.size() <= maximumColumns ? transposed(metrics) : std::move(metrics));
     for (const bench::FitResult& fit : bench::fitSuite(suite, runs)) {
         text += fmt::format("\ngrowth with N = {}: a + b·N^k, 95 % intervals\n", fit.against);
         text += textOf(bench::tabulate(fit));
     }
-    for (const bench::ComparisonResult& comparison : bench::compareSuite(suite, runs)) {
+    for (const bench::ComparisonResult& comparison : bench::suiteVerdicts(suite, runs)) {
         text += fmt::format("\n{} against {}: ratio of their times, 95 % interval over paired runs\n", comparison.of,
                             comparison.with);
         text += textOf(bench::tabulate(comparison));

@@ -1,6 +1,6 @@
 #include "bench/cli/volume_options.h"
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::cli {
 
@@ -40,7 +40,7 @@ std::optional<bench::VolumeSettings> VolumeOptions::over(const std::optional<ben
     if (!formats_.empty()) settings.formats = bench::parseFormats(formats_);
     if (!resolution_.empty()) settings.resolution = bench::parseResolution(resolution_);
     if (!region_.empty()) settings.region = bench::parseRegion(region_);
-    if (!precision_.empty()) settings.vdbPrecision = bench::parsePrecision(precision_);
+    if (!precision_.empty()) settings.vdbPrecision = bench::vdbPrecisions.parse("vdb precision", precision_);
     return settings;
 }
 

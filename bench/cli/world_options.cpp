@@ -1,7 +1,7 @@
 #include "bench/cli/world_options.h"
 
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/registry.h"
+#include "methods/contract/registry.h"
+#include "methods/kit/files/data_folder.h"
 
 namespace dustbench::cli {
 

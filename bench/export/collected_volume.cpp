@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "methods/shared/maths/transmittance.h"
-#include "methods/shared/particles/particle_store.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/maths/transmittance.h"
 
 namespace dustbench::bench {
 namespace {
@@ -22,9 +22,9 @@ void grow(std::optional<Box>& bounds, const Box& box) {
 
 }  // namespace
 
-void CollectedVolume::puffs(const particles::ParticleStore& puffs) {
+void CollectedVolume::puffs(const Puffs& puffs) {
     anyPuffs_ = true;
-    particles_ = &puffs;
+    particles_ = puffs;
     puffs_.reserve(puffs_.size() + puffs.size());
     for (std::size_t i = 0; i < puffs.size(); ++i) {
         const CollectedPuff puff{puffs.position(i), puffs.radius[i], puffs.opacity[i]};
@@ -79,17 +79,17 @@ namespace {
 
 /// What holds all cells of a grid with extinction.
 std::optional<Box> boundsOf(const CollectedGrid& grid) {
-    glm::ivec3 least(grid.cells), most(-1);
+    glm::ivec3 minimum(grid.cells), maximum(-1);
     for (int k = 0; k < grid.cells.z; ++k)
         for (int j = 0; j < grid.cells.y; ++j)
             for (int i = 0; i < grid.cells.x; ++i) {
                 if (grid.extinctionPerMetre[grid.row(j, k) + static_cast<std::size_t>(i)] == 0) continue;
-                least = glm::min(least, glm::ivec3(i, j, k));
-                most = glm::max(most, glm::ivec3(i, j, k));
+                minimum = glm::min(minimum, glm::ivec3(i, j, k));
+                maximum = glm::max(maximum, glm::ivec3(i, j, k));
             }
-    if (most.x < 0) return std::nullopt;
-    return Box{grid.originMetres + glm::dvec3(least) * grid.spacingMetres,
-               grid.originMetres + glm::dvec3(most + 1) * grid.spacingMetres};
+    if (maximum.x < 0) return std::nullopt;
+    return Box{grid.originMetres + glm::dvec3(minimum) * grid.spacingMetres,
+               grid.originMetres + glm::dvec3(maximum + 1) * grid.spacingMetres};
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ std::optional<Box> CollectedVolume::bounds() const {
     for (const CollectedOctree& octree : octrees_)
         for (const OctreeVoxel& voxel : octree.voxels) {
             if (voxel.extinctionPerMetre == 0) continue;
-            const glm::dvec3 corner = octree.leastCorner(voxel);
+            const glm::dvec3 corner = octree.minimumCorner(voxel);
             grow(bounds, {corner, corner + octree.cellEdgeMetres(voxel.level)});
         }
     return bounds;

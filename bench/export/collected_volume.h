@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/export/volume_settings.h"
-#include "methods/shared/volume.h"
+#include "methods/contract/volume.h"
 
 namespace dustbench::bench {
 
@@ -26,7 +26,7 @@ struct CollectedOctree {
     std::vector<OctreeVoxel> voxels;  ///< in pre-order, as OctreeVolume says
 
     [[nodiscard]] double cellEdgeMetres(int level) const { return edgeMetres / static_cast<double>(1u << level); }
-    [[nodiscard]] glm::dvec3 leastCorner(const OctreeVoxel& voxel) const {
+    [[nodiscard]] glm::dvec3 minimumCorner(const OctreeVoxel& voxel) const {
         return originMetres + glm::dvec3(voxel.x, voxel.y, voxel.z) * cellEdgeMetres(voxel.level);
     }
 };
@@ -54,7 +54,7 @@ struct CollectedGrid {
 class CollectedVolume final : public VolumeVisitor {
  public:
     /// Throws std::runtime_error with the particle's serial where a puff is not made of finite numbers.
-    void puffs(const particles::ParticleStore& puffs) override;
+    void puffs(const Puffs& puffs) override;
     /// Throws std::runtime_error with the voxel where it lies outside the tree or its extinction is no finite number.
     void octree(const OctreeVolume& volume) override;
     /// Throws std::runtime_error with the field where it has another size than the grid, or with the cell where a
@@ -62,8 +62,9 @@ class CollectedVolume final : public VolumeVisitor {
     void grid(const GridVolume& volume) override;
 
     [[nodiscard]] const std::vector<CollectedPuff>& puffs() const { return puffs_; }
-    /// The particles that were handed over last, as their owner keeps them: valid until its next step. Null: none were.
-    [[nodiscard]] const particles::ParticleStore* particles() const { return particles_; }
+    /// The particles that were handed over last, as their owner keeps them: valid until its next step. Empty: none
+    /// were.
+    [[nodiscard]] const std::optional<Puffs>& particles() const { return particles_; }
     [[nodiscard]] const std::vector<CollectedOctree>& octrees() const { return octrees_; }
     /// Nothing was handed over, not even an empty cloud.
     [[nodiscard]] bool isNothing() const { return !anyPuffs_ && octrees_.empty() && grids_.empty(); }
@@ -76,7 +77,7 @@ class CollectedVolume final : public VolumeVisitor {
 
  private:
     bool anyPuffs_ = false;
-    const particles::ParticleStore* particles_ = nullptr;
+    std::optional<Puffs> particles_;
     std::vector<CollectedPuff> puffs_;  ///< those with a mass
     std::vector<CollectedOctree> octrees_;
     std::vector<CollectedGrid> grids_;

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/maths/transmittance.h"
-#include "methods/shared/parallel/for_each_block.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/maths/transmittance.h"
+#include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::bench {
 namespace {
@@ -51,7 +51,7 @@ struct CubeShape {
 
 CubeShape cubeOf(const CollectedOctree& octree, const OctreeVoxel& voxel) {
     const double edge = octree.cellEdgeMetres(voxel.level);
-    return {octree.leastCorner(voxel), edge, static_cast<double>(voxel.extinctionPerMetre) * edge * edge * edge};
+    return {octree.minimumCorner(voxel), edge, static_cast<double>(voxel.extinctionPerMetre) * edge * edge * edge};
 }
 
 /// The cells of one axis that a shape reaches, and its share in each of them.
@@ -107,13 +107,13 @@ class Slab {
     /// Cell by cell, those layers alone that reach into the slab.
     void add(const CollectedGrid& grid) {
         const double edge = grid.spacingMetres;
-        const double least = plan_.origin[2] + firstLayer_ * plan_.spacingMetres - grid.originMetres.z;
-        const double most = plan_.origin[2] + endLayer_ * plan_.spacingMetres - grid.originMetres.z;
+        const double minimum = plan_.origin[2] + firstLayer_ * plan_.spacingMetres - grid.originMetres.z;
+        const double maximum = plan_.origin[2] + endLayer_ * plan_.spacingMetres - grid.originMetres.z;
         const auto held = [&](double layer) {
             return static_cast<int>(std::clamp(layer, 0.0, static_cast<double>(grid.cells.z)));
         };
-        const int end = held(std::ceil(most / edge));
-        for (int k = held(std::floor(least / edge)); k < end; ++k)
+        const int end = held(std::ceil(maximum / edge));
+        for (int k = held(std::floor(minimum / edge)); k < end; ++k)
             for (int j = 0; j < grid.cells.y; ++j)
                 for (int i = 0; i < grid.cells.x; ++i) {
                     const float extinction = grid.extinctionPerMetre[grid.row(j, k) + static_cast<std::size_t>(i)];
@@ -147,7 +147,7 @@ GridPlan planGrid(const std::optional<Box>& box, int resolution) {
     GridPlan plan;
     if (!box) return plan;
     const glm::dvec3 extent = box->extent();
-    plan.origin = box->least;
+    plan.origin = box->minimum;
     plan.spacingMetres = std::max({extent.x, extent.y, extent.z}) / resolution;
     for (int axis = 0; axis < 3; ++axis) {
         // What rounding leaves over a whole number of cells needs no further one.

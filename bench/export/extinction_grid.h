@@ -19,7 +19,7 @@ namespace dustbench::bench {
 /// Where a grid lies. It covers a whole number of cells, so it may reach up to a cell beyond what it is to hold, on the
 /// side of the greater coordinates.
 struct GridPlan {
-    glm::dvec3 origin{0};  ///< least corner of the first cell
+    glm::dvec3 origin{0};  ///< minimum corner of the first cell
     double spacingMetres = 1;
     std::array<int, 3> cells{1, 1, 1};
 

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "bench/export/test_clouds.h"
-#include "methods/shared/test_folder.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
 namespace {
@@ -45,8 +45,8 @@ TEST(ExtinctionGrid, OfAGridIsThatGridAndKeepsItsMassOnAnother) {
     for (std::size_t c = 0; c < 60; ++c) EXPECT_NEAR(same.extinctionPerMetre[c], test.extinction[c], 1e-4) << c;
     const ExtinctionGrid coarse = computeGrid(volume, planGrid(Box{{9.9, 19.8, 29.9}, {11.4, 21.1, 30.9}}, 7));
     EXPECT_NEAR(coarse.massSquareMetres(), same.massSquareMetres(), 1e-5 * same.massSquareMetres());
-    EXPECT_EQ(volume.bounds()->least, glm::dvec3(10, 20, 30));
-    EXPECT_EQ(volume.bounds()->most, glm::dvec3(11.25, 21, 30.75));
+    EXPECT_EQ(volume.bounds()->minimum, glm::dvec3(10, 20, 30));
+    EXPECT_EQ(volume.bounds()->maximum, glm::dvec3(11.25, 21, 30.75));
 }
 
 TEST(CollectedVolume, RefusesGridsThatAreNone) {
@@ -85,12 +85,12 @@ TEST(ExtinctionGrid, HoldsTheCellAveragesOfVoxelsThatTheirOverlapGives) {
     double largest = 0;
     forEachCell(grid, [&](int i, int j, int k, double got) {
         double expected = 0;
-        const glm::dvec3 least = plan.origin + plan.spacingMetres * glm::dvec3(i, j, k);
+        const glm::dvec3 minimum = plan.origin + plan.spacingMetres * glm::dvec3(i, j, k);
         for (const OctreeVoxel& voxel : octree.voxels) {
-            const glm::dvec3 corner = octree.leastCorner(voxel);
+            const glm::dvec3 corner = octree.minimumCorner(voxel);
             const glm::dvec3 shared =
-                glm::max(glm::min(least + plan.spacingMetres, corner + octree.cellEdgeMetres(voxel.level)) -
-                             glm::max(least, corner),
+                glm::max(glm::min(minimum + plan.spacingMetres, corner + octree.cellEdgeMetres(voxel.level)) -
+                             glm::max(minimum, corner),
                          glm::dvec3(0));
             expected += static_cast<double>(voxel.extinctionPerMetre) * shared.x * shared.y * shared.z /
                         std::pow(plan.spacingMetres, 3);
@@ -143,11 +143,11 @@ TEST(ExtinctionGrid, CoversItsBoxWithCubesOfWhichTheLongestEdgeHasAsManyAsAsked)
         const GridPlan plan = planGrid(box, resolution);
         EXPECT_EQ(plan.cells[0], resolution);
         EXPECT_EQ(plan.cells[2], resolution);
-        EXPECT_EQ(plan.origin, box.least);
+        EXPECT_EQ(plan.origin, box.minimum);
         for (int axis = 0; axis < 3; ++axis) {
             const double end = plan.origin[axis] + plan.spacingMetres * plan.cells[static_cast<std::size_t>(axis)];
-            EXPECT_GE(end, box.most[axis] - 1e-6);
-            EXPECT_LT(end, box.most[axis] + plan.spacingMetres);
+            EXPECT_GE(end, box.maximum[axis] - 1e-6);
+            EXPECT_LT(end, box.maximum[axis] + plan.spacingMetres);
         }
     }
 }

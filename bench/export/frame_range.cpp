@@ -5,12 +5,12 @@
 #include <charconv>
 #include <vector>
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {
 
-constexpr std::int64_t mostFrames = 10'000'000;
+constexpr std::int64_t maximumFrames = 10'000'000;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ FrameRange parseFrameRange(std::string_view what, std::string_view text) {
         const auto [stop, error] = std::from_chars(at, end, number);
         if (error != std::errc()) throw refuse("which is no range of frames");
         if (number < 0) throw refuse("with a negative number");
-        if (number > mostFrames) throw refuse("beyond 10000000");
+        if (number > maximumFrames) throw refuse("beyond 10000000");
         numbers.push_back(number);
         if (stop == end) break;
         if (*stop != ':' || numbers.size() == 3) throw refuse("which is no range of frames");

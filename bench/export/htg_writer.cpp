@@ -104,10 +104,10 @@ class TreeBuilder {
     vtkNew<vtkIntArray> level_;
 };
 
-vtkNew<vtkDoubleArray> ends(double least, double edge) {
+vtkNew<vtkDoubleArray> ends(double minimum, double edge) {
     vtkNew<vtkDoubleArray> coordinates;
-    coordinates->InsertNextValue(least);
-    coordinates->InsertNextValue(least + edge);
+    coordinates->InsertNextValue(minimum);
+    coordinates->InsertNextValue(minimum + edge);
     return coordinates;
 }
 

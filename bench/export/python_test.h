@@ -9,7 +9,7 @@
 #include <iterator>
 #include <string>
 
-#include "methods/shared/test_folder.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
 

@@ -16,14 +16,14 @@
 
 #include "bench/export/vtk_file.h"
 #include "bench/export/whole_file.h"
-#include "methods/shared/draw/image.h"
+#include "methods/kit/pictures/image.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr double groundMarginMetres = 20;
-constexpr std::int64_t mostGroundPoints = 1 << 18;
+constexpr std::int64_t maximumGroundPoints = 1 << 18;
 
 /// Points, normals and triangles, put together one by one.
 class Surface {
@@ -55,7 +55,7 @@ class Surface {
 /// A flat ground is one rectangle; a height field's are its own samples, of which every second, fourth … is left out
 /// where they would be too many.
 vtkNew<vtkPolyData> groundSurface(const scene::Terrain& terrain, const Box& part) {
-    glm::dvec2 origin(part.least.x, part.least.z);
+    glm::dvec2 origin(part.minimum.x, part.minimum.z);
     glm::dvec2 step(part.extent().x, part.extent().z);
     std::int64_t first[2] = {0, 0}, last[2] = {1, 1};
     if (!terrain.isFlat()) {
@@ -64,10 +64,10 @@ vtkNew<vtkPolyData> groundSurface(const scene::Terrain& terrain, const Box& part
             step = glm::dvec2(spacing);
             for (int axis = 0; axis < 2; ++axis) {
                 const int side = 2 * axis;  // x, z
-                first[axis] = std::llround(std::floor((part.least[side] - origin[axis]) / spacing));
-                last[axis] = std::llround(std::ceil((part.most[side] - origin[axis]) / spacing));
+                first[axis] = std::llround(std::floor((part.minimum[side] - origin[axis]) / spacing));
+                last[axis] = std::llround(std::ceil((part.maximum[side] - origin[axis]) / spacing));
             }
-            if ((last[0] - first[0] + 1) * (last[1] - first[1] + 1) <= mostGroundPoints) break;
+            if ((last[0] - first[0] + 1) * (last[1] - first[1] + 1) <= maximumGroundPoints) break;
         }
     }
     Surface surface;
@@ -104,7 +104,7 @@ vtkNew<vtkPolyData> placed(const scene::Mesh& mesh, const glm::mat4& toWorld) {
     colours->SetNumberOfComponents(3);
     for (const glm::vec3& colour : mesh.colours)
         for (int channel = 0; channel < 3; ++channel) {
-            const float encoded = draw::encodeSrgb(glm::clamp(colour[channel], 0.0f, 1.0f));
+            const float encoded = maths::encodeSrgb(glm::clamp(colour[channel], 0.0f, 1.0f));
             colours->InsertNextValue(static_cast<unsigned char>(std::lround(encoded * 255)));
         }
     placed->GetPointData()->SetScalars(colours);
@@ -127,7 +127,7 @@ Box groundAround(const std::optional<Box>& cloud, const scene::Scene& scene, con
             const glm::dvec3 place(scene.solidPoses[i].toWorld * glm::vec4(position, 1));
             box.include({place, place});
         }
-    return {box.least - groundMarginMetres, box.most + groundMarginMetres};
+    return {box.minimum - groundMarginMetres, box.maximum + groundMarginMetres};
 }
 
 void writeScene(const scene::Scene& scene, const scene::SceneState& state, const Box& ground, double timeSeconds,

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "bench/export/volume_settings.h"
-#include "methods/shared/scene/scene.h"
+#include "methods/contract/scene.h"
 
 namespace dustbench::bench {
 

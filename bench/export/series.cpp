@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "bench/export/whole_file.h"
-#include "methods/shared/files/csv.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 

@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "bench/export/collected_volume.h"
-#include "methods/shared/maths/transmittance.h"
-#include "methods/shared/octree/lattice.h"
-#include "methods/shared/particles/particle_store.h"
+#include "methods/kit/maths/transmittance.h"
+#include "methods/kit/octree/lattice.h"
+#include "methods/kit/particles/particle_store.h"
 
 namespace dustbench::bench {
 
 /// Owns: a store and the ledger behind it.
 class TestDust {
  public:
-    /// Within ±halfEdge of a centre off the origin, radii from `leastRadius` to ten times that.
-    TestDust(std::size_t count, float halfEdgeMetres, float leastRadiusMetres, unsigned seed) : store(ledger_) {
+    /// Within ±halfEdge of a centre off the origin, radii from `minimumRadius` to ten times that.
+    TestDust(std::size_t count, float halfEdgeMetres, float minimumRadiusMetres, unsigned seed) : store(ledger_) {
         std::mt19937 random(seed);
         const auto uniform = [&random](float a, float b) {
             return std::uniform_real_distribution<float>(a, b)(random);
@@ -34,7 +34,7 @@ class TestDust {
             store.velocityZ[i] = uniform(-3, 3);
             store.lifetime[i] = uniform(1, 9);
             store.age[i] = uniform(0, store.lifetime[i]);
-            store.radius[i] = uniform(leastRadiusMetres, 10 * leastRadiusMetres);
+            store.radius[i] = uniform(minimumRadiusMetres, 10 * minimumRadiusMetres);
             store.opacity[i] = uniform(0.01f, 0.999f);
         }
     }

@@ -85,7 +85,7 @@ TEST_P(VdbFile, HasTheSameSumAtTheSamePlaceInTheWorld) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Precisions, VdbFile, testing::Values(VdbPrecision::half, VdbPrecision::single),
-                         [](const auto& precision) { return std::string(precisionName(precision.param)); });
+                         [](const auto& precision) { return std::string(vdbPrecisions.wordOf(precision.param)); });
 
 TEST(VdbFileOf, AnEmptyCloudCanBeRead) {
     const TestFolder folder;

@@ -15,7 +15,7 @@
 #include "bench/export/vti_writer.h"
 #include "bench/export/vtp_writer.h"
 #include "bench/export/whole_file.h"
-#include "methods/shared/available_memory.h"
+#include "methods/kit/memory/available_memory.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
@@ -40,8 +40,8 @@ void requireWritable(const CollectedVolume& volume, const std::vector<VolumeForm
         if (reason.empty()) continue;
         std::vector<VolumeFormat> possible{VolumeFormat::vti, VolumeFormat::htg, VolumeFormat::vtp, VolumeFormat::vdb};
         std::erase_if(possible, [&](VolumeFormat each) { return !whyNotWritable(volume, each).empty(); });
-        throw InputError(fmt::format("format {}: method {} {}; formats it can be written as: {}", formatName(format),
-                                     method, reason, formatsText(possible)));
+        throw InputError(fmt::format("format {}: method {} {}; formats it can be written as: {}",
+                                     volumeFormats.wordOf(format), method, reason, formatsText(possible)));
     }
 }
 
@@ -139,7 +139,7 @@ void VolumeExporter::write(const ExportedMoment& moment) {
         const std::string name = nameOf(moment.frame, "vtp");
         writeVtp(moment.dust, time, folder_ / name);
         addTo("particles.pvd", Series::Kind::pvd, name, time);
-        if (const auto* own = moment.volume.particles(); own && own != &moment.dust) {
+        if (const auto& own = moment.volume.particles(); own && own->serial.data() != moment.dust.serial.data()) {
             const std::string ownName = fmt::format("f{:06}_{}.vtp", moment.frame, moment.method);
             writeVtp(*own, time, folder_ / ownName);
             addTo(fmt::format("{}.pvd", moment.method), Series::Kind::pvd, ownName, time);

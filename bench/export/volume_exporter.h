@@ -19,7 +19,8 @@
 #include "bench/export/extinction_grid.h"
 #include "bench/export/series.h"
 #include "bench/export/volume_settings.h"
-#include "methods/shared/scene/scene.h"
+#include "methods/contract/scene.h"
+#include "methods/contract/volume.h"
 
 namespace dustbench::bench {
 
@@ -35,7 +36,7 @@ struct ExportedMoment {
     const CollectedVolume& volume;
     const scene::Scene& scene;
     const scene::SceneState& state;
-    const particles::ParticleStore& dust;
+    Puffs dust;
 };
 
 class VolumeExporter {

@@ -3,20 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/files/csv.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 namespace {
 
-constexpr std::array<std::string_view, 4> formatNames{"vti", "htg", "vtp", "vdb"};
-constexpr std::array<std::string_view, 2> precisionNames{"half", "float"};
 constexpr double farthestMetres = 1e6;
-constexpr double leastEdgeMetres = 1e-3;
+constexpr double minimumEdgeMetres = 1e-3;
 
 /// Of 'a,b,c': each part, or nothing where a comma is followed by none.
 std::vector<std::string_view> parts(std::string_view text) {
@@ -31,18 +28,14 @@ std::vector<std::string_view> parts(std::string_view text) {
 
 }  // namespace
 
-std::string_view formatName(VolumeFormat format) {
-    return formatNames[static_cast<std::size_t>(format)];
-}
-
 std::vector<VolumeFormat> parseFormats(std::string_view text) {
     std::vector<VolumeFormat> formats;
     for (const std::string_view name : parts(text)) {
-        const auto found = std::ranges::find(formatNames, name);
-        if (found == formatNames.end())
+        const auto format = volumeFormats.find(name);
+        if (!format)
             throw InputError(
                 fmt::format("format: got '{}', allowed: vti, htg, vtp, vdb or several of them joined by ','", name));
-        formats.push_back(static_cast<VolumeFormat>(found - formatNames.begin()));
+        formats.push_back(*format);
     }
     std::ranges::sort(formats);
     formats.erase(std::ranges::unique(formats).begin(), formats.end());
@@ -51,19 +44,8 @@ std::vector<VolumeFormat> parseFormats(std::string_view text) {
 
 std::string formatsText(const std::vector<VolumeFormat>& formats) {
     std::string text;
-    for (const VolumeFormat format : formats) text.append(text.empty() ? "" : ",").append(formatName(format));
+    for (const VolumeFormat format : formats) text.append(text.empty() ? "" : ",").append(volumeFormats.wordOf(format));
     return text;
-}
-
-std::string_view precisionName(VdbPrecision precision) {
-    return precisionNames[static_cast<std::size_t>(precision)];
-}
-
-VdbPrecision parsePrecision(std::string_view text) {
-    const auto found = std::ranges::find(precisionNames, text);
-    if (found == precisionNames.end())
-        throw InputError(fmt::format("vdb precision: got '{}', allowed: half|float", text));
-    return static_cast<VdbPrecision>(found - precisionNames.begin());
 }
 
 Box parseRegion(std::string_view text) {
@@ -82,14 +64,14 @@ Box parseRegion(std::string_view text) {
     if (numbers.size() != 6) throw refuse(fmt::format("which are {} numbers", numbers.size()));
     const Box box{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
     for (int axis = 0; axis < 3; ++axis)
-        if (!(box.most[axis] - box.least[axis] >= leastEdgeMetres))
+        if (!(box.maximum[axis] - box.minimum[axis] >= minimumEdgeMetres))
             throw refuse(fmt::format("where {0}1 is not at least 0.001 above {0}0", "xyz"[axis]));
     return box;
 }
 
 std::string regionText(const Box& region) {
     std::string text;
-    for (const glm::dvec3& corner : {region.least, region.most})
+    for (const glm::dvec3& corner : {region.minimum, region.maximum})
         for (int axis = 0; axis < 3; ++axis)
             text.append(text.empty() ? "" : ",").append(files::csvNumber(corner[axis]));
     return text;
@@ -98,8 +80,8 @@ std::string regionText(const Box& region) {
 int parseResolution(std::string_view text) {
     int cells = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), cells);
-    if (error != std::errc() || end != text.data() + text.size() || cells < 1 || cells > mostCellsPerEdge)
-        throw InputError(fmt::format("resolution: got '{}', allowed: integer 1..{}", text, mostCellsPerEdge));
+    if (error != std::errc() || end != text.data() + text.size() || cells < 1 || cells > maximumCellsPerEdge)
+        throw InputError(fmt::format("resolution: got '{}', allowed: integer 1..{}", text, maximumCellsPerEdge));
     return cells;
 }
 

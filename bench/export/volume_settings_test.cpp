@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "methods/shared/test_folder.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
 namespace {
@@ -19,16 +19,16 @@ TEST(VolumeSettings, FormatsAreASet) {
 
 TEST(VolumeSettings, PrecisionIsOneOfTwo) {
     for (const VdbPrecision precision : {VdbPrecision::half, VdbPrecision::single})
-        EXPECT_EQ(parsePrecision(precisionName(precision)), precision);
-    EXPECT_THAT(inputError([] { (void)parsePrecision("double"); }), HasSubstr("half|float"));
+        EXPECT_EQ(vdbPrecisions.parse("vdb precision", vdbPrecisions.wordOf(precision)), precision);
+    EXPECT_THAT(inputError([] { (void)vdbPrecisions.parse("vdb precision", "double"); }), HasSubstr("half|float"));
 }
 
 TEST(VolumeSettings, ARegionSurvivesItsText) {
     const Box box = parseRegion("-1.5,0,2e1,1,0.25,20.5");
-    EXPECT_EQ(box.least, glm::dvec3(-1.5, 0, 20));
-    EXPECT_EQ(box.most, glm::dvec3(1, 0.25, 20.5));
-    EXPECT_EQ(parseRegion(regionText(box)).least, box.least);
-    EXPECT_EQ(parseRegion(regionText(box)).most, box.most);
+    EXPECT_EQ(box.minimum, glm::dvec3(-1.5, 0, 20));
+    EXPECT_EQ(box.maximum, glm::dvec3(1, 0.25, 20.5));
+    EXPECT_EQ(parseRegion(regionText(box)).minimum, box.minimum);
+    EXPECT_EQ(parseRegion(regionText(box)).maximum, box.maximum);
 }
 
 TEST(VolumeSettings, ARegionIsSixFiniteNumbersWithRoomBetween) {

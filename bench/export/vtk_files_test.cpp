@@ -27,7 +27,7 @@
 #include "bench/export/test_clouds.h"
 #include "bench/export/vti_writer.h"
 #include "bench/export/vtp_writer.h"
-#include "methods/shared/test_folder.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
 namespace {
@@ -169,7 +169,7 @@ std::vector<Node> nodesOf(vtkHyperTreeGrid& grid) {
 std::vector<OctreeVoxel> voxelsOver(const CollectedOctree& octree, const glm::dvec3& place) {
     std::vector<OctreeVoxel> over;
     for (const OctreeVoxel& voxel : octree.voxels) {
-        const glm::dvec3 from = place - octree.leastCorner(voxel);
+        const glm::dvec3 from = place - octree.minimumCorner(voxel);
         const double edge = octree.cellEdgeMetres(voxel.level);
         if (from.x >= 0 && from.y >= 0 && from.z >= 0 && from.x < edge && from.y < edge && from.z < edge)
             over.push_back(voxel);
@@ -333,10 +333,10 @@ TEST(SceneFile, BlocksStandWhereTheSceneHasThem) {
 TEST(SceneFile, APlaneReachesUnderTheSolids) {
     SmallWorld world;
     world.scene.solidPoses[0].toWorld[3] = {900, 0, -700, 1};
-    EXPECT_LT(groundAround({}, world.scene, world.state).most.x, 100);
+    EXPECT_LT(groundAround({}, world.scene, world.state).maximum.x, 100);
     world.scene.terrain = {};
-    EXPECT_GT(groundAround({}, world.scene, world.state).most.x, 900);
-    EXPECT_LT(groundAround({}, world.scene, world.state).least.z, -700);
+    EXPECT_GT(groundAround({}, world.scene, world.state).maximum.x, 900);
+    EXPECT_LT(groundAround({}, world.scene, world.state).minimum.z, -700);
 }
 
 TEST(SceneFile, AVastGroundIsThinnedOut) {

@@ -11,7 +11,7 @@
 
 #include "bench/export/vtk_file.h"
 #include "bench/export/whole_file.h"
-#include "methods/shared/particles/particle_store.h"
+#include "methods/contract/volume.h"
 
 namespace dustbench::bench {
 namespace {
@@ -30,7 +30,7 @@ vtkNew<vtkFloatArray> interleaved(std::span<const float> x, std::span<const floa
 
 }  // namespace
 
-void writeVtp(const particles::ParticleStore& dust, double timeSeconds, const std::filesystem::path& file) {
+void writeVtp(const Puffs& dust, double timeSeconds, const std::filesystem::path& file) {
     const auto count = static_cast<vtkIdType>(dust.size());
     vtkNew<vtkPolyData> cloud;
     vtkNew<vtkPoints> points;

@@ -2,14 +2,11 @@
 #pragma once
 
 #include <filesystem>
-
-namespace dustbench::particles {
-class ParticleStore;
-}
+#include "methods/contract/volume.h"
 
 namespace dustbench::bench {
 
 /// Whole or not at all. Throws InputError where it cannot be written.
-void writeVtp(const particles::ParticleStore& dust, double timeSeconds, const std::filesystem::path& file);
+void writeVtp(const Puffs& dust, double timeSeconds, const std::filesystem::path& file);
 
 }  // namespace dustbench::bench

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 

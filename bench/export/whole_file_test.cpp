@@ -11,7 +11,7 @@
 #include "bench/export/test_clouds.h"
 #include "bench/export/vdb_writer.h"
 #include "bench/export/vti_writer.h"
-#include "methods/shared/test_folder.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
 namespace {

@@ -6,12 +6,12 @@
 #include <glm/glm.hpp>
 #include <set>
 
-#include "bench/measure/paired_comparison.h"
+#include "bench/measure/paired_ratio.h"
 
 namespace dustbench::bench {
 namespace {
 
-constexpr std::size_t fewestLoads = 4;
+constexpr std::size_t minimumLoads = 4;
 
 struct Line {
     double a = 0, b = 0;
@@ -44,14 +44,14 @@ Line fitLine(std::span<const CostPoint> points, double k) {
     return line;
 }
 
-/// Where Σ residual² is least: a scan, then the golden section around its best place.
+/// Where Σ residual² is minimum: a scan, then the golden section around its best place.
 double bestExponent(std::span<const CostPoint> points) {
     const auto squares = [&](double k) { return fitLine(points, k).squares; };
     constexpr double step = 0.05;
-    double best = leastExponent;
-    for (double k = leastExponent; k <= greatestExponent; k += step)
+    double best = minimumExponent;
+    for (double k = minimumExponent; k <= maximumExponent; k += step)
         if (squares(k) < squares(best)) best = k;
-    double low = std::max(leastExponent, best - step), high = std::min(greatestExponent, best + step);
+    double low = std::max(minimumExponent, best - step), high = std::min(maximumExponent, best + step);
     constexpr double golden = 0.6180339887498949;
     while (high - low > 1e-9) {
         const double left = high - golden * (high - low), right = low + golden * (high - low);
@@ -94,7 +94,7 @@ CostFit fitCost(std::span<const CostPoint> points) {
         if (!(ms > 0 && std::isfinite(ms))) fit.reason = "a time is not a number above 0";
     }
     fit.loads = loads.size();
-    if (fit.reason.empty() && loads.size() < fewestLoads) fit.reason = "fewer than 4 different loads";
+    if (fit.reason.empty() && loads.size() < minimumLoads) fit.reason = "fewer than 4 different loads";
     if (!fit.reason.empty()) return fit;
 
     const double k = bestExponent(points);
@@ -106,7 +106,7 @@ CostFit fitCost(std::span<const CostPoint> points) {
         fit.reason = "no growth with the load stands out from the scatter";
         return fit;
     }
-    if (!(line.b > 0) || k < leastExponent + margin || k > greatestExponent - margin) {
+    if (!(line.b > 0) || k < minimumExponent + margin || k > maximumExponent - margin) {
         fit.reason = "the cost does not grow with the load as a power of it";
         return fit;
     }

@@ -40,8 +40,8 @@ struct CostFit {
 };
 
 /// Exponents that are looked for; one at either end counts as none.
-inline constexpr double leastExponent = 0.05;
-inline constexpr double greatestExponent = 4;
+inline constexpr double minimumExponent = 0.05;
+inline constexpr double maximumExponent = 4;
 
 /// Of any points: fewer than 4 different loads above 0, times that are no numbers above 0 and costs that do not grow
 /// with the load give a reason in place of a fit.

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "methods/shared/maths/philox.h"
+#include "methods/kit/maths/philox.h"
 
 namespace dustbench::bench {
 namespace {

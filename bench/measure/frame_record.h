@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "methods/shared/stage_clock.h"
+#include "methods/contract/stage_clock.h"
 
 namespace dustbench::bench {
 
@@ -21,7 +21,6 @@ struct FrameRecord {
     std::optional<double> gpuMs;
     std::int64_t particles = 0;
     std::int64_t primitives = 0;
-    std::optional<std::int64_t> clipped;  ///< particles outside the method's world; empty where it has no bounds
     std::int64_t cpuBytes = 0;
     std::int64_t gpuBytes = 0;
     std::int64_t rssBytes = 0;

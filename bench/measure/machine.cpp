@@ -8,7 +8,7 @@
 #include <fstream>
 #include <thread>
 
-#include "methods/shared/available_memory.h"
+#include "methods/kit/memory/available_memory.h"
 
 namespace dustbench::bench {
 namespace {

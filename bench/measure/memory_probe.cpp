@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "methods/shared/available_memory.h"
+#include "methods/kit/memory/available_memory.h"
 
 namespace dustbench::bench {
 

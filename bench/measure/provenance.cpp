@@ -11,7 +11,7 @@
 
 #include "bench/measure/sha256.h"
 #include "build_facts_values.h"
-#include "methods/shared/files/data_folder.h"
+#include "methods/kit/files/data_folder.h"
 
 namespace dustbench::bench {
 
@@ -78,12 +78,6 @@ std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& inpu
         hashes.push_back({ours ? inside.generic_string() : file.generic_string(), sha256OfFile(file)});
     }
     return hashes;
-}
-
-bool isSoftwareRenderer(const gpu::DeviceInfo& device) {
-    for (const char* name : {"llvmpipe", "softpipe", "swrast", "SwiftShader"})
-        if (device.renderer.find(name) != std::string::npos) return true;
-    return false;
 }
 
 std::vector<std::string> commandLine() {

@@ -8,7 +8,7 @@
 
 #include "bench/measure/clock.h"
 #include "bench/measure/machine.h"
-#include "methods/shared/gpu/device.h"
+#include "methods/kit/gpu/device.h"
 
 namespace dustbench::bench {
 
@@ -46,9 +46,6 @@ struct Provenance {
 
 /// Paths inside the data folder are named relative to it, so that results of two checkouts compare equal.
 [[nodiscard]] std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& files);
-
-/// True for the renderers that draw on the CPU.
-[[nodiscard]] bool isSoftwareRenderer(const gpu::DeviceInfo& device);
 
 /// The command line of this process.
 [[nodiscard]] std::vector<std::string> commandLine();

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <regex>
 
-#include "methods/shared/files/data_folder.h"
+#include "methods/kit/files/data_folder.h"
 
 namespace dustbench::bench {
 
@@ -51,11 +51,6 @@ TEST(Provenance, NamesInputsByTheirContent) {
     EXPECT_EQ(hashes[0].file, file.generic_string());
     EXPECT_EQ(hashes[0].sha256, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
     EXPECT_EQ(hashInputs({files::dataFolder() / "suites" / "x.toml"})[0].file, "suites/x.toml");
-}
-
-TEST(Provenance, KnowsTheRenderersThatDrawOnTheCpu) {
-    EXPECT_TRUE(isSoftwareRenderer({"Mesa", "llvmpipe (LLVM 15.0.6, 256 bits)", "4.5", "surfaceless"}));
-    EXPECT_FALSE(isSoftwareRenderer({"NVIDIA Corporation", "NVIDIA H200/PCIe/SSE2", "4.6", "device"}));
 }
 
 }  // namespace dustbench::bench

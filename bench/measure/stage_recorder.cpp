@@ -1,7 +1,6 @@
 #include "bench/measure/stage_recorder.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace dustbench::bench {
 
@@ -47,10 +46,6 @@ void StageRecorder::beginDetail(std::string_view name) {
 void StageRecorder::endDetail(std::string_view) {
     creditDetail(transition(true));
     if (!openDetails_.empty()) openDetails_.pop_back();
-}
-
-std::int64_t StageRecorder::totalNs() const {
-    return std::accumulate(stageNs_.begin(), stageNs_.end(), std::int64_t{0});
 }
 
 }  // namespace dustbench::bench

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/measure/clock.h"
-#include "methods/shared/stage_clock.h"
+#include "methods/contract/stage_clock.h"
 
 namespace dustbench::bench {
 
@@ -36,7 +36,6 @@ class StageRecorder : public StageListener {
     void endDetail(std::string_view name) override;
 
     [[nodiscard]] const std::array<std::int64_t, stageNames.size()>& stageNs() const { return stageNs_; }
-    [[nodiscard]] std::int64_t totalNs() const;
     /// In the order of first appearance.
     [[nodiscard]] const std::vector<Detail>& details() const { return details_; }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 namespace dustbench::bench {
 namespace {
 
@@ -12,6 +14,9 @@ struct FakeTime {
     StageClock clock{&recorder};
 
     [[nodiscard]] std::int64_t of(Stage stage) const { return recorder.stageNs()[static_cast<std::size_t>(stage)]; }
+    [[nodiscard]] std::int64_t ofAllStages() const {
+        return std::accumulate(recorder.stageNs().begin(), recorder.stageNs().end(), std::int64_t{0});
+    }
 };
 
 TEST(StageRecorder, GivesANestedStageItsOwnTimeAlone) {
@@ -39,7 +44,7 @@ TEST(StageRecorder, GivesANestedStageItsOwnTimeAlone) {
     EXPECT_EQ(time.of(Stage::sort), 70);
     EXPECT_EQ(time.of(Stage::upload), 200);
     EXPECT_EQ(time.of(Stage::draw), 3);
-    EXPECT_EQ(time.recorder.totalNs(), 284);
+    EXPECT_EQ(time.ofAllStages(), 284);
 }
 
 TEST(StageRecorder, SumsAStageThatComesTwice) {
@@ -97,7 +102,7 @@ TEST(StageRecorder, ForgetsTheLastFrame) {
         time.now += 9;
     }
     time.recorder.clear();
-    EXPECT_EQ(time.recorder.totalNs(), 0);
+    EXPECT_EQ(time.ofAllStages(), 0);
     EXPECT_TRUE(time.recorder.details().empty());
 }
 

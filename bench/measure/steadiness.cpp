@@ -14,13 +14,13 @@
 namespace dustbench::bench {
 namespace {
 
-constexpr std::size_t fewestFrames = 30;
-constexpr double enoughChange = 0.05;     // of the median, for warm-up and drift
-constexpr double enoughErrors = 4;        // standard errors
-constexpr double enoughDistance = 0.10;   // of two speeds
-constexpr double enoughSeparation = 4.5;  // D
-constexpr double leastShare = 0.1;        // of the frames at the rarer speed
-constexpr std::size_t mostRanked = 1000;  // pairs grow with the square
+constexpr std::size_t minimumFrames = 30;
+constexpr double enoughChange = 0.05;        // of the median, for warm-up and drift
+constexpr double enoughErrors = 4;           // standard errors
+constexpr double enoughDistance = 0.10;      // of two speeds
+constexpr double enoughSeparation = 4.5;     // D
+constexpr double minimumShare = 0.1;         // of the frames at the rarer speed
+constexpr std::size_t maximumRanked = 1000;  // pairs grow with the square
 
 double standardDeviation(std::span<const double> values, double middle) {
     std::vector<double> distances;
@@ -55,7 +55,7 @@ std::optional<std::string> warmUp(std::span<const double> first, std::span<const
 std::optional<std::string> drift(std::span<const double> frames) {
     // At most so many, evenly.
     std::vector<double> y;
-    const std::size_t step = (frames.size() + mostRanked - 1) / mostRanked;
+    const std::size_t step = (frames.size() + maximumRanked - 1) / maximumRanked;
     for (std::size_t i = 0; i < frames.size(); i += step) y.push_back(frames[i]);
     const auto n = static_cast<double>(y.size());
     std::vector<double> slopes;
@@ -76,7 +76,7 @@ std::optional<std::string> twoSpeeds(std::span<const double> frames) {
     std::ranges::sort(sorted);
     const double total = std::accumulate(sorted.begin(), sorted.end(), 0.0);
     const auto n = static_cast<double>(sorted.size());
-    // The least sum of squares within is the greatest between: n₁·n₂·(μ₁ − μ₂)².
+    // The minimum sum of squares within is the maximum between: n₁·n₂·(μ₁ − μ₂)².
     std::size_t split = 1;
     double best = -1, below = 0;
     for (std::size_t k = 1; k < sorted.size(); ++k) {
@@ -100,7 +100,7 @@ std::optional<std::string> twoSpeeds(std::span<const double> frames) {
     const auto [slow, slowVariance] = moments(all.subspan(split));
     const double share = std::min(static_cast<double>(split), n - static_cast<double>(split)) / n;
     const double separation = std::numbers::sqrt2 * (slow - fast) / std::sqrt(fastVariance + slowVariance);
-    if (slow - fast <= enoughDistance * fast || share < leastShare || !(separation > enoughSeparation))
+    if (slow - fast <= enoughDistance * fast || share < minimumShare || !(separation > enoughSeparation))
         return std::nullopt;
     return fmt::format("frame times have two speeds: {:.0f} % of the frames take about {:.3g} ms, the others {:.3g}",
                        100 * static_cast<double>(split) / n, fast, slow);
@@ -116,7 +116,7 @@ std::vector<std::string> steadinessWarnings(std::span<const double> frameMs) {
     std::vector<double> frames(frameMs.begin(), frameMs.end());
     if (frames.size() < 2) return warnings;
     note(takeStalls(frames));
-    if (frames.size() < fewestFrames) return warnings;
+    if (frames.size() < minimumFrames) return warnings;
     const std::span<const double> all(frames);
     const std::size_t tenth = frames.size() / 10;
     note(warmUp(all.first(tenth), all.subspan(tenth)));

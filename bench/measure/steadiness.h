@@ -7,7 +7,7 @@
 //   drift     Theil and Sen's slope over the run, the first tenth left out, makes more than 5 % of m, and Kendall's
 //   rank
 //             test against the order of the frames gives |z| > 4
-//   two speeds  the best split into two groups (least Σ of squares within) has means that differ by more than 10 %,
+//   two speeds  the best split into two groups (minimum Σ of squares within) has means that differ by more than 10 %,
 //             D = √2·|μ₁ − μ₂| / √(σ₁² + σ₂²) > 4.5 (an even spread has 3.5, a normal one 2.7), and at least a
 //             tenth of the frames on either side
 //   stalls    frames of more than 1.5·m that are also beyond m + 8·s

@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-#include "methods/shared/scene/view.h"
+#include "methods/contract/view.h"
 
 namespace dustbench::bench {
 

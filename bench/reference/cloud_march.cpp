@@ -12,14 +12,15 @@
 #include "bench/reference/fast_functions.h"
 #include "bench/reference/puff_list.h"
 #include "bench/reference/sun_depth.h"
-#include "methods/shared/parallel/for_each_block.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::bench {
 namespace {
 
-constexpr double mostSlabs = 4e6;  ///< of one ray: beyond, memory and patience end
+constexpr double maximumSlabs = 4e6;  ///< of one ray: beyond, memory and patience end
 /// Of the light, from one slab: what is less is not looked for, though it still dims what is behind.
-constexpr double leastShare = 1e-9;
+constexpr double minimumShare = 1e-9;
 
 /// A puff as one row sees it.
 struct RowPuff {
@@ -93,7 +94,7 @@ class RayMarch {
             pixel.depth += slab.depth;
             const double reached = transmittance;
             transmittance *= std::exp(-slab.depth);
-            if (reached * slab.depth < leastShare) continue;
+            if (reached * slab.depth < minimumShare) continue;
             glm::dvec3 seen = slab.colour / slab.depth * (reached * -std::expm1(-slab.depth));
             if (lighting) seen *= lighting->at(eye + (begin_ + (static_cast<double>(k) + 0.5) * length_) * direction);
             pixel.colour += seen;
@@ -111,10 +112,10 @@ class RayMarch {
             end = std::max(end, puff.end);
         }
         const double count = std::ceil((end - begin_) / slabMetres_);
-        if (count > mostSlabs)
+        if (count > maximumSlabs)
             throw std::invalid_argument(
                 fmt::format("ground truth: slabs of {} m cut the {} m of a ray into more than {} parts", slabMetres_,
-                            end - begin_, mostSlabs));
+                            end - begin_, maximumSlabs));
         length_ = (end - begin_) / count;
         slabs_.assign(static_cast<std::size_t>(count), Slab{});
         for (const RayPuff& puff : puffs_) {
@@ -148,7 +149,7 @@ class RayMarch {
     std::vector<Slab> slabs_;
 };
 
-glm::dvec3 checkedColour(const particles::ParticleStore& store, std::size_t i) {
+glm::dvec3 checkedColour(const Puffs& store, std::size_t i) {
     const glm::dvec3 colour(store.colour(i));
     if (!std::isfinite(colour.r + colour.g + colour.b))
         throw std::runtime_error(
@@ -157,7 +158,7 @@ glm::dvec3 checkedColour(const particles::ParticleStore& store, std::size_t i) {
     return colour;
 }
 
-CloudImage march(const particles::ParticleStore& store, const scene::View& view, const OpaqueDistances& given,
+CloudImage march(const Puffs& store, const scene::View& view, const OpaqueDistances& given,
                  const ReferenceOptions& options, const SunLight* light) {
     checkOptions(options);
     checkDistances(view, given);
@@ -223,14 +224,13 @@ CloudImage march(const particles::ParticleStore& store, const scene::View& view,
 
 }  // namespace
 
-CloudImage marchParticles(const particles::ParticleStore& store, const scene::View& view,
-                          const OpaqueDistances& distances, const ReferenceOptions& options) {
+CloudImage marchParticles(const Puffs& store, const scene::View& view, const OpaqueDistances& distances,
+                          const ReferenceOptions& options) {
     return march(store, view, distances, options, nullptr);
 }
 
-CloudImage renderLitParticles(const particles::ParticleStore& store, const scene::View& view,
-                              const OpaqueDistances& distances, const SunLight& light,
-                              const ReferenceOptions& options) {
+CloudImage renderLitParticles(const Puffs& store, const scene::View& view, const OpaqueDistances& distances,
+                              const SunLight& light, const ReferenceOptions& options) {
     return march(store, view, distances, options, &light);
 }
 

@@ -19,6 +19,7 @@
 #include <optional>
 
 #include "bench/reference/particle_image.h"
+#include "methods/contract/volume.h"
 
 namespace dustbench::bench {
 
@@ -35,8 +36,8 @@ struct SunLight {
 };
 
 /// J = 1: the store's colours as they are. What renderParticles calls where colours differ; throws as it does.
-[[nodiscard]] CloudImage marchParticles(const particles::ParticleStore& store, const scene::View& view,
-                                        const OpaqueDistances& distances, const ReferenceOptions& options = {});
+[[nodiscard]] CloudImage marchParticles(const Puffs& store, const scene::View& view, const OpaqueDistances& distances,
+                                        const ReferenceOptions& options = {});
 
 /// J(t) = sun/4·exp(−Σ towards the sun) + ambient, single scattering; the depth towards the sun is the closed form
 /// again. `options.slabMetres` sets the error; halving it quarters the error where slabs are short against the puffs
@@ -44,7 +45,7 @@ struct SunLight {
 /// 1e-3. The opacities are those of renderParticles, whatever the slabs.
 /// Takes half a minute for 3,000 puffs at 640×480 on 2 cores.
 /// Throws as renderParticles does, and std::invalid_argument for a sun without direction.
-[[nodiscard]] CloudImage renderLitParticles(const particles::ParticleStore& store, const scene::View& view,
+[[nodiscard]] CloudImage renderLitParticles(const Puffs& store, const scene::View& view,
                                             const OpaqueDistances& distances, const SunLight& light,
                                             const ReferenceOptions& options = {});
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "bench/reference/fast_functions.h"
-#include "methods/shared/parallel/for_each_block.h"
+#include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::bench {
 namespace {
@@ -17,7 +17,7 @@ constexpr int rowsAtOnce = 4;
 /// Pixels of a row that share one decision on how much of a puff they see; the loops run over whole groups.
 constexpr int group = 8;
 /// Of 2: below any depth that counts, and 2^x holds for it.
-constexpr double leastExponent = -1000;
+constexpr double minimumExponent = -1000;
 
 /// One row of the image as columns of numbers, padded to whole groups.
 struct Row {
@@ -66,7 +66,7 @@ void addWhole(const RowPuff& puff, const double* slopesX, Row& row, std::size_t 
     for (std::size_t i = first; i < first + group; ++i) {
         const double u = slopesX[i] - puff.x0;
         const double exponent = puff.logDepth - (puff.gamma * u * u + puff.kappa) * inverseSquare[i];
-        sums[i] += powerOfTwo(exponent > leastExponent ? exponent : leastExponent);
+        sums[i] += powerOfTwo(exponent > minimumExponent ? exponent : minimumExponent);
     }
 }
 
@@ -82,7 +82,7 @@ void addCut(const RowPuff& puff, const double* slopesX, Row& row, std::size_t fi
     for (std::size_t i = first; i < first + group; ++i) {
         const double u = slopesX[i] - puff.x0;
         const double exponent = puff.logDepth - (puff.gamma * u * u + puff.kappa) * inverseSquare[i];
-        const double depth = powerOfTwo(exponent > leastExponent ? exponent : leastExponent);
+        const double depth = powerOfTwo(exponent > minimumExponent ? exponent : minimumExponent);
         const double foot = (puff.footAtZero + puff.footPerSlope * slopesX[i]) * inverse[i];
         const double begin = cutByEye ? halfErf(-foot * puff.inverseWidth) : -0.5;
         const double finish = halfErf((scene[i] - foot) * puff.inverseWidth);

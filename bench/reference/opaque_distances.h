@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "methods/shared/scene/view.h"
+#include "methods/contract/view.h"
 
 namespace dustbench::bench {
 

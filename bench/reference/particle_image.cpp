@@ -9,6 +9,7 @@
 #include "bench/reference/cloud_march.h"
 #include "bench/reference/depth_sum.h"
 #include "bench/reference/puff_list.h"
+#include "methods/contract/volume.h"
 
 namespace dustbench::bench {
 namespace {
@@ -34,8 +35,8 @@ void checkOptions(const ReferenceOptions& options) {
            "1e-4 m or more");
 }
 
-CloudImage renderParticles(const particles::ParticleStore& store, const scene::View& view,
-                           const OpaqueDistances& distances, const ReferenceOptions& options) {
+CloudImage renderParticles(const Puffs& store, const scene::View& view, const OpaqueDistances& distances,
+                           const ReferenceOptions& options) {
     if (!store.uniformColour) return marchParticles(store, view, distances, options);
     checkOptions(options);
     checkDistances(view, distances);

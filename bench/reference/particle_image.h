@@ -1,6 +1,6 @@
 // Ground truth: the picture of a cloud of puffs as it is by definition, independent of every method and of OpenGL.
 //
-// Along a pixel's ray the puffs' optical depths add up by the closed form (methods/shared/maths/transmittance.h), and
+// Along a pixel's ray the puffs' optical depths add up by the closed form (methods/kit/maths/transmittance.h), and
 // α = 1 − exp(−Σ). No marching, no order, no voxels.
 //   - One colour for the cloud: colour·α is exact.
 //   - A colour for each particle: α is exact, the colour is integrated over slabs of the ray (see cloud_march.h), with
@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "bench/reference/opaque_distances.h"
-#include "methods/shared/draw/image.h"
-#include "methods/shared/particles/particle_store.h"
-#include "methods/shared/scene/view.h"
+#include "methods/contract/view.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/pictures/image.h"
 
 namespace dustbench::bench {
 
@@ -36,7 +36,7 @@ struct ReferenceOptions {
 };
 
 struct CloudImage {
-    draw::Image image;                  ///< premultiplied linear colour and alpha
+    pictures::Image image;              ///< premultiplied linear colour and alpha
     std::vector<double> opticalDepths;  ///< Σ of each pixel
     double colourErrorBound = 0;        ///< no channel of a pixel is off by more through the slabs; 0 for one colour
     std::int64_t evaluations = 0;       ///< pairs of puff and pixel that were computed
@@ -47,8 +47,8 @@ struct CloudImage {
 
 /// Throws std::runtime_error naming the serial of a particle that holds no usable number, std::invalid_argument for
 /// distances that do not fit the view or hold NaN, and for options out of range.
-[[nodiscard]] CloudImage renderParticles(const particles::ParticleStore& store, const scene::View& view,
-                                         const OpaqueDistances& distances, const ReferenceOptions& options = {});
+[[nodiscard]] CloudImage renderParticles(const Puffs& store, const scene::View& view, const OpaqueDistances& distances,
+                                         const ReferenceOptions& options = {});
 
 /// Throws std::invalid_argument, naming option and value.
 void checkOptions(const ReferenceOptions& options);

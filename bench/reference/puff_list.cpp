@@ -7,12 +7,13 @@
 #include <limits>
 #include <stdexcept>
 
-#include "methods/shared/maths/transmittance.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/maths/transmittance.h"
 
 namespace dustbench::bench {
 namespace {
 
-void check(const particles::ParticleStore& store, std::size_t i) {
+void check(const Puffs& store, std::size_t i) {
     const bool finite = std::isfinite(store.x[i]) && std::isfinite(store.y[i]) && std::isfinite(store.z[i]) &&
                         std::isfinite(store.radius[i]) && std::isfinite(store.opacity[i]);
     if (finite && store.radius[i] >= 0 && store.opacity[i] >= 0 && store.opacity[i] < 1) return;
@@ -50,8 +51,7 @@ double neglectedDepth(double toleratedDepth, std::size_t puffs) {
     return toleratedDepth / static_cast<double>(std::max<std::size_t>(puffs, 1));
 }
 
-std::vector<Puff> preparePuffs(const particles::ParticleStore& store, const CameraRays& rays, double opticalDepthShare,
-                               double neglected) {
+std::vector<Puff> preparePuffs(const Puffs& store, const CameraRays& rays, double opticalDepthShare, double neglected) {
     std::vector<Puff> puffs;
     puffs.reserve(store.size());
     for (std::size_t i = 0; i < store.size(); ++i) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/reference/camera_rays.h"
-#include "methods/shared/particles/particle_store.h"
+#include "methods/contract/volume.h"
 
 namespace dustbench::bench {
 
@@ -31,8 +31,8 @@ struct Puff {
 /// τ = −ln(1 − α)·`opticalDepthShare`. R = s·√(2·ln(τ/`neglected`)): there τ·exp(−R²/2s²) = `neglected`.
 /// Throws std::runtime_error that names the particle's serial where a position, radius or opacity is no finite number,
 /// the radius negative, or the opacity outside [0, 1).
-[[nodiscard]] std::vector<Puff> preparePuffs(const particles::ParticleStore& store, const CameraRays& rays,
-                                             double opticalDepthShare, double neglected);
+[[nodiscard]] std::vector<Puff> preparePuffs(const Puffs& store, const CameraRays& rays, double opticalDepthShare,
+                                             double neglected);
 
 /// The columns [first, end) of row `y` that a puff may touch, widened by less than a pixel; first == end: none.
 struct Columns {

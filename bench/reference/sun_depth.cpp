@@ -7,19 +7,19 @@
 #include <stdexcept>
 
 #include "bench/reference/fast_functions.h"
-#include "methods/shared/maths/transmittance.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/maths/transmittance.h"
 
 namespace dustbench::bench {
 namespace {
 
-constexpr double mostCells = 256;  ///< along each side of the grid
+constexpr double maximumCells = 256;  ///< along each side of the grid
 constexpr std::size_t atOnce = 16;
-constexpr double leastExponent = -1000;  ///< of 2: below any depth that counts
+constexpr double minimumExponent = -1000;  ///< of 2: below any depth that counts
 
 }  // namespace
 
-SunDepth::SunDepth(const particles::ParticleStore& store, const glm::dvec3& toSun, double opticalDepthShare,
-                   double neglected) {
+SunDepth::SunDepth(const Puffs& store, const glm::dvec3& toSun, double opticalDepthShare, double neglected) {
     const double length = glm::length(toSun);
     if (!(length > 0) || !std::isfinite(length)) throw std::invalid_argument("SunDepth: `toSun` has no direction");
     toSun_ = toSun / length;
@@ -46,7 +46,7 @@ SunDepth::SunDepth(const particles::ParticleStore& store, const glm::dvec3& toSu
 
     // Cells of a quarter metre, or more where the cloud is wide.
     const double edge = std::max(high.x - low_.x, high.y - low_.y);
-    cellMetres_ = std::max(0.25, edge / mostCells);
+    cellMetres_ = std::max(0.25, edge / maximumCells);
     cells_ = glm::ivec2(glm::ceil((high - low_) / cellMetres_)) + 1;
     // Twice over the puffs: first each cell's count, then its entries, in the order of the store.
     const auto forEachCell = [&](auto visit) {
@@ -80,13 +80,13 @@ double SunDepth::at(const glm::dvec3& position) const {
     // Several at a time, side by side, so that the loop over them vectorises; the last few with puffs of no depth.
     std::array<double, atOnce> exponents, along, depths;
     for (std::uint32_t n = cellStart_[k]; n < end; n += atOnce) {
-        exponents.fill(leastExponent);
+        exponents.fill(minimumExponent);
         along.fill(0);
         const std::size_t count = std::min<std::size_t>(atOnce, end - n);
         for (std::size_t i = 0; i < count; ++i) {
             const Entry& puff = puffs_[cellPuffs_[n + i]];
             const double du = u - puff.u, dv = v - puff.v;
-            exponents[i] = std::max(leastExponent, puff.logDepth - (du * du + dv * dv) * puff.scale);
+            exponents[i] = std::max(minimumExponent, puff.logDepth - (du * du + dv * dv) * puff.scale);
             along[i] = (puff.w - w) * puff.inverseWidth;
         }
         for (std::size_t i = 0; i < atOnce; ++i) depths[i] = powerOfTwo(exponents[i]) * (0.5 + halfErf(along[i]));

@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
-
-#include "methods/shared/particles/particle_store.h"
+#include "methods/contract/volume.h"
 
 namespace dustbench::bench {
 
@@ -16,8 +15,7 @@ class SunDepth {
  public:
     /// τ = −ln(1 − α)·`opticalDepthShare`; a puff counts out to where its depth falls to `neglected`.
     /// `toSun` need not be a unit vector. Throws std::invalid_argument where it has no direction.
-    SunDepth(const particles::ParticleStore& store, const glm::dvec3& toSun, double opticalDepthShare,
-             double neglected);
+    SunDepth(const Puffs& store, const glm::dvec3& toSun, double opticalDepthShare, double neglected);
 
     /// Σ τ·exp(−b²/2s²)·½[1 + erf(tc/√2s)], the ray starting at `position`, in the order of the store.
     [[nodiscard]] double at(const glm::dvec3& position) const;

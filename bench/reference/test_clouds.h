@@ -11,9 +11,10 @@
 
 #include "bench/reference/camera_rays.h"
 #include "bench/reference/opaque_distances.h"
-#include "methods/shared/maths/philox.h"
-#include "methods/shared/maths/transmittance.h"
-#include "methods/shared/particles/particle_store.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/maths/philox.h"
+#include "methods/kit/maths/transmittance.h"
+#include "methods/kit/particles/particle_store.h"
 
 namespace dustbench::bench::test {
 
@@ -85,8 +86,8 @@ inline OpaqueDistances groundDistances(const scene::View& view, double height) {
 }
 
 /// The picture's optical depths by maths::rayOpticalDepth, every puff in every pixel: the law itself, nothing left out.
-inline std::vector<double> plainDepths(const particles::ParticleStore& store, const scene::View& view,
-                                       const OpaqueDistances& distances, double opticalDepthShare = 1) {
+inline std::vector<double> plainDepths(const Puffs& store, const scene::View& view, const OpaqueDistances& distances,
+                                       double opticalDepthShare = 1) {
     const CameraRays rays(view);
     std::vector<double> depths;
     for (int y = 0; y < view.height; ++y)
@@ -108,8 +109,8 @@ inline std::vector<double> plainDepths(const particles::ParticleStore& store, co
 
 /// The same by brute force, without any closed form: the puffs' extinctions are summed at points along the ray and
 /// integrated by Simpson's rule, `perDeviation` steps in the smallest s.
-inline std::vector<double> marchedDepths(const particles::ParticleStore& store, const scene::View& view,
-                                         const OpaqueDistances& distances, double perDeviation = 12) {
+inline std::vector<double> marchedDepths(const Puffs& store, const scene::View& view, const OpaqueDistances& distances,
+                                         double perDeviation = 12) {
     const CameraRays rays(view);
     double smallest = std::numeric_limits<double>::infinity(), farthest = 0;
     for (std::size_t i = 0; i < store.size(); ++i) {

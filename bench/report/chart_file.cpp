@@ -11,7 +11,7 @@
 #include "bench/report/report_files.h"
 #include "bench/report/report_json.h"
 #include "bench/run/child_process.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {
@@ -59,17 +59,17 @@ std::string resolved(const ReportData& data, const std::string& wanted) {
 
 std::vector<std::string> chartIds(const ReportData& data) {
     std::vector<std::string> ids;
-    for (const Experiment& experiment : data.experiments) {
-        const auto has = [&experiment](std::string_view column) {
-            return std::ranges::any_of(experiment.cells,
+    for (const RunGroup& group : data.groups) {
+        const auto has = [&group](std::string_view column) {
+            return std::ranges::any_of(group.cells,
                                        [column](const ReportCell& cell) { return cell.values.contains(column); });
         };
         if (!has("frame_ms_median")) continue;
-        if (std::ranges::any_of(experiment.axes,
+        if (std::ranges::any_of(group.axes,
                                 [](const ReportAxis& axis) { return axis.name != "seed" && axis.name != "frames"; }))
-            ids.push_back(experiment.id);
-        ids.push_back(experiment.id + "-stages");
-        if (has("flip")) ids.push_back(experiment.id + "-quality");
+            ids.push_back(group.id);
+        ids.push_back(group.id + "-stages");
+        if (has("flip")) ids.push_back(group.id + "-quality");
     }
     if (!data.frameTimes.empty()) ids.emplace_back("frames");
     return ids;

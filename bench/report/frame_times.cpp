@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "bench/report/experiments.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/csv.h"
+#include "bench/report/run_groups.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 
@@ -16,19 +16,19 @@ FrameTimes condense(const std::vector<double>& frameMs) {
     FrameTimes times;
     times.frames = frameMs.size();
     if (frameMs.empty()) return times;
-    const auto [least, greatest] = std::ranges::minmax(frameMs);
-    times.leastMs = least;
+    const auto [minimum, maximum] = std::ranges::minmax(frameMs);
+    times.minimumMs = minimum;
     // 2·∛n bins, Rice's rule: enough to see two speeds, few enough not to see each frame.
     const auto wanted = static_cast<std::size_t>(std::lround(2 * std::cbrt(static_cast<double>(frameMs.size()))));
-    const std::size_t bins = std::clamp(wanted, fewestBins, mostBins);
-    times.binMs = (greatest - least) / static_cast<double>(bins);
+    const std::size_t bins = std::clamp(wanted, minimumBins, maximumBins);
+    times.binMs = (maximum - minimum) / static_cast<double>(bins);
     times.bins.assign(times.binMs > 0 ? bins : 1, 0);
     for (const double ms : frameMs) {
-        const auto bin = times.binMs > 0 ? static_cast<std::size_t>((ms - least) / times.binMs) : 0;
+        const auto bin = times.binMs > 0 ? static_cast<std::size_t>((ms - minimum) / times.binMs) : 0;
         ++times.bins[std::min(bin, times.bins.size() - 1)];
     }
 
-    const std::size_t stretches = std::min(frameMs.size(), mostTracePoints / 2);
+    const std::size_t stretches = std::min(frameMs.size(), maximumTracePoints / 2);
     for (std::size_t stretch = 0; stretch < stretches; ++stretch) {
         const std::size_t begin = stretch * frameMs.size() / stretches,
                           end = (stretch + 1) * frameMs.size() / stretches;
@@ -47,19 +47,19 @@ FrameTimes condense(const std::vector<double>& frameMs) {
 void readFrameTimes(const std::filesystem::path& folder, ReportData& data) {
     struct Candidate {
         const StoredRun* run;
-        std::string experiment, label;
+        std::string group, label;
     };
     std::vector<Candidate> candidates;
     std::set<const StoredRun*> known;
-    for (const Experiment& experiment : data.experiments)
-        for (const ReportCell& cell : experiment.cells)
+    for (const RunGroup& group : data.groups)
+        for (const ReportCell& cell : group.cells)
             if (!cell.done.empty() && known.insert(cell.done.front()).second) {
-                const std::string world = worldLabel(experiment, cell);
-                candidates.push_back({cell.done.front(), experiment.id,
-                                      variantLabel(experiment, cell) + (world.empty() ? "" : ", " + world)});
+                const std::string world = worldLabel(group, cell);
+                candidates.push_back(
+                    {cell.done.front(), group.id, variantLabel(group, cell) + (world.empty() ? "" : ", " + world)});
             }
 
-    const std::size_t kept = std::min(candidates.size(), mostRunsWithFrameTimes);
+    const std::size_t kept = std::min(candidates.size(), maximumRunsWithFrameTimes);
     data.runsWithoutFrameTimes = candidates.size() - kept;
     std::size_t unread = 0;
     std::string firstFault;
@@ -72,7 +72,7 @@ void readFrameTimes(const std::filesystem::path& folder, ReportData& data) {
             for (std::size_t row = 0; row < table.rows(); ++row) frameMs.push_back(table.number(row, "frame_ms"));
             FrameTimes times = condense(frameMs);
             times.runId = candidate.run->runId;
-            times.experiment = candidate.experiment;
+            times.group = candidate.group;
             times.label = candidate.label;
             data.frameTimes.push_back(std::move(times));
         } catch (const InputError& error) {

@@ -7,11 +7,11 @@
 
 namespace dustbench::bench {
 
-inline constexpr std::size_t mostRunsWithFrameTimes = 64;
-inline constexpr std::size_t mostTracePoints = 400;
-inline constexpr std::size_t fewestBins = 8, mostBins = 40;  // of a histogram
+inline constexpr std::size_t maximumRunsWithFrameTimes = 64;
+inline constexpr std::size_t maximumTracePoints = 400;
+inline constexpr std::size_t minimumBins = 8, maximumBins = 40;  // of a histogram
 
-/// Of all frames, `label` and ids left to the caller. Bins are equally wide from the least to the greatest.
+/// Of all frames, `label` and ids left to the caller. Bins are equally wide from the minimum to the maximum.
 [[nodiscard]] FrameTimes condense(const std::vector<double>& frameMs);
 
 /// Of the first repetition of each cell, spread evenly over the cells where there are too many. What cannot be read

@@ -1,7 +1,7 @@
 // The median of a few repetitions and how far it is known.
 //
 // Each value lies below the true median with probability 1/2, whatever the distribution, so between the order
-// statistics x(j) and x(n+1−j) it lies with probability 1 − 2·Σ_{i<j} C(n, i)/2ⁿ. The greatest j that has 95 % is
+// statistics x(j) and x(n+1−j) it lies with probability 1 − 2·Σ_{i<j} C(n, i)/2ⁿ. The maximum j that has 95 % is
 // taken; below 6 values even the whole range has less, and is given all the same, with its probability. Threads: pure.
 #pragma once
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <regex>
 
-#include "bench/report/experiments.h"
+#include "bench/report/run_groups.h"
 #include "bench/report/small_picture.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {
@@ -41,21 +41,21 @@ std::map<int, FramePictures> framesIn(const fs::path& images) {
 
 class Collector {
  public:
-    Collector(const fs::path& folder, std::int64_t mostBytes, ReportData& data)
-        : folder_(folder), bytesLeft_(mostBytes), data_(data) {}
+    Collector(const fs::path& folder, std::int64_t maximumBytes, ReportData& data)
+        : folder_(folder), bytesLeft_(maximumBytes), data_(data) {}
 
-    void add(const Experiment& experiment, const ReportCell& cell) {
+    void add(const RunGroup& group, const ReportCell& cell) {
         if (cell.done.empty()) return;
         const StoredRun& run = *cell.done.front();
         const std::string relative = "runs/" + run.runId + "/images/";
-        const std::string label = variantLabel(experiment, cell);
+        const std::string label = variantLabel(group, cell);
         const bool wasPictured = run.cells.contains("FILE_image") && !run.cells.at("FILE_image").empty();
         const auto frames = framesIn(folder_ / relative);
         if (wasPictured && frames.empty() && missing_++ == 0) firstMissing_ = relative;
         const auto reference = run.cells.find("metric_reference");
         const bool isExact = reference == run.cells.end() || reference->second == "exact";
         for (const auto& [frame, has] : frames) {
-            PictureSet& set = setOf(experiment.id, worldLabel(experiment, cell), frame);
+            PictureSet& set = setOf(group.id, worldLabel(group, cell), frame);
             const std::string start = fmt::format("{}f{:06}", relative, frame);
             if (has.reference) {
                 // The exact picture is the same for all methods, a finer setting of the method is its own.
@@ -75,10 +75,10 @@ class Collector {
     }
 
  private:
-    PictureSet& setOf(const std::string& experiment, const std::string& world, int frame) {
+    PictureSet& setOf(const std::string& group, const std::string& world, int frame) {
         for (PictureSet& set : data_.pictureSets)
-            if (set.experiment == experiment && set.world == world && set.frame == frame) return set;
-        return data_.pictureSets.emplace_back(PictureSet{experiment, world, frame, 0, 0, {}});
+            if (set.group == group && set.world == world && set.frame == frame) return set;
+        return data_.pictureSets.emplace_back(PictureSet{group, world, frame, 0, 0, {}});
     }
 
     void place(PictureSet& set, ReportPicture picture) {
@@ -122,10 +122,10 @@ std::string dataUrl(std::string_view mediaType, std::string_view bytes) {
     return fmt::format("data:{};base64,{}", mediaType, text);
 }
 
-void collectPictures(const fs::path& folder, std::int64_t mostBytes, ReportData& data) {
-    Collector collector(folder, mostBytes, data);
-    for (const Experiment& experiment : data.experiments)
-        for (const ReportCell& cell : experiment.cells) collector.add(experiment, cell);
+void collectPictures(const fs::path& folder, std::int64_t maximumBytes, ReportData& data) {
+    Collector collector(folder, maximumBytes, data);
+    for (const RunGroup& group : data.groups)
+        for (const ReportCell& cell : group.cells) collector.add(group, cell);
     collector.noteMissing();
 }
 

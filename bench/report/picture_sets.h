@@ -8,9 +8,9 @@
 
 namespace dustbench::bench {
 
-/// Pictures go into the page as they are or as JPEG, whichever is smaller, up to `mostBytes` in all; those beyond are
-/// linked by their path in the folder. What cannot be read gives a sentence in the data's problems.
-void collectPictures(const std::filesystem::path& folder, std::int64_t mostBytes, ReportData& data);
+/// Pictures go into the page as they are or as JPEG, whichever is smaller, up to `maximumBytes` in all; those beyond
+/// are linked by their path in the folder. What cannot be read gives a sentence in the data's problems.
+void collectPictures(const std::filesystem::path& folder, std::int64_t maximumBytes, ReportData& data);
 
 /// `data:image/png;base64,…`
 [[nodiscard]] std::string dataUrl(std::string_view mediaType, std::string_view bytes);

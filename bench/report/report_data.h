@@ -48,11 +48,11 @@ struct PublishedPoint {
     std::string axis;  ///< with x; empty: holds along the whole chart
     double x = 0;
     std::string column;
-    double least = 0, greatest = 0;
+    double minimum = 0, maximum = 0;
     std::string what;  ///< on which machine, of what
 };
 
-struct Experiment {
+struct RunGroup {
     std::string id;  ///< of its suite, `-quick` behind it where it is the short form; `other`
     std::string suite, title, summary, paper;
     std::vector<ReportAxis> axes;
@@ -63,9 +63,9 @@ struct Experiment {
 
 /// Frame times of one run: all of them as a histogram, few of them as a trace.
 struct FrameTimes {
-    std::string runId, experiment, label;
+    std::string runId, group, label;
     std::size_t frames = 0;
-    double leastMs = 0, binMs = 0;
+    double minimumMs = 0, binMs = 0;
     std::vector<int> bins;
     /// Of each stretch of frames the shortest and the longest, in their order, so that no spike is lost.
     std::vector<std::pair<std::size_t, double>> trace;
@@ -81,7 +81,7 @@ struct ReportPicture {
 
 /// All pictures of one world at one frame.
 struct PictureSet {
-    std::string experiment, world;
+    std::string group, world;
     int frame = 0;
     int width = 0, height = 0;
     std::vector<ReportPicture> pictures;
@@ -106,7 +106,7 @@ struct ReportData {
     /// Fields of the provenance of each machine that took part.
     std::vector<std::map<std::string, std::string, std::less<>>> machines;
     std::vector<Paper> papers;
-    std::vector<Experiment> experiments;
+    std::vector<RunGroup> groups;
     std::vector<JudgedClaim> claims;
     std::vector<FrameTimes> frameTimes;
     std::size_t runsWithoutFrameTimes = 0;  ///< left out, so that the page stays small

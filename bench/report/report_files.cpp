@@ -8,7 +8,7 @@
 #include <iterator>
 #include <vector>
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/measure/provenance.h"
-#include "bench/report/experiments.h"
+#include "bench/report/run_groups.h"
 #include "bench/suite/catalogue.h"
 
 namespace dustbench::bench {
@@ -34,7 +34,7 @@ json axisJson(const ReportAxis& axis) {
             {"world", axis.world}, {"numeric", axis.numeric}, {"values", axis.values}};
 }
 
-json cellJson(const Experiment& experiment, const ReportCell& cell, const RunIndex& index) {
+json cellJson(const RunGroup& group, const ReportCell& cell, const RunIndex& index) {
     json values = json::object();
     for (const auto& [column, interval] : cell.values)
         values[column] = interval.values == 1
@@ -44,8 +44,8 @@ json cellJson(const Experiment& experiment, const ReportCell& cell, const RunInd
     for (const StoredRun* run : cell.done) ids.push_back(run->runId);
     const double probability = cell.values.empty() ? 0 : cell.values.begin()->second.probability;
     return {{"method", cell.method},
-            {"variant", variantLabel(experiment, cell)},
-            {"world", worldLabel(experiment, cell)},
+            {"variant", variantLabel(group, cell)},
+            {"world", worldLabel(group, cell)},
             {"settings", cell.settings},
             {"machine", cell.machine},
             {"failed", cell.failed},
@@ -70,23 +70,25 @@ json fitJson(const ReportFit& entry) {
 }
 
 json publishedJson(const PublishedPoint& point) {
-    return {{"axis", point.axis},
-            {"x", number(point.x)},
-            {"column", point.column},
-            {"least", number(point.least)},
-            {"greatest", number(point.greatest)},
-            {"what", point.what}};
+    return {{"axis", point.axis},           {"x", number(point.x)},         {"column", point.column},
+            {"min", number(point.minimum)}, {"max", number(point.maximum)}, {"what", point.what}};
 }
 
-json experimentJson(const Experiment& experiment, const RunIndex& index) {
+json groupJson(const RunGroup& group, const RunIndex& index) {
     json axes = json::array(), cells = json::array(), fits = json::array(), published = json::array();
-    for (const ReportAxis& axis : experiment.axes) axes.push_back(axisJson(axis));
-    for (const ReportCell& cell : experiment.cells) cells.push_back(cellJson(experiment, cell, index));
-    for (const ReportFit& fit : experiment.fits) fits.push_back(fitJson(fit));
-    for (const PublishedPoint& point : experiment.published) published.push_back(publishedJson(point));
-    return {{"id", experiment.id},           {"suite", experiment.suite}, {"title", experiment.title},
-            {"summary", experiment.summary}, {"paper", experiment.paper}, {"axes", std::move(axes)},
-            {"cells", std::move(cells)},     {"fits", std::move(fits)},   {"published", std::move(published)}};
+    for (const ReportAxis& axis : group.axes) axes.push_back(axisJson(axis));
+    for (const ReportCell& cell : group.cells) cells.push_back(cellJson(group, cell, index));
+    for (const ReportFit& fit : group.fits) fits.push_back(fitJson(fit));
+    for (const PublishedPoint& point : group.published) published.push_back(publishedJson(point));
+    return {{"id", group.id},
+            {"suite", group.suite},
+            {"title", group.title},
+            {"summary", group.summary},
+            {"paper", group.paper},
+            {"axes", std::move(axes)},
+            {"cells", std::move(cells)},
+            {"fits", std::move(fits)},
+            {"published", std::move(published)}};
 }
 
 json claimJson(const JudgedClaim& judged, const RunIndex& index) {
@@ -100,8 +102,8 @@ json claimJson(const JudgedClaim& judged, const RunIndex& index) {
             {"measured", number(result.measured)},
             {"low", number(result.low)},
             {"high", number(result.high)},
-            {"least", claim.least ? number(*claim.least) : json()},
-            {"greatest", claim.greatest ? number(*claim.greatest) : json()},
+            {"min", claim.minimum ? number(*claim.minimum) : json()},
+            {"max", claim.maximum ? number(*claim.maximum) : json()},
             {"expected", claim.expected()},
             {"note", result.note},
             {"runs", indices(index, result.runs)}};
@@ -110,9 +112,14 @@ json claimJson(const JudgedClaim& judged, const RunIndex& index) {
 json frameTimesJson(const FrameTimes& times, const RunIndex& index) {
     json trace = json::array();
     for (const auto& [frame, ms] : times.trace) trace.push_back({frame, number(ms)});
-    return {{"run", index.at(times.runId)}, {"experiment", times.experiment},   {"label", times.label},
-            {"frames", times.frames},       {"leastMs", number(times.leastMs)}, {"binMs", number(times.binMs)},
-            {"bins", times.bins},           {"trace", std::move(trace)}};
+    return {{"run", index.at(times.runId)},
+            {"experiment", times.group},
+            {"label", times.label},
+            {"frames", times.frames},
+            {"minimumMs", number(times.minimumMs)},
+            {"binMs", number(times.binMs)},
+            {"bins", times.bins},
+            {"trace", std::move(trace)}};
 }
 
 json pictureSetJson(const PictureSet& set) {
@@ -122,8 +129,8 @@ json pictureSetJson(const PictureSet& set) {
                             {"method", picture.method},
                             {"difference", picture.difference},
                             {"source", picture.source}});
-    return {{"experiment", set.experiment}, {"world", set.world},   {"frame", set.frame},
-            {"width", set.width},           {"height", set.height}, {"pictures", std::move(pictures)}};
+    return {{"experiment", set.group}, {"world", set.world},   {"frame", set.frame},
+            {"width", set.width},      {"height", set.height}, {"pictures", std::move(pictures)}};
 }
 
 template <typename List, typename ToJson>
@@ -161,7 +168,7 @@ std::string reportJson(const ReportData& data) {
                     {"year", paper.year},
                     {"venue", paper.venue}};
     });
-    root["experiments"] = each(data.experiments, [&](const Experiment& item) { return experimentJson(item, index); });
+    root["experiments"] = each(data.groups, [&](const RunGroup& item) { return groupJson(item, index); });
     root["claims"] = each(data.claims, [&](const JudgedClaim& item) { return claimJson(item, index); });
     root["frames"] = each(data.frameTimes, [&](const FrameTimes& item) { return frameTimesJson(item, index); });
     root["pictures"] = each(data.pictureSets, pictureSetJson);

@@ -8,14 +8,14 @@
 #include <regex>
 #include <set>
 
-#include "bench/report/experiments.h"
 #include "bench/report/frame_times.h"
 #include "bench/report/picture_sets.h"
-#include "bench/report/published.h"
+#include "bench/report/published_points.h"
+#include "bench/report/run_groups.h"
 #include "bench/results/measured_on.h"
 #include "bench/results/summary.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/csv.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 namespace {
@@ -88,7 +88,7 @@ void noteWhatIsNotDone(ReportData& data) {
     std::map<std::string, RunWarnings> byKind;
     for (const auto& [id, run] : data.runs) {
         if (run.status != RunStatus::done)
-            data.notDone.push_back({id, std::string(statusName(run.status)), run.reason});
+            data.notDone.push_back({id, std::string(runStatuses.wordOf(run.status)), run.reason});
         for (const std::string& warning : run.warnings) {
             RunWarnings& kind = byKind[std::regex_replace(warning, number, "0")];
             if (kind.warning.empty()) kind.warning = warning;
@@ -114,19 +114,19 @@ void noteUnknownColumns(ReportData& data) {
 }
 
 /// A paper's experiments as the paper lists them, the quick form behind the whole one.
-void inOrderOf(const Paper& paper, std::vector<Experiment>& experiments) {
-    const auto place = [&paper](const Experiment& experiment) {
-        return std::pair(std::ranges::find(paper.suites, experiment.suite) - paper.suites.begin(), experiment.id);
+void inOrderOf(const Paper& paper, std::vector<RunGroup>& groups) {
+    const auto place = [&paper](const RunGroup& group) {
+        return std::pair(std::ranges::find(paper.suites, group.suite) - paper.suites.begin(), group.id);
     };
-    const auto isOurs = [&paper](const Experiment& experiment) { return experiment.paper == paper.id; };
-    const auto rest = std::ranges::stable_partition(experiments, isOurs);
-    std::ranges::sort(experiments.begin(), rest.begin(), {}, place);
+    const auto isOurs = [&paper](const RunGroup& group) { return group.paper == paper.id; };
+    const auto rest = std::ranges::stable_partition(groups, isOurs);
+    std::ranges::sort(groups.begin(), rest.begin(), {}, place);
 }
 
 void readPapers(const fs::path& folder, ReportData& data) {
     std::set<std::string> ids;
-    for (const Experiment& experiment : data.experiments)
-        if (!experiment.paper.empty()) ids.insert(experiment.paper);
+    for (const RunGroup& group : data.groups)
+        if (!group.paper.empty()) ids.insert(group.paper);
     if (ids.empty()) return;
     const fs::path summary = folder / "summary.csv";
     if (!fs::exists(summary))
@@ -134,11 +134,11 @@ void readPapers(const fs::path& folder, ReportData& data) {
     for (const std::string& id : ids) {
         try {
             data.papers.push_back(loadPaper(id));
-            inOrderOf(data.papers.back(), data.experiments);
+            inOrderOf(data.papers.back(), data.groups);
             const auto published = readPublished(id);
-            for (Experiment& experiment : data.experiments)
-                if (const auto found = published.find(experiment.suite); found != published.end())
-                    experiment.published = found->second;
+            for (RunGroup& group : data.groups)
+                if (const auto found = published.find(group.suite); found != published.end())
+                    group.published = found->second;
             if (!fs::exists(summary)) continue;
             for (JudgedClaim& claim : judgeClaims(id, files::CsvTable::parseFile(summary), readFindings(folder)))
                 data.claims.push_back(std::move(claim));
@@ -150,7 +150,7 @@ void readPapers(const fs::path& folder, ReportData& data) {
 
 }  // namespace
 
-ReportData readReport(const fs::path& folder, std::int64_t mostPictureBytes) {
+ReportData readReport(const fs::path& folder, std::int64_t maximumPictureBytes) {
     if (!fs::is_directory(folder))
         throw InputError(
             fmt::format("'{}': is no folder, expected one that `suite`, `run` or `reproduce` wrote", folder.string()));
@@ -163,10 +163,10 @@ ReportData readReport(const fs::path& folder, std::int64_t mostPictureBytes) {
     noteBuilds(data);
     noteWhatIsNotDone(data);
     noteUnknownColumns(data);
-    data.experiments = sortIntoExperiments(data.runs, machineOf, data.problems);
+    data.groups = sortIntoGroups(data.runs, machineOf, data.problems);
     readPapers(folder, data);
     readFrameTimes(folder, data);
-    collectPictures(folder, mostPictureBytes, data);
+    collectPictures(folder, maximumPictureBytes, data);
     return data;
 }
 

@@ -13,6 +13,6 @@ inline constexpr std::int64_t defaultPictureBytes = 12'000'000;
 
 /// Everything that the page shows, with a sentence for each thing that it cannot. Throws InputError where `folder` is
 /// no folder.
-[[nodiscard]] ReportData readReport(const std::filesystem::path& folder, std::int64_t mostPictureBytes);
+[[nodiscard]] ReportData readReport(const std::filesystem::path& folder, std::int64_t maximumPictureBytes);
 
 }  // namespace dustbench::bench

@@ -10,15 +10,15 @@
 #include <iterator>
 #include <numeric>
 
-#include "bench/report/experiments.h"
 #include "bench/report/frame_times.h"
 #include "bench/report/page.h"
 #include "bench/report/picture_sets.h"
-#include "bench/report/published.h"
+#include "bench/report/published_points.h"
 #include "bench/report/report_json.h"
 #include "bench/report/report_reader.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/pictures/picture_files.h"
+#include "bench/report/run_groups.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/pictures/picture_files.h"
 
 namespace dustbench::bench {
 namespace {
@@ -90,7 +90,7 @@ TEST(FrameTimes, KeepsEveryFrameInTheHistogramAndEverySpikeInTheTrace) {
     const FrameTimes times = condense(frames);
     EXPECT_EQ(std::accumulate(times.bins.begin(), times.bins.end(), 0), 10000);
     EXPECT_EQ(times.bins.back(), 1);
-    EXPECT_LE(times.trace.size(), mostTracePoints);
+    EXPECT_LE(times.trace.size(), maximumTracePoints);
     EXPECT_TRUE(std::ranges::any_of(times.trace,
                                     [](const auto& point) { return point == std::pair(std::size_t{4321}, 250.0); }));
     EXPECT_TRUE(std::ranges::is_sorted(times.trace));
@@ -109,26 +109,26 @@ TEST(Experiments, PutRepetitionsIntoOneCellAndNameWhatDiffers) {
     runs.begin()->second.status = RunStatus::failed;
     std::vector<const StoredRun*> all;
     for (const auto& [id, made] : runs) all.push_back(&made);
-    const Experiment experiment = makeExperiment(all, {});
+    const RunGroup group = makeGroup(all, {});
 
-    ASSERT_EQ(experiment.axes.size(), 2u);
-    EXPECT_EQ(experiment.axes[0].name, "particles");
-    EXPECT_TRUE(experiment.axes[0].world && experiment.axes[0].numeric);
-    EXPECT_EQ(experiment.axes[0].values, (std::vector<std::string>{"100", "1000"}));
-    EXPECT_EQ(experiment.axes[1].name, "sort");
-    EXPECT_FALSE(experiment.axes[1].world);
-    ASSERT_EQ(experiment.cells.size(), 6u);
+    ASSERT_EQ(group.axes.size(), 2u);
+    EXPECT_EQ(group.axes[0].name, "particles");
+    EXPECT_TRUE(group.axes[0].world && group.axes[0].numeric);
+    EXPECT_EQ(group.axes[0].values, (std::vector<std::string>{"100", "1000"}));
+    EXPECT_EQ(group.axes[1].name, "sort");
+    EXPECT_FALSE(group.axes[1].world);
+    ASSERT_EQ(group.cells.size(), 6u);
     std::size_t done = 0, failed = 0;
-    for (const ReportCell& cell : experiment.cells) {
+    for (const ReportCell& cell : group.cells) {
         done += cell.done.size();
         failed += cell.failed;
     }
     EXPECT_EQ(done, 11u);
     EXPECT_EQ(failed, 1u);
-    const auto cell = std::ranges::find_if(experiment.cells, [&](const ReportCell& one) {
-        return variantLabel(experiment, one) == "haze sort=radix" && worldLabel(experiment, one) == "particles=1000";
+    const auto cell = std::ranges::find_if(group.cells, [&](const ReportCell& one) {
+        return variantLabel(group, one) == "haze sort=radix" && worldLabel(group, one) == "particles=1000";
     });
-    ASSERT_NE(cell, experiment.cells.end());
+    ASSERT_NE(cell, group.cells.end());
     EXPECT_DOUBLE_EQ(cell->values.at("frame_ms_median").median, 11.5);
 }
 
@@ -141,11 +141,11 @@ TEST(Experiments, FindTheExponentOfACost) {
         }
     std::vector<const StoredRun*> all;
     for (const auto& [id, made] : runs) all.push_back(&made);
-    const Experiment experiment = makeExperiment(all, {});
-    ASSERT_EQ(experiment.fits.size(), 1u);
-    EXPECT_EQ(experiment.fits[0].column, "frame_ms_median");
-    EXPECT_NEAR(experiment.fits[0].fit.exponent.value, 1.5, 0.01);
-    EXPECT_NEAR(experiment.fits[0].fit.fixedMs.value, 5, 0.05);
+    const RunGroup group = makeGroup(all, {});
+    ASSERT_EQ(group.fits.size(), 1u);
+    EXPECT_EQ(group.fits[0].column, "frame_ms_median");
+    EXPECT_NEAR(group.fits[0].fit.exponent.value, 1.5, 0.01);
+    EXPECT_NEAR(group.fits[0].fit.fixedMs.value, 5, 0.05);
 }
 
 TEST(ReportJson, LetsNoTextBecomeMarkup) {
@@ -215,7 +215,7 @@ ReportData pictured(const Folder& folder) {
     for (const char* name : {"f000030.png", "f000030_reference.png", "f000030_difference.png"})
         EXPECT_EQ(pictures::writePng(images / name, 24, 16, 3, grey), "");
     data.runs.emplace(made.runId, made);
-    data.experiments.push_back(makeExperiment({&data.runs.begin()->second}, {}));
+    data.groups.push_back(makeGroup({&data.runs.begin()->second}, {}));
     return data;
 }
 
@@ -256,10 +256,9 @@ TEST(ReportPictures, AreMissedAndNamedWhereTheyAreDamaged) {
 
 TEST(Published, ReadsBandsAndRefusesThoseUpsideDown) {
     const Folder folder;
-    folder.write(
-        "papers/dust/published.csv",
-        "suite,axis,x,column,least,greatest,what\nfig,,,fps_avg,10,15,a laptop\nfig,particles,40,fps_avg,3,3,it\n");
-    folder.write("papers/mud/published.csv", "suite,axis,x,column,least,greatest,what\nfig,,,fps_avg,15,10,it\n");
+    folder.write("papers/dust/published.csv",
+                 "suite,axis,x,column,min,max,what\nfig,,,fps_avg,10,15,a laptop\nfig,particles,40,fps_avg,3,3,it\n");
+    folder.write("papers/mud/published.csv", "suite,axis,x,column,min,max,what\nfig,,,fps_avg,15,10,it\n");
     const char* before = std::getenv("DUSTBENCH_DATA");
     const std::string old = before ? before : "";
     setenv("DUSTBENCH_DATA", folder.path().c_str(), 1);

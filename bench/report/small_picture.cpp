@@ -5,8 +5,8 @@
 #include <iterator>
 #include <vector>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/pictures/picture_library.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/pictures/picture_library.h"
 
 namespace dustbench::bench {
 namespace {

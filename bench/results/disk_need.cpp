@@ -13,7 +13,7 @@ constexpr std::uint64_t otherBytes = 1 << 20;       // run.json, log
 
 }  // namespace
 
-std::uint64_t mostBytesOf(const RunSpec& spec) {
+std::uint64_t maximumBytesOf(const RunSpec& spec) {
     const auto frames = static_cast<std::uint64_t>(spec.frames);
     const auto picture =
         static_cast<std::uint64_t>(spec.size.width) * static_cast<std::uint64_t>(spec.size.height) * bytesPerPixel;

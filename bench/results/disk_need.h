@@ -13,7 +13,7 @@ namespace dustbench::bench {
 
 /// At most, as far as it can be known before: tables, pictures without compression, grids at their full resolution. How
 /// many particles and octree nodes a volume will hold is not known; they count as a grid does.
-[[nodiscard]] std::uint64_t mostBytesOf(const RunSpec& spec);
+[[nodiscard]] std::uint64_t maximumBytesOf(const RunSpec& spec);
 
 /// What an ordinary user may still write where `folder` lies.
 [[nodiscard]] std::uint64_t freeBytes(const std::filesystem::path& folder);

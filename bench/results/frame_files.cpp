@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "methods/shared/files/csv.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 

@@ -3,7 +3,7 @@
 #include <exception>
 
 #include "bench/measure/sha256.h"
-#include "methods/shared/files/data_folder.h"
+#include "methods/kit/files/data_folder.h"
 
 namespace dustbench::bench {
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <map>
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;

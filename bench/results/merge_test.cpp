@@ -9,7 +9,7 @@
 
 #include "bench/results/stored_folder.h"
 #include "bench/results/summary.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {

@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "bench/results/summary.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/csv.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;

@@ -1,20 +1,17 @@
 #include "bench/results/run_record.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/files/csv.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::array<std::string_view, 4> statusNames{"done", "failed", "timeout", "skipped"};
 
 /// Numbers in canonical text become numbers, everything else stays text.
 Json typed(const std::string& text) {
@@ -67,32 +64,36 @@ Json provenanceObject(const Provenance& provenance) {
     for (const InputHash& input : provenance.inputs) inputs.push_back({{"file", input.file}, {"sha256", input.sha256}});
     const BuildFacts& build = provenance.build;
     const Machine& machine = provenance.machine;
-    return {{"argv", provenance.argv},
-            {"started_utc", provenance.startedUtc},
-            {"version", build.version},
-            {"git_commit", build.gitCommit},
-            {"git_dirty", build.gitDirty},
-            {"compiler", build.compiler},
-            {"flags", build.flags},
-            {"build_type", build.buildType},
-            {"build_id", build.buildId},
-            {"cpu", machine.cpu},
-            {"governor", machine.governor},
-            {"cores", machine.cores},
-            {"ram_bytes", machine.ramBytes},
-            {"kernel", machine.kernel},
-            {"load_average", machine.loadAverage},
-            {"virtual_machine", machine.virtualMachine},
-            {"stolen_share", machine.stolenShare},
-            {"quota_cores", machine.quotaCores},
-            {"gl_vendor", provenance.device.vendor},
-            {"gl_renderer", provenance.device.renderer},
-            {"gl_version", provenance.device.version},
-            {"gl_platform", provenance.device.platform},
-            {"gpu_timers", provenance.gpuTimersTrusted},
-            {"clock_reading_ns", provenance.clock.readingNs},
-            {"clock_stage_ns", provenance.clock.stageNs},
-            {"inputs", inputs}};
+    return {
+        {"argv", provenance.argv},
+        {"started_utc", provenance.startedUtc},
+        {"version", build.version},
+        {"git_commit", build.gitCommit},
+        {"git_dirty", build.gitDirty},
+        {"compiler", build.compiler},
+        {"flags", build.flags},
+        {"build_type", build.buildType},
+        {"build_id", build.buildId},
+        {"cpu", machine.cpu},
+        {"governor", machine.governor},
+        {"cores", machine.cores},
+        {"ram_bytes", machine.ramBytes},
+        {"kernel", machine.kernel},
+        {"load_average", machine.loadAverage},
+        {"virtual_machine", machine.virtualMachine},
+        {"stolen_share", machine.stolenShare},
+        {"quota_cores", machine.quotaCores},
+        {"gl_vendor", provenance.device.vendor},
+        {"gl_renderer", provenance.device.renderer},
+        {"gl_version", provenance.device.version},
+        {"gl_platform", provenance.device.platform},
+        {"adapter", provenance.device.adapter},
+        {"adapter_index", provenance.device.adapterIndex < 0 ? Json(nullptr) : Json(provenance.device.adapterIndex)},
+        {"adapter_why", provenance.device.adapterWhy},
+        {"gpu_timers", provenance.gpuTimersTrusted},
+        {"clock_reading_ns", provenance.clock.readingNs},
+        {"clock_stage_ns", provenance.clock.stageNs},
+        {"inputs", inputs}};
 }
 
 Json volumesObject(const std::optional<VolumeSettings>& volumes) {
@@ -101,7 +102,7 @@ Json volumesObject(const std::optional<VolumeSettings>& volumes) {
             {"formats", formatsText(volumes->formats)},
             {"resolution", volumes->resolution},
             {"region", volumes->region ? Json(regionText(*volumes->region)) : Json(nullptr)},
-            {"vdb_precision", precisionName(volumes->vdbPrecision)}};
+            {"vdb_precision", vdbPrecisions.wordOf(volumes->vdbPrecision)}};
 }
 
 std::optional<VolumeSettings> readVolumes(const Json& json) {
@@ -111,7 +112,7 @@ std::optional<VolumeSettings> readVolumes(const Json& json) {
     volumes.formats = parseFormats(json.at("formats").get<std::string>());
     volumes.resolution = json.at("resolution").get<int>();
     if (!json.at("region").is_null()) volumes.region = parseRegion(json.at("region").get<std::string>());
-    volumes.vdbPrecision = parsePrecision(json.at("vdb_precision").get<std::string>());
+    volumes.vdbPrecision = vdbPrecisions.parse("vdb precision", json.at("vdb_precision").get<std::string>());
     return volumes;
 }
 
@@ -136,16 +137,6 @@ std::string text(const Json& json) {
 
 }  // namespace
 
-std::string_view statusName(RunStatus status) {
-    return statusNames[static_cast<std::size_t>(status)];
-}
-
-RunStatus parseStatus(std::string_view name) {
-    const auto found = std::ranges::find(statusNames, name);
-    if (found == statusNames.end()) throw InputError("unknown status '" + std::string(name) + "'");
-    return static_cast<RunStatus>(found - statusNames.begin());
-}
-
 std::string valueText(const Value& value) {
     return cellText(toValue(value));
 }
@@ -159,7 +150,7 @@ std::string toJson(const RunRecord& record) {
     Json provenance = provenanceObject(record.provenance);
     provenance["key"] = canonicalKey(spec);
     return text({{"run_id", runId(spec)},
-                 {"status", statusName(record.status)},
+                 {"status", runStatuses.wordOf(record.status)},
                  {"reason", record.reason},
                  {"method", spec.method},
                  {"scene", spec.scene},
@@ -170,7 +161,7 @@ std::string toJson(const RunRecord& record) {
                  {"warmup", spec.warmup},
                  {"width", spec.size.width},
                  {"height", spec.size.height},
-                 {"sync", syncName(spec.sync)},
+                 {"sync", syncs.wordOf(spec.sync)},
                  {"threads", spec.threads},
                  {"images", spec.imagesEvery},
                  {"volumes", volumesObject(spec.volumes)},
@@ -215,7 +206,7 @@ std::string specToJson(const RunSpec& spec) {
                  {"height", spec.size.height},
                  {"seed", spec.seed},
                  {"threads", spec.threads},
-                 {"sync", syncName(spec.sync)},
+                 {"sync", syncs.wordOf(spec.sync)},
                  {"images", spec.imagesEvery},
                  {"volumes", volumesObject(spec.volumes)},
                  {"metrics", judgingObject(spec.judging)},
@@ -236,7 +227,7 @@ RunSpec specFromJson(std::string_view text) {
         spec.size = {json.at("width").get<int>(), json.at("height").get<int>()};
         spec.seed = json.at("seed").get<std::uint64_t>();
         spec.threads = json.at("threads").get<int>();
-        spec.sync = parseSync(json.at("sync").get<std::string>());
+        spec.sync = syncs.parse("sync", json.at("sync").get<std::string>());
         spec.imagesEvery = json.at("images").get<std::int64_t>();
         spec.volumes = readVolumes(json.at("volumes"));
         spec.judging = readJudging(json.at("metrics"));
@@ -265,8 +256,18 @@ std::string listToJson(const std::vector<ListedItem>& items) {
     return text(list);
 }
 
-std::string provenanceToJson(const Provenance& provenance, const Columns& more) {
+std::string provenanceToJson(const Provenance& provenance, std::span<const gpu::Adapter> adapters,
+                             const Columns& more) {
     Json object = provenanceObject(provenance);
+    object["adapters"] = Json::array();
+    for (const gpu::Adapter& adapter : adapters)
+        object["adapters"].push_back({{"index", adapter.index},
+                                      {"name", adapter.name},
+                                      {"renderer", adapter.renderer},
+                                      {"kind", gpu::kindName(adapter.kind)},
+                                      {"platform", gpu::platformName(adapter.platform)},
+                                      {"problem", adapter.problem},
+                                      {"chosen", adapter.index == provenance.device.adapterIndex}});
     object.update(columnsObject(more));
     object["warnings"] = provenance.warnings;
     return text(object);

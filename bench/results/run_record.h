@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,14 +15,16 @@
 
 #include "bench/measure/provenance.h"
 #include "bench/results/run_spec.h"
-#include "methods/shared/memory_ledger.h"
+#include "methods/kit/gpu/adapter.h"
+#include "methods/kit/memory/memory_ledger.h"
 
 namespace dustbench::bench {
 
 enum class RunStatus { done, failed, timeout, skipped };
-[[nodiscard]] std::string_view statusName(RunStatus status);
-/// Throws InputError.
-[[nodiscard]] RunStatus parseStatus(std::string_view name);
+inline constexpr Choices<RunStatus> runStatuses{{"done", RunStatus::done},
+                                                {"failed", RunStatus::failed},
+                                                {"timeout", RunStatus::timeout},
+                                                {"skipped", RunStatus::skipped}};
 
 /// A cell of summary.csv; nothing, and numbers that are not finite, are empty there and null in JSON.
 using Value = std::variant<std::monostate, std::int64_t, double, std::string>;
@@ -72,7 +75,8 @@ struct ListedItem {
 };
 /// An array of objects with the items' cells in order, and `parameters` where asked for. For `--json`.
 [[nodiscard]] std::string listToJson(const std::vector<ListedItem>& items);
-/// One object, with `more` behind what is known of every run.
-[[nodiscard]] std::string provenanceToJson(const Provenance& provenance, const Columns& more);
+/// One object, with the machine's adapters and `more` behind what is known of every run.
+[[nodiscard]] std::string provenanceToJson(const Provenance& provenance, std::span<const gpu::Adapter> adapters,
+                                           const Columns& more);
 
 }  // namespace dustbench::bench

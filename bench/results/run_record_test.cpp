@@ -11,8 +11,8 @@
 #include "bench/results/results_folder.h"
 #include "bench/results/stored_run.h"
 #include "bench/results/summary.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/csv.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 namespace {

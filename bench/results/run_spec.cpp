@@ -7,12 +7,11 @@
 
 #include "bench/measure/sha256.h"
 #include "bench/scene/world.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {
 
-constexpr std::array<std::string_view, 3> syncNames{"frame", "stage", "none"};
 constexpr int largestEdge = 16384;
 
 /// Letters, digits, '_' and '-' of a scene's name or of its file's.
@@ -24,16 +23,6 @@ std::string plainName(std::string_view name) {
 }
 
 }  // namespace
-
-std::string_view syncName(Sync sync) {
-    return syncNames[static_cast<std::size_t>(sync)];
-}
-
-Sync parseSync(std::string_view text) {
-    for (std::size_t i = 0; i < syncNames.size(); ++i)
-        if (text == syncNames[i]) return static_cast<Sync>(i);
-    throw InputError(fmt::format("sync: got '{}', allowed: frame|stage|none", text));
-}
 
 ImageSize parseSize(std::string_view text) {
     ImageSize size{0, 0};
@@ -84,12 +73,13 @@ std::string canonicalKey(const RunSpec& spec) {
     for (const auto& [name, text] : spec.parameters) key += fmt::format("p.{}={}\n", name, text);
     key += fmt::format("frames={}\nwarmup={}\nsize={}x{}\nseed={}\nthreads={}\nsync={}\nimages={}\nrepetition={}\n",
                        spec.frames, spec.warmup, spec.size.width, spec.size.height, spec.seed, spec.threads,
-                       syncName(spec.sync), spec.imagesEvery, spec.repetition);
+                       syncs.wordOf(spec.sync), spec.imagesEvery, spec.repetition);
     if (spec.volumes) {
         const VolumeSettings& volumes = *spec.volumes;
-        key += fmt::format("volumes={}\nformats={}\nresolution={}\nregion={}\nvdb_precision={}\n",
-                           volumes.frames.text(), formatsText(volumes.formats), volumes.resolution,
-                           volumes.region ? regionText(*volumes.region) : "", precisionName(volumes.vdbPrecision));
+        key +=
+            fmt::format("volumes={}\nformats={}\nresolution={}\nregion={}\nvdb_precision={}\n", volumes.frames.text(),
+                        formatsText(volumes.formats), volumes.resolution,
+                        volumes.region ? regionText(*volumes.region) : "", vdbPrecisions.wordOf(volumes.vdbPrecision));
     }
     if (spec.judging)
         key += fmt::format("metrics={}\nmetric_reference={}\n",

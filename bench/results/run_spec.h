@@ -9,17 +9,15 @@
 #include <vector>
 
 #include "bench/export/volume_settings.h"
-#include "bench/judge/judging_plan.h"
-#include "methods/shared/method.h"
-#include "methods/shared/parameters.h"
+#include "bench/reference/judge/judging_plan.h"
+#include "methods/contract/method.h"
+#include "methods/contract/parameters.h"
 
 namespace dustbench::bench {
 
 /// What waits for the GPU: every frame, every stage, or no frame before two are in flight.
 enum class Sync { frame, stage, none };
-[[nodiscard]] std::string_view syncName(Sync sync);
-/// Throws InputError.
-[[nodiscard]] Sync parseSync(std::string_view text);
+inline constexpr Choices<Sync> syncs{{"frame", Sync::frame}, {"stage", Sync::stage}, {"none", Sync::none}};
 
 struct ImageSize {
     int width = 640;

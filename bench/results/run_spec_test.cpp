@@ -6,8 +6,8 @@
 #include <set>
 
 #include "bench/scene/world.h"
-#include "methods/shared/registry.h"
-#include "methods/shared/test_input_error.h"
+#include "methods/contract/registry.h"
+#include "methods/kit/testing/test_input_error.h"
 
 namespace dustbench::bench {
 namespace {
@@ -114,8 +114,9 @@ TEST(RunSpec, SizeIsWidthByHeight) {
 }
 
 TEST(RunSpec, SyncIsOneOfThree) {
-    for (const Sync sync : {Sync::frame, Sync::stage, Sync::none}) EXPECT_EQ(parseSync(syncName(sync)), sync);
-    EXPECT_THROW((void)parseSync("always"), InputError);
+    for (const Sync sync : {Sync::frame, Sync::stage, Sync::none})
+        EXPECT_EQ(syncs.parse("sync", syncs.wordOf(sync)), sync);
+    EXPECT_THROW((void)syncs.parse("sync", "always"), InputError);
 }
 
 }  // namespace

@@ -4,16 +4,18 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "bench/judge/judgement.h"
+#include "bench/reference/judge/judgement.h"
 #include "bench/results/frame_files.h"
+#include "bench/results/method_facts.h"
 #include "bench/results/summary.h"
-#include "methods/shared/files/csv.h"
+#include "methods/kit/files/csv.h"
 #include "source_folder.h"
 
 namespace dustbench::bench {
@@ -89,7 +91,24 @@ TEST(Schema, DefinesEveryColumnOfEveryTable) {
     Names summary = columnsBeforeParameters();
     summary.push_back("p.<name>");
     summary.insert(summary.end(), columnsAfterParameters().begin(), columnsAfterParameters().end());
+    std::erase_if(summary, [](const std::string& name) {
+        return std::ranges::any_of(methodFacts(), [&](const MethodFact& fact) { return fact.info.name == name; });
+    });
     expectDefined("summary.csv", summary);
+}
+
+/// A row of the page without a fact is one of a method that this build leaves out.
+TEST(Schema, ShowsEveryFactAsItsMethodsDeclareIt) {
+    std::map<std::string, std::string> rows;
+    for (const Row& row : tableOf("Facts of methods")) {
+        ASSERT_EQ(row.cells.size(), 4u) << row.cells.front();
+        rows[row.cells[0]] = row.cells[1] + "|" + row.cells[2] + "|" + row.cells[3];
+    }
+    for (const auto& [info, methods] : methodFacts()) {
+        std::string names;
+        for (const std::string& method : methods) names += (names.empty() ? "" : ", ") + method;
+        EXPECT_EQ(rows[" `" + info.name + "` "], " " + info.unit + " | " + names + " | " + info.meaning + " ");
+    }
 }
 
 TEST(Schema, DefinesEveryFieldOfARun) {

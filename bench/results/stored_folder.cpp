@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;

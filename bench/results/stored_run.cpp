@@ -2,8 +2,8 @@
 
 #include <simdjson.h>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/files/csv.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 namespace {
@@ -46,7 +46,7 @@ StoredRun readRunFile(const std::filesystem::path& file) {
         StoredRun run;
         run.runId = textOf(json["run_id"]);
         run.reason = textOf(json["reason"]);
-        run.status = parseStatus(textOf(json["status"]));
+        run.status = runStatuses.parse("status", textOf(json["status"]));
         readCells(json["parameters"], run.parameters);
         readCells(json["summary"], run.cells);
         for (const element warning : json["warnings"].get_array()) run.warnings.push_back(textOf(warning));

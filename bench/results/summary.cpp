@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "bench/measure/statistics.h"
+#include "bench/results/method_facts.h"
 
 namespace dustbench::bench {
 namespace {
@@ -40,8 +41,6 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "energy_j",
                                  "particles_median",
                                  "primitives_median",
-                                 "clipped",
-                                 "mass_kept",
                                  "psnr_db",
                                  "ssim",
                                  "flip",
@@ -68,11 +67,9 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "gpu_driver_bytes",
                                  "energy_cpu_j",
                                  "energy_gpu_j",
-                                 "frame_ms_min",
-                                 "flow_speed_max",
-                                 "flow_cells_per_step_max",
-                                 "flow_divergence_max"})
+                                 "frame_ms_min"})
             list.emplace_back(name);
+        for (const MethodFact& fact : methodFacts()) list.push_back(fact.info.name);
         return list;
     }();
     return names;
@@ -81,7 +78,7 @@ const std::vector<std::string>& columnsAfterParameters() {
 Columns identityColumns(const RunRecord& record, int threads) {
     const RunSpec& spec = record.spec;
     return {{"run_id", runId(spec)},
-            {"status", std::string(statusName(record.status))},
+            {"status", std::string(runStatuses.wordOf(record.status))},
             {"reason", record.reason},
             {"method", spec.method},
             {"scene", spec.scene},
@@ -90,7 +87,7 @@ Columns identityColumns(const RunRecord& record, int threads) {
             {"repetition", std::int64_t{spec.repetition}},
             {"width", std::int64_t{spec.size.width}},
             {"height", std::int64_t{spec.size.height}},
-            {"sync", std::string(syncName(spec.sync))},
+            {"sync", std::string(syncs.wordOf(spec.sync))},
             {"threads", std::int64_t{threads}}};
 }
 
@@ -119,10 +116,6 @@ Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run
     columns.emplace_back(
         "primitives_median",
         median(column(frames, [](const FrameRecord& frame) { return static_cast<double>(frame.primitives); })));
-    std::optional<std::int64_t> clipped;
-    for (const FrameRecord& frame : frames)
-        if (frame.clipped) clipped = std::max(clipped.value_or(0), *frame.clipped);
-    if (clipped) columns.emplace_back("clipped", *clipped);
     std::vector<double> gpuMs;
     for (const FrameRecord& frame : frames)
         if (frame.gpuMs) gpuMs.push_back(*frame.gpuMs);

@@ -10,7 +10,7 @@
 #include "bench/results/summary.h"
 #include "bench/run/child_process.h"
 #include "bench/run/remaining_time.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
@@ -91,7 +91,7 @@ struct Outcome {
 Outcome runOne(const PlannedRun& run, ResultsFolder& results, const ExecutionOptions& options,
                ExecutionListener& listener) {
     const std::string id = runId(run.spec);
-    requireRoom(results, mostBytesOf(run.spec) + reserveBytes);
+    requireRoom(results, maximumBytesOf(run.spec) + reserveBytes);
     const fs::path folder = results.beginRun(id);
     const fs::path specFile = folder / "spec.json";
     writeWhole(specFile, specToJson(run.spec));

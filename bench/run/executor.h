@@ -12,7 +12,7 @@
 
 #include "bench/results/results_folder.h"
 #include "bench/results/run_record.h"
-#include "bench/run/forecasts.h"
+#include "bench/run/forecast_by_cell.h"
 #include "bench/suite/suite.h"
 
 namespace dustbench::bench {
@@ -44,7 +44,7 @@ struct ExecutionOptions {
     /// The same, but the run is only begun; it says on stdout what the whole of it will take (plan_forecast.h).
     ChildCommandLine forecastCommand;
     /// What is known before the first run.
-    Forecasts forecasts;
+    ForecastByCell forecasts;
     std::function<bool()> interrupted;
     /// Exit code 3 of a run is the user's mistake: nothing is kept and InputError is thrown with the run's last words.
     bool badInputEnds = false;

@@ -17,9 +17,9 @@
 #include "bench/results/summary.h"
 #include "bench/run/executor.h"
 #include "bench/run/remaining_time.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/csv.h"
-#include "methods/shared/maths/philox.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
+#include "methods/kit/maths/philox.h"
 
 namespace dustbench::bench {
 namespace {

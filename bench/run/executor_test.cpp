@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "bench/results/summary.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/csv.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 namespace {
@@ -128,13 +128,13 @@ TEST_F(Executor, ACrashIsAFailedRunAndThePlanGoesOn) {
 TEST_F(Executor, AHangIsATimeoutThatSaysHowFarItCame) {
     ExecutionOptions options =
         shell("case $2 in *" + runId(plan_[0].spec) + ") echo frames 3 9; sleep 600;; esac; " + good);
-    options.timeoutSeconds = 0.5;
+    options.timeoutSeconds = 5;  // which the three good runs, a few milliseconds each, keep on a busy machine too
     const ExecutionResult result = runAll(options);
     EXPECT_EQ(result.failed, 1u);
     EXPECT_EQ(result.done, 3u);
     const StoredRun run = readRunFile(out() / "runs" / runId(plan_[0].spec) / "run.json");
     EXPECT_EQ(run.status, RunStatus::timeout);
-    EXPECT_EQ(run.reason, "no end after 0.5 s (at frames 3 9)");
+    EXPECT_EQ(run.reason, "no end after 5 s (at frames 3 9)");
 }
 
 TEST_F(Executor, AChildWithoutAResultHasFailed) {
@@ -170,7 +170,7 @@ TEST_F(Executor, AKillLosesAtMostTheRunInFlightAndTheNextCallResumes) {
         _exit(0);
     }
     const fs::path half = out() / "runs" / (".unfinished-" + runId(plan_[2].spec)) / "frames.csv";
-    for (int i = 0; i < 1000 && !fs::exists(half); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    for (int i = 0; i < 6'000 && !fs::exists(half); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     ASSERT_TRUE(fs::exists(half));
     kill(victim, SIGKILL);
     waitpid(victim, nullptr, 0);

@@ -10,8 +10,8 @@
 #include "bench/run/frame_runner.h"
 #include "bench/run/replay.h"
 #include "bench/run/thread_limit.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/registry.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
@@ -39,7 +39,7 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
     VolumeExporter exporter(*spec.volumes, folder);
     gpu::Device device;
     record.provenance.device = device.info();
-    FrameRunner runner(spec, world, device, info.create(parameters.method), false);
+    FrameRunner runner(spec, world, device, parameters.method, false);
 
     ExportResult result;
     const FrameRange& frames = spec.volumes->frames;

@@ -9,8 +9,8 @@
 #include "bench/run/remaining_time.h"
 #include "bench/run/run_forecast.h"
 #include "bench/suite/suite.h"
-#include "methods/shared/registry.h"
-#include "methods/shared/test_folder.h"
+#include "methods/contract/registry.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
 namespace {
@@ -53,7 +53,7 @@ TEST(RunForecast, BeginsEveryKindOfFrame) {
     }
 }
 
-TEST(Forecasts, MetricsCountForTheRunThatHasThem) {
+TEST(ForecastByCell, MetricsCountForTheRunThatHasThem) {
     PlannedRun cell;
     cell.spec.method = "haze";
     cell.spec.judging.emplace();
@@ -61,7 +61,7 @@ TEST(Forecasts, MetricsCountForTheRunThatHasThem) {
     suite.cells = {cell};
     suite.repetitions = 3;
     const std::vector<PlannedRun> plan = planRuns(suite);
-    Forecasts forecasts;
+    ForecastByCell forecasts;
     EXPECT_LT(forecasts.seconds(plan[0].spec), 0);
     forecasts.set(plan[0].spec, {10, 90});
     EXPECT_DOUBLE_EQ(forecasts.seconds(plan[0].spec), 100);

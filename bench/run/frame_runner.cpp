@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "bench/measure/memory_probe.h"
+#include "methods/contract/registry.h"
 
 namespace dustbench::bench {
 namespace {
@@ -27,15 +28,15 @@ std::int64_t cpuBytes(const MemoryReport& report) {
 }
 
 /// The largest difference of any channel; infinite where one of the pictures holds something that is not a number.
-float largestDifference(const draw::Image& a, const draw::Image& b) {
-    float largest = 0;
+float maximumDifference(const pictures::Image& a, const pictures::Image& b) {
+    float maximum = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
         for (int channel = 0; channel < 4; ++channel) {
             const float difference = std::abs(a.pixels[i][channel] - b.pixels[i][channel]);
-            largest =
-                std::isfinite(difference) ? std::max(largest, difference) : std::numeric_limits<float>::infinity();
+            maximum =
+                std::isfinite(difference) ? std::max(maximum, difference) : std::numeric_limits<float>::infinity();
         }
-    return largest;
+    return maximum;
 }
 
 }  // namespace
@@ -44,79 +45,57 @@ std::int64_t stepsBeforeWarmup(const World& world) {
     return std::max<std::int64_t>(world.prerollSteps(), 1);
 }
 
-FrameRunner::FrameRunner(const RunSpec& spec, World& world, gpu::Device& device, std::unique_ptr<Method> method,
+FrameRunner::FrameRunner(const RunSpec& spec, World& world, gpu::Device& device, const ParameterValues& parameters,
                          bool useGpuTimers)
     : spec_(spec),
       world_(world),
       device_(device),
-      method_(std::move(method)),
-      scene_(world.scene(), device, spec.size.width, spec.size.height),
-      layer_(device, scene_.depth()),
-      composite_(device, spec.size.width, spec.size.height),
+      host_(world, device, findMethod(spec.method), parameters, spec.size.width, spec.size.height),
       useGpuTimers_(useGpuTimers) {
-    method_->prepare(world.scene(), device);
     if (spec.sync == Sync::stage) recorder_.setFence([this] { device_.finish(); });
     records_.reserve(static_cast<std::size_t>(spec.frames));
 }
 
-void FrameRunner::stepWithoutPicture(std::int64_t index) {
+void FrameRunner::stepWorld() {
     world_.readInput();
     world_.simulate();
-    if (!method_->wantsPreroll()) return;
-    const scene::View view = world_.view(spec_.size.width, spec_.size.height);
-    method_->update({index, stepSeconds, world_.state(), world_.dust(), view, StageClock()});
-    device_.finish();
+}
+
+void FrameRunner::stepWithoutPicture(std::int64_t index) {
+    if (host_.method().wantsPreroll())
+        updateOnly(index);
+    else
+        stepWorld();
 }
 
 void FrameRunner::updateOnly(std::int64_t index) {
-    world_.readInput();
-    world_.simulate();
+    stepWorld();
     lastIndex_ = index;
-    const scene::View view = world_.view(spec_.size.width, spec_.size.height);
-    const StageClock unheard;
-    method_->update({index, stepSeconds, world_.state(), world_.dust(), view, unheard});
+    const StageClock untimed;
+    host_.update(host_.see(index, untimed));
     device_.finish();
 }
 
 void FrameRunner::verifiedStep(std::int64_t index) {
-    world_.readInput();
-    world_.simulate();
-    const scene::View view = world_.view(spec_.size.width, spec_.size.height);
-
-    const StageClock unheard;
-    const Frame fast{index, stepSeconds, world_.state(), world_.dust(), view, unheard};
-    method_->update(fast);
-    drawFrame(fast);
-    const draw::Image fastLayer = draw::readBack(layer_.colour());
-    const draw::Image fastResult = draw::readBack(composite_.result());
+    stepWorld();
+    const StageClock untimed;
+    const Frame fast = host_.see(index, untimed);
+    host_.update(fast);
+    host_.draw(fast);
+    const pictures::Image fastLayer = host_.layer(), fastResult = host_.result();
 
     device_.finish();
     StageRecorder fencing;
     fencing.setFence([this] { device_.finish(); });
     const StageClock fenced(&fencing);
-    drawFrame({index, stepSeconds, world_.state(), world_.dust(), view, fenced});
-    const float difference = std::max(largestDifference(fastLayer, draw::readBack(layer_.colour())),
-                                      largestDifference(fastResult, draw::readBack(composite_.result())));
+    host_.draw(host_.see(index, fenced));
+    const float difference =
+        std::max(maximumDifference(fastLayer, host_.layer()), maximumDifference(fastResult, host_.result()));
     if (!(difference <= sameColour))
         throw std::runtime_error(
             fmt::format("verification: the same frame drawn fast and drawn stage by stage differs by {:.4g}, allowed: "
                         "{:.4g} (a barrier is missing, or a draw call changes its method's state)",
                         difference, sameColour));
-}
-
-void FrameRunner::drawFrame(const Frame& frame) {
-    {
-        const auto timing = frame.clock.measure(Stage::scene);
-        scene_.draw(frame.state, frame.view);
-    }
-    const auto timing = frame.clock.measure(Stage::draw);
-    {
-        const auto detail = frame.clock.measureDetail("layer");
-        layer_.clear();
-        method_->draw(frame, layer_);
-    }
-    const auto detail = frame.clock.measureDetail("composite");
-    composite_.draw(scene_.colour(), layer_.colour());
 }
 
 void FrameRunner::waitForGpu() {
@@ -147,14 +126,13 @@ void FrameRunner::frame(std::int64_t index) {
         const auto timing = clock.measure(Stage::simulate);
         world_.simulate();
     }
-    const scene::View view = world_.view(spec_.size.width, spec_.size.height);
-    const Frame now{index, stepSeconds, world_.state(), world_.dust(), view, clock};
+    const Frame now = host_.see(index, clock);
     {
         const auto timing = clock.measure(Stage::build);
-        method_->update(now);
+        host_.update(now);
     }
     if (timeGpu) gpuTime.begin();
-    drawFrame(now);
+    host_.draw(now);
     if (timeGpu) gpuTime.end();
     {
         const auto timing = clock.measure(Stage::wait);
@@ -165,6 +143,7 @@ void FrameRunner::frame(std::int64_t index) {
     if (spec_.sync == Sync::none) lastEndNs_ = end;
     if (index < 0) return;
     keepRecord(index, end - start);
+    host_.keepFacts(now);
     if (timeGpu) pendingGpuTimes_.emplace_back(records_.size() - 1, std::move(gpuTime));
     collectGpuTimes();
 }
@@ -179,10 +158,9 @@ void FrameRunner::keepRecord(std::int64_t index, std::int64_t elapsedNs) {
     for (const StageRecorder::Detail& detail : recorder_.details())
         record.details.push_back({detail.stage, std::string(detail.name), milliseconds(detail.ns)});
     record.particles = static_cast<std::int64_t>(world_.dust().size());
-    record.primitives = method_->primitives();
-    record.clipped = method_->clipped();
-    record.cpuBytes = cpuBytes(world_.memory()) + cpuBytes(method_->memory());
-    record.gpuBytes = static_cast<std::int64_t>(device_.ledger().totalBytes());
+    record.primitives = host_.method().primitives();
+    record.cpuBytes = cpuBytes(world_.memory()) + host_.cpuBytes();
+    record.gpuBytes = host_.gpuBytes();
     record.rssBytes = residentBytes();
     records_.push_back(std::move(record));
 }
@@ -203,42 +181,24 @@ void FrameRunner::drain() {
     collectGpuTimes();
 }
 
-std::optional<double> FrameRunner::massKept() const {
-    const scene::View view = world_.view(spec_.size.width, spec_.size.height);
-    const StageClock unheard;
-    return method_->massKept({lastIndex_, stepSeconds, world_.state(), world_.dust(), view, unheard});
+void FrameRunner::volume(VolumeVisitor& visitor) {
+    const StageClock untimed;
+    host_.method().volume(host_.see(lastIndex_, untimed), visitor);
 }
 
-void FrameRunner::volume(VolumeVisitor& visitor) const {
-    const scene::View view = world_.view(spec_.size.width, spec_.size.height);
-    const StageClock unheard;
-    method_->volume({lastIndex_, stepSeconds, world_.state(), world_.dust(), view, unheard}, visitor);
+Columns FrameRunner::facts() {
+    const StageClock untimed;
+    return host_.facts(host_.see(lastIndex_, untimed));
 }
 
 DrawnMoment FrameRunner::drawn(bool withDetail) {
-    const scene::View view = world_.view(spec_.size.width, spec_.size.height);
-    const StageClock unheard;
-    const Frame now{lastIndex_, stepSeconds, world_.state(), world_.dust(), view, unheard};
-    drawFrame(now);
-    DrawnMoment moment;
-    moment.scene = draw::readBack(scene_.colour());
-    moment.layer = draw::readBack(layer_.colour());
-    moment.sceneDepth = draw::readBackDepth(scene_.depth());
-    if (withDetail) {
-        if (noScene_.width() == 0)
-            noScene_ = gpu::Texture::make2D(device_, "no scene", gpu::Format::depth32F, view.width, view.height);
-        gpu::Framebuffer(device_, "no scene", nullptr, &noScene_).clearDepth();
-        gpu::Layer layer(device_, noScene_);
-        layer.clear();
-        method_->draw(now, layer);
-        moment.layerWithoutScene = draw::readBack(layer.colour());
-    }
-    return moment;
+    const StageClock untimed;
+    return host_.drawn(host_.see(lastIndex_, untimed), withDetail);
 }
 
-draw::Image FrameRunner::picture() {
+pictures::Image FrameRunner::picture() {
     drain();
-    return draw::over(draw::readBack(layer_.colour()), draw::readBack(scene_.colour()));
+    return host_.picture();
 }
 
 }  // namespace dustbench::bench

@@ -1,6 +1,6 @@
-// Runs and times frames of one method in one world: input, simulation, method, opaque scene, drawing, waiting.
+// Steps a world and times the frames of one method in it: input, simulation, method, opaque scene, drawing, waiting.
 //
-// Owns: the world's graphics and the method. Threads: the one that made it, inside the oneTBB arena to be used.
+// Owns: the method's host. Threads: the one that made it, inside the oneTBB arena to be used.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,14 @@
 #include <utility>
 #include <vector>
 
-#include "bench/judge/moment_pictures.h"
 #include "bench/measure/frame_record.h"
 #include "bench/measure/stage_recorder.h"
 #include "bench/results/run_spec.h"
+#include "bench/run/method_host.h"
 #include "bench/scene/world.h"
-#include "methods/shared/draw/composite.h"
-#include "methods/shared/draw/image.h"
-#include "methods/shared/draw/opaque_scene.h"
-#include "methods/shared/gpu/device.h"
-#include "methods/shared/gpu/fence.h"
-#include "methods/shared/gpu/layer.h"
-#include "methods/shared/gpu/timer_query.h"
-#include "methods/shared/method.h"
+#include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/fence.h"
+#include "methods/kit/gpu/timer_query.h"
 
 namespace dustbench::bench {
 
@@ -32,8 +27,9 @@ namespace dustbench::bench {
 
 class FrameRunner {
  public:
-    /// `useGpuTimers`: only where they were found to be true. `world` and `device` must outlive the runner.
-    FrameRunner(const RunSpec& spec, World& world, gpu::Device& device, std::unique_ptr<Method> method,
+    /// Hosts the method of `spec` with `parameters`. `useGpuTimers`: only where they were found to be true. `world` and
+    /// `device` must outlive the runner.
+    FrameRunner(const RunSpec& spec, World& world, gpu::Device& device, const ParameterValues& parameters,
                 bool useGpuTimers);
 
     /// One step of the world without a picture; the method takes part where it wants to.
@@ -52,15 +48,16 @@ class FrameRunner {
     /// without the scene as well.
     [[nodiscard]] DrawnMoment drawn(bool withDetail);
     /// The last frame over its scene, linear.
-    [[nodiscard]] draw::Image picture();
-    /// What the method says of the cloud of the last `frame` or `updateOnly` (Method::massKept, Method::volume).
-    [[nodiscard]] std::optional<double> massKept() const;
-    void volume(VolumeVisitor& visitor) const;
+    [[nodiscard]] pictures::Image picture();
+    /// Of the last `frame` or `updateOnly`: what the method hands over (Method::volume), and the facts that it told.
+    void volume(VolumeVisitor& visitor);
+    [[nodiscard]] Columns facts();
     [[nodiscard]] std::span<const FrameRecord> records() const { return records_; }
-    [[nodiscard]] const Method& method() const { return *method_; }
+    [[nodiscard]] const MethodHost& host() const { return host_; }
+    [[nodiscard]] const Method& method() const { return host_.method(); }
 
  private:
-    void drawFrame(const Frame& frame);
+    void stepWorld();
     void waitForGpu();
     void keepRecord(std::int64_t index, std::int64_t elapsedNs);
     void collectGpuTimes();
@@ -68,11 +65,7 @@ class FrameRunner {
     RunSpec spec_;
     World& world_;
     gpu::Device& device_;
-    std::unique_ptr<Method> method_;
-    draw::OpaqueScene scene_;
-    gpu::Layer layer_;
-    draw::Composite composite_;
-    gpu::Texture noScene_;  ///< a depth image of nothing; made when first wanted
+    MethodHost host_;
     StageRecorder recorder_;
     gpu::Fence lastFrame_;
     std::int64_t lastEndNs_ = 0;  ///< where the next frame begins that overlaps this one; 0: nothing is in flight

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/registry.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
@@ -42,8 +42,8 @@ HarnessCost measureHarness(ExecutionOptions options) {
 
     const TemporaryFolder folder;
     ResultsFolder results(folder.path());
-    ExecutionListener unheard;
-    (void)execute({run}, 1, results, options, unheard);
+    ExecutionListener untimed;
+    (void)execute({run}, 1, results, options, untimed);
     const auto stored = results.runs().find(runId(run.spec));
     if (stored == results.runs().end()) throw InputError("the null method was interrupted");
     if (stored->second.status != RunStatus::done)

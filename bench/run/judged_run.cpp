@@ -7,7 +7,7 @@
 #include "bench/export/whole_file.h"
 #include "bench/measure/image/heat_map.h"
 #include "bench/run/replay.h"
-#include "methods/shared/registry.h"
+#include "methods/contract/registry.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
@@ -29,7 +29,7 @@ class FinerRun {
     FinerRun(const RunSpec& spec, gpu::Device& device)
         : parameters_(resolvedWith(spec, spec.judging->finer)),
           world_(spec.scene, spec.drive, parameters_.world, spec.seed),
-          runner_(spec, world_, device, findMethod(spec.method).create(parameters_.method), false) {}
+          runner_(spec, world_, device, parameters_.method, false) {}
 
     void step(std::int64_t step, std::int64_t prerollSteps, std::int64_t warmup) {
         const std::int64_t index = step - prerollSteps - warmup;
@@ -43,7 +43,7 @@ class FinerRun {
         exact.layerWithoutScene = std::move(drawn.layerWithoutScene);
         return exact;
     }
-    void volume(VolumeVisitor& visitor) const { runner_.volume(visitor); }
+    void volume(VolumeVisitor& visitor) { runner_.volume(visitor); }
 
  private:
     ResolvedParameters parameters_;
@@ -56,10 +56,10 @@ void savePictures(const JudgedMoment& judged, const fs::path& folder) {
         return folder / fmt::format("f{:06}{}.{}", judged.metrics.frame, what, extension);
     };
     for (const char* extension : {"png", "exr"}) {
-        draw::writeImage(judged.picture, file("", extension));
-        draw::writeImage(judged.reference, file("_reference", extension));
+        pictures::writeImage(judged.picture, file("", extension));
+        pictures::writeImage(judged.reference, file("_reference", extension));
     }
-    draw::writeImage(heatMap(judged.difference), file("_difference", "png"));
+    pictures::writeImage(heatMap(judged.difference), file("_difference", "png"));
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         continuum.emplace(spec.scene, spec.drive, parameters.world, spec.seed, continuumParticles);
     else
         finer.emplace(spec, device);
-    FrameRunner runner(spec, world, device, info.create(parameters.method), false);
+    FrameRunner runner(spec, world, device, parameters.method, false);
     const std::vector<std::int64_t> moments = spec.judging->momentsOf(spec.frames);
     const std::vector<std::int64_t> stretch = JudgingPlan::stretchOf(spec.frames);
     fs::create_directories(folder / "images");
@@ -93,9 +93,9 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         if (!isMoment && !inStretch) return;
         const scene::View view = world.view(spec.size.width, spec.size.height);
         const DrawnMoment drawn = runner.drawn(isMoment);
-        const ExactMoment exact =
-            finer ? finer->moment(isMoment)
-                  : exactMoment(view, drawn, world.dust(), isMoment, isMoment ? &continuum->dust() : nullptr);
+        const ExactMoment exact = finer ? finer->moment(isMoment)
+                                        : exactMoment(view, drawn, world.dust(), isMoment,
+                                                      isMoment ? std::optional(continuum->dust()) : std::nullopt);
         MomentMetrics metrics;
         if (isMoment) {
             CollectedVolume volume, reference;
@@ -118,10 +118,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
     std::int64_t steps = 0;
     const auto stepped = [&] {
         if (finer) finer->step(steps, preroll, spec.warmup);
-        if (continuum && steps < continuumSteps) {
-            continuum->readInput();
-            continuum->simulate();
-        }
+        if (continuum && steps < continuumSteps) continuum->step();
         ++steps;
         return true;
     };

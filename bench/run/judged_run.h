@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <string>
 
-#include "bench/judge/judgement.h"
+#include "bench/reference/judge/judgement.h"
 #include "bench/run/measured_run.h"
-#include "methods/shared/gpu/device.h"
+#include "methods/kit/gpu/device.h"
 
 namespace dustbench::bench {
 

@@ -6,9 +6,9 @@
 #include <map>
 
 #include "bench/suite/suite.h"
-#include "methods/shared/files/csv.h"
-#include "methods/shared/registry.h"
-#include "methods/shared/test_folder.h"
+#include "methods/contract/registry.h"
+#include "methods/kit/files/csv.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
 namespace {

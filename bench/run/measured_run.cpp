@@ -14,7 +14,7 @@
 #include "bench/run/frame_runner.h"
 #include "bench/run/judged_run.h"
 #include "bench/run/thread_limit.h"
-#include "methods/shared/registry.h"
+#include "methods/contract/registry.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
@@ -26,9 +26,9 @@ std::string hexadecimal(std::uint64_t hash) {
 
 void savePicture(FrameRunner& runner, const fs::path& folder, std::int64_t index) {
     fs::create_directories(folder / "images");
-    const draw::Image picture = runner.picture();
+    const pictures::Image picture = runner.picture();
     for (const char* extension : {"png", "exr"})
-        draw::writeImage(picture, folder / "images" / fmt::format("f{:06}.{}", index, extension));
+        pictures::writeImage(picture, folder / "images" / fmt::format("f{:06}.{}", index, extension));
 }
 
 void addMemory(RunRecord& record, const std::string& owner, const MemoryReport& report) {
@@ -67,8 +67,8 @@ class RunVolumes {
         std::vector<std::string> reasons;
         for (const VolumeFormat format : asked)
             if (const std::string reason = whyNotWritable(volume, format); !reason.empty()) {
-                reasons.push_back(
-                    fmt::format("no .{} was written: method {} {}", formatName(format), spec_.method, reason));
+                reasons.push_back(fmt::format("no .{} was written: method {} {}", volumeFormats.wordOf(format),
+                                              spec_.method, reason));
                 exporter_->leaveOut(format);
             }
         if (exporter_->settings().formats.empty()) requireWritable(volume, asked, spec_.method);
@@ -144,12 +144,11 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     const auto freeAtStart = device.driverFreeBytes();
     record.provenance.device = device.info();
     WholeRun whole;
-    whole.softwareRenderer = isSoftwareRenderer(device.info());
+    whole.softwareRenderer = device.isSoftware();
     // Without a GPU there is no time of its own to tell, and the self-test would have a shader made.
     record.provenance.gpuTimersTrusted = !whole.softwareRenderer && gpu::timerQueriesAreTrue(device);
     std::optional<FrameRunner> timed;
-    FrameRunner& runner =
-        timed.emplace(spec, world, device, info.create(parameters.method), record.provenance.gpuTimersTrusted);
+    FrameRunner& runner = timed.emplace(spec, world, device, parameters.method, record.provenance.gpuTimersTrusted);
     RunVolumes volumes(spec, folder, world, record.provenance.warnings);
     EnergyMeter energy(packageEnergy(), gpuEnergy(device.info().renderer));
     runFrames(spec, world, runner, folder, volumes, energy, progress, whole);
@@ -170,17 +169,12 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     if (const auto hash = runner.method().stateHash()) record.methodHash = hexadecimal(*hash);
     addMemory(record, "world", world.memory());
     addMemory(record, "method", runner.method().memory());
-    for (const auto& [structure, bytes] : device.ledger().entries())
+    for (const auto& [structure, bytes] : runner.host().gpuLedger().entries())
         record.memory.emplace_back("device", MemoryUse{structure, 0, bytes});
 
     record.summary = identityColumns(record, threads);
     for (auto& column : measuredColumns(runner.records(), whole)) record.summary.push_back(std::move(column));
-    if (const auto flow = runner.method().flow()) {
-        record.summary.emplace_back("flow_speed_max", flow->speedMetresPerSecond);
-        record.summary.emplace_back("flow_cells_per_step_max", flow->cellsPerStep);
-        record.summary.emplace_back("flow_divergence_max", flow->divergencePerStep);
-    }
-    if (const auto kept = runner.massKept()) record.summary.emplace_back("mass_kept", *kept);
+    for (auto& column : runner.facts()) record.summary.push_back(std::move(column));
     if (spec.imagesEvery > 0 || spec.judging) {
         const std::int64_t first = spec.imagesEvery > 0 ? 0 : spec.judging->momentsOf(spec.frames).front();
         record.summary.emplace_back("FILE_image", fmt::format("runs/{}/images/f{:06}.png", runId(spec), first));

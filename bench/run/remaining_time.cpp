@@ -2,7 +2,7 @@
 
 namespace dustbench::bench {
 
-RemainingTime::RemainingTime(const std::vector<const PlannedRun*>& toDo, const Forecasts& forecasts,
+RemainingTime::RemainingTime(const std::vector<const PlannedRun*>& toDo, const ForecastByCell& forecasts,
                              double cooldownSeconds) {
     for (const PlannedRun* run : toDo) {
         RunSpec cell = run->spec;

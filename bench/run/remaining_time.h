@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/forecasts.h"
+#include "bench/run/forecast_by_cell.h"
 #include "bench/suite/suite.h"
 
 namespace dustbench::bench {
@@ -16,7 +16,7 @@ namespace dustbench::bench {
 class RemainingTime {
  public:
     /// The runs still to do, in order, with a rest before each but the first.
-    explicit RemainingTime(const std::vector<const PlannedRun*>& toDo, const Forecasts& forecasts = {},
+    explicit RemainingTime(const std::vector<const PlannedRun*>& toDo, const ForecastByCell& forecasts = {},
                            double cooldownSeconds = 0);
 
     /// The next of them took so long, with the rest before it.

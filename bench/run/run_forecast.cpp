@@ -9,16 +9,16 @@
 #include "bench/run/judged_run.h"
 #include "bench/run/measured_run.h"
 #include "bench/run/thread_limit.h"
-#include "methods/shared/gpu/device.h"
-#include "methods/shared/registry.h"
+#include "methods/contract/registry.h"
+#include "methods/kit/gpu/device.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
 /// Frames are begun until both are reached; a run that is shorter ends by itself.
-constexpr std::int64_t fewestFrames = 4;
-constexpr double leastSeconds = 0.3;
+constexpr std::int64_t minimumFrames = 4;
+constexpr double minimumSeconds = 0.3;
 
 /// Thrown out of a run that has gone far enough.
 struct Enough {};
@@ -37,7 +37,7 @@ FramesBegun beginFrames(RunSpec spec, const fs::path& folder) {
         if (phase == "preroll") return;
         last = steadyNow();
         if (++frames == 0) first = last;
-        if (frames >= fewestFrames && seconds(last - first) >= leastSeconds) throw Enough();
+        if (frames >= minimumFrames && seconds(last - first) >= minimumSeconds) throw Enough();
     };
     try {
         (void)measureRun(spec, folder, {}, hear);
@@ -54,7 +54,7 @@ MetricsBegun beginMetrics(RunSpec spec, const fs::path& folder, gpu::Device& dev
     // A second moment behind the end: what goes along up to the last moment does so here.
     constexpr std::int64_t moment = 1, stretch = 2, end = 4;
     spec.warmup = 1;
-    spec.frames = stretch + PoppingSummary::fewestPairs + 1;
+    spec.frames = stretch + PoppingSummary::minimumPairs + 1;
     spec.judging->moments = FrameRange{moment, end + 1, end + 1 - moment};
 
     const std::int64_t called = steadyNow();

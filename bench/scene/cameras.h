@@ -6,12 +6,14 @@
 
 #include <glm/glm.hpp>
 
-#include "methods/shared/scene/scene.h"
+#include "methods/contract/choices.h"
+#include "methods/contract/scene.h"
 
 namespace dustbench::bench {
 
-/// Order of the choices of the world's parameter `camera`.
 enum class CameraKind { chase, fixed, orbit };
+inline constexpr Choices<CameraKind> cameraKinds{
+    {"chase", CameraKind::chase}, {"fixed", CameraKind::fixed}, {"orbit", CameraKind::orbit}};
 
 struct FixedCamera {
     glm::dvec3 eye{30, 4, 24};

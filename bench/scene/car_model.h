@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-#include "methods/shared/scene/scene.h"
+#include "methods/contract/scene.h"
 
 namespace dustbench::bench {
 

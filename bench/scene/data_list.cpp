@@ -1,8 +1,8 @@
 #include "bench/scene/data_list.h"
 
-#include "methods/shared/errors.h"
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/files/toml_reader.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/toml_reader.h"
 
 namespace dustbench::bench {
 namespace {

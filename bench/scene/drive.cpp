@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "methods/shared/files/csv.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 

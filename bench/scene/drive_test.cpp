@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "bench/scene/driver.h"
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/test_folder.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
 namespace {
@@ -167,17 +167,17 @@ TEST(BuiltInDrives, FigureOfEightReturnsToItsStartAfterEveryRound) {
 }
 
 TEST(BuiltInDrives, SlalomSwingsToBothSidesAndKeepsItsDirection) {
-    double heading = 0, most = 0, least = 0;
+    double heading = 0, maximum = 0, minimum = 0;
     int count = 0;
     driveIt(builtIn("slalom"), [&](double, const scene::VehicleState& state) {
         heading += state.heading;
         ++count;
-        most = std::max(most, state.heading);
-        least = std::min(least, state.heading);
+        maximum = std::max(maximum, state.heading);
+        minimum = std::min(minimum, state.heading);
     });
     EXPECT_NEAR(heading / count, 0, 0.01);
-    EXPECT_GT(most, 0.15);
-    EXPECT_LT(least, -0.15);
+    EXPECT_GT(maximum, 0.15);
+    EXPECT_LT(minimum, -0.15);
 }
 
 TEST(BuiltInDrives, StopAndGoStopsFourTimes) {

@@ -23,11 +23,11 @@ Controls Driver::decide(const scene::VehicleParameters& parameters, const scene:
     // a = dv*/dt + resistance + g·slope + k_p e + ∫ k_i e dt
     const double wanted = (targetNext - targetNow) / dt + resistanceDeceleration(parameters, state.speed) +
                           gravity * state.forward().y + proportionalPerSecond * error + integral_;
-    const double most = fullThrottleAcceleration(parameters, state.speed);
-    const double least = -parameters.brakeDecelerationLimit;
-    const bool atStop = (wanted >= most && error > 0) || (wanted <= least && error < 0);
+    const double maximum = fullThrottleAcceleration(parameters, state.speed);
+    const double minimum = -parameters.brakeDecelerationLimit;
+    const bool atStop = (wanted >= maximum && error > 0) || (wanted <= minimum && error < 0);
     if (!atStop) integral_ += integralPerSquareSecond * error * dt;
-    return {std::clamp(wanted / most, 0.0, 1.0), std::clamp(wanted / least, 0.0, 1.0), steer};
+    return {std::clamp(wanted / maximum, 0.0, 1.0), std::clamp(wanted / minimum, 0.0, 1.0), steer};
 }
 
 }  // namespace dustbench::bench

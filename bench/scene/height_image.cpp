@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/pictures/picture_files.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/pictures/picture_files.h"
 
 namespace dustbench::bench {
 

@@ -6,9 +6,9 @@
 
 #include "bench/scene/car_model.h"
 #include "bench/scene/height_image.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/toml_reader.h"
-#include "methods/shared/scene/mesh_file.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/toml_reader.h"
+#include "methods/kit/meshes/mesh_file.h"
 
 namespace dustbench::bench {
 namespace {
@@ -82,7 +82,7 @@ void readSolid(TomlReader& table, const std::filesystem::path& folder, SceneFile
 
     std::shared_ptr<const scene::Mesh> mesh;
     try {
-        mesh = std::make_shared<scene::Mesh>(scene::readMesh(file, paint));
+        mesh = std::make_shared<scene::Mesh>(meshes::readMesh(file, paint));
     } catch (const InputError& error) {
         throw InputError(table.where("mesh") + error.what());
     }
@@ -208,7 +208,6 @@ SceneFile readScene(const std::filesystem::path& file) {
     readLights(root, result.scene.lights);
     result.scene.wind = bounded(root, "wind", {}, -100, 100, "three numbers -100..100, metres per second");
     result.scene.dustAlbedo = colour(root, "dust_albedo", result.scene.dustAlbedo, 1);
-    result.scene.octreeEdgeMetres = root.number("octree_edge_metres", 1, 1e5, result.scene.octreeEdgeMetres);
     readVehicle(root, result.scene);
     readCameras(root, result.cameras);
     for (TomlReader& table : root.tables("solid")) readSolid(table, folder, result);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/scene/cameras.h"
-#include "methods/shared/scene/scene.h"
+#include "methods/contract/scene.h"
 
 namespace dustbench::bench {
 

@@ -9,8 +9,8 @@
 
 #include "bench/scene/data_list.h"
 #include "bench/scene/height_image.h"
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/test_folder.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
 namespace {
@@ -86,7 +86,6 @@ TEST(SceneFile, ManualShowsTheDefaults) {
     EXPECT_LT(glm::distance(bare.scene.lights.toSun, manual.scene.lights.toSun), 0.02f);
     EXPECT_EQ(bare.scene.lights.ambient, manual.scene.lights.ambient);
     EXPECT_EQ(bare.scene.dustAlbedo, manual.scene.dustAlbedo);
-    EXPECT_EQ(bare.scene.octreeEdgeMetres, manual.scene.octreeEdgeMetres);
     EXPECT_EQ(bare.drive, manual.drive);
     EXPECT_EQ(bare.dust, manual.dust);
 }

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "methods/shared/scene/mesh.h"
+#include "methods/contract/solid.h"
 
 namespace dustbench::bench {
 

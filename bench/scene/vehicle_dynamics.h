@@ -5,8 +5,8 @@
 // Departs: no slip; the wheels follow the ground without springs; resistance never drives the vehicle backwards.
 #pragma once
 
-#include "methods/shared/scene/terrain.h"
-#include "methods/shared/scene/vehicle.h"
+#include "methods/contract/terrain.h"
+#include "methods/contract/vehicle.h"
 
 namespace dustbench::bench {
 

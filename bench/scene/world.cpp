@@ -6,15 +6,14 @@
 #include <stdexcept>
 
 #include "bench/scene/cameras.h"
-#include "bench/scene/drive.h"
-#include "bench/scene/driver.h"
+#include "bench/scene/drive_controls.h"
 #include "bench/scene/scene_file.h"
 #include "bench/scene/vehicle_dynamics.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/csv.h"
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/maths/hash.h"
-#include "methods/shared/particles/particle_system.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/maths/hash.h"
+#include "methods/kit/particles/particle_system.h"
 
 namespace dustbench::bench {
 namespace {
@@ -22,28 +21,6 @@ namespace {
 using scene::SceneState;
 using scene::VehicleParameters;
 using scene::VehicleState;
-
-/// Driver and drive together: what is done at which moment. The drive's controls of time 0 hold before it.
-class Steering {
- public:
-    explicit Steering(Drive drive) : drive_(std::move(drive)) {}
-
-    [[nodiscard]] const Drive& drive() const { return drive_; }
-    [[nodiscard]] double initialSpeed() const { return drive_.followsSpeed() ? drive_.targetSpeedAt(0) : 0; }
-
-    /// For the step that begins at `now`.
-    [[nodiscard]] Controls decide(const VehicleParameters& parameters, const VehicleState& vehicle, double now) {
-        const double next = now + stepSeconds;
-        const double steer = drive_.steerAt(next);
-        if (!drive_.followsSpeed()) return {drive_.throttleAt(now), drive_.brakeAt(now), steer};
-        return driver_.decide(parameters, vehicle, drive_.targetSpeedAt(now), drive_.targetSpeedAt(next), steer,
-                              stepSeconds);
-    }
-
- private:
-    Drive drive_;
-    Driver driver_;
-};
 
 Drive readDrive(const std::filesystem::path& file, const std::string& id, const VehicleParameters& vehicle,
                 double speed) {
@@ -62,23 +39,23 @@ Drive readDrive(const std::filesystem::path& file, const std::string& id, const 
 
 /// Where the preroll must begin so that it ends at `start`: the way it drives, taken back. Exact on level ground.
 VehicleState placeBefore(const VehicleParameters& parameters, const scene::Terrain& terrain, const Start& start,
-                         Steering steering, std::int64_t steps) {
-    const VehicleState from =
-        placeVehicle(parameters, terrain, start.x, start.z, start.heading, steering.initialSpeed());
+                         const ControlSource& controls, std::int64_t steps) {
+    const std::unique_ptr<ControlSource> ahead = controls.clone();
+    const VehicleState from = placeVehicle(parameters, terrain, start.x, start.z, start.heading, ahead->initialSpeed());
     VehicleState to = from;
     for (std::int64_t n = -steps; n < 0; ++n)
-        to = step(parameters, to, steering.decide(parameters, to, static_cast<double>(n) * stepSeconds), terrain,
+        to = step(parameters, to, ahead->decide(parameters, to, static_cast<double>(n) * stepSeconds), terrain,
                   stepSeconds);
-    // The rigid motion from → to, in the plane: heading turns by `turn`, the way in the frame of `from` is (ahead,
+    // The rigid motion from → to, in the plane: heading turns by `turn`, the way in the frame of `from` is (forwards,
     // right).
     const double turn = to.heading - from.heading;
     const glm::dvec2 moved(to.position.x - from.position.x, to.position.z - from.position.z);
-    const double ahead = moved.x * std::cos(from.heading) - moved.y * std::sin(from.heading);
+    const double forwards = moved.x * std::cos(from.heading) - moved.y * std::sin(from.heading);
     const double right = moved.x * std::sin(from.heading) + moved.y * std::cos(from.heading);
     const double heading = start.heading - turn;
-    const double x = start.x - (ahead * std::cos(heading) + right * std::sin(heading));
-    const double z = start.z - (-ahead * std::sin(heading) + right * std::cos(heading));
-    return placeVehicle(parameters, terrain, x, z, heading, steering.initialSpeed());
+    const double x = start.x - (forwards * std::cos(heading) + right * std::sin(heading));
+    const double z = start.z - (-forwards * std::sin(heading) + right * std::cos(heading));
+    return placeVehicle(parameters, terrain, x, z, heading, controls.initialSpeed());
 }
 
 void addVehicle(maths::Hash& hash, const VehicleState& vehicle) {
@@ -108,7 +85,7 @@ const ParameterSet& worldParameters() {
                     "dust particles to keep alive on average; 0: as many as the vehicle's speed raises");
         set.real("speed", 0, 0, 60, "m/s", "replaces every target speed above 0 of the drive; 0: as the drive says");
         set.real("preroll", -1, -1, 120, "s", "untimed simulation before the drive begins; below 0: one mean lifetime");
-        set.choice("camera", "chase", {"chase", "fixed", "orbit"}, "which of the scene's cameras looks on");
+        set.choice("camera", CameraKind::chase, cameraKinds, "which of the scene's cameras looks on");
         return set;
     }();
     return parameters;
@@ -118,10 +95,11 @@ struct World::State {
     SceneFile file;
     std::string driveId;
     CameraKind camera;
+    std::uint64_t seed;
     std::int64_t fixedCount;
     std::int64_t particlesPerPuff;
     particles::ParticleSystem dust;
-    Steering steering;
+    std::unique_ptr<ControlSource> source;
     std::int64_t prerollSteps = 0;
     std::int64_t stepIndex = 0;  ///< of the next step; 0 is the first of the drive
     Controls controls{};
@@ -134,26 +112,38 @@ struct World::State {
 
 World::World(const std::string& sceneId, const std::string& driveId, const ParameterValues& parameters,
              std::uint64_t seed, std::int64_t particlesPerPuff) {
-    if (particlesPerPuff < 1) throw std::invalid_argument("World: at least 1 particle is born for each puff");
     SceneFile file = readScene(files::findData("scene", "scenes", sceneId, ".toml"));
     const std::string drive = driveId.empty() ? file.drive : driveId;
     const auto driveFile = files::findData("drive", "drives", drive, ".csv");
-    const auto dustFile = files::findData("particle system", "particles", file.dust, ".toml");
     file.files.push_back(driveFile);
+    auto source = std::make_unique<DriveControls>(
+        readDrive(driveFile, drive, file.scene.vehicle->parameters, parameters.real("speed")));
+    begin(std::move(file), drive, std::move(source), parameters, seed, particlesPerPuff);
+}
+
+World::World(const std::string& sceneId, std::unique_ptr<ControlSource> source, const ParameterValues& parameters,
+             std::uint64_t seed) {
+    begin(readScene(files::findData("scene", "scenes", sceneId, ".toml")), "", std::move(source), parameters, seed, 1);
+}
+
+void World::begin(SceneFile file, const std::string& drive, std::unique_ptr<ControlSource> source,
+                  const ParameterValues& parameters, std::uint64_t seed, std::int64_t particlesPerPuff) {
+    if (particlesPerPuff < 1) throw std::invalid_argument("World: at least 1 particle is born for each puff");
+    const auto dustFile = files::findData("particle system", "particles", file.dust, ".toml");
     file.files.push_back(dustFile);
-    Steering steering(readDrive(driveFile, drive, file.scene.vehicle->parameters, parameters.real("speed")));
     state_ = std::make_unique<State>(State{.file = std::move(file),
                                            .driveId = drive,
-                                           .camera = parameters.choiceAs<CameraKind>("camera"),
+                                           .camera = parameters.choice("camera", cameraKinds),
+                                           .seed = seed,
                                            .fixedCount = parameters.integer("particles"),
                                            .particlesPerPuff = particlesPerPuff,
                                            .dust = particles::ParticleSystem::load(dustFile, seed),
-                                           .steering = std::move(steering)});
+                                           .source = std::move(source)});
     State& s = *state_;
     const double preroll = parameters.real("preroll");
     s.prerollSteps = std::llround((preroll < 0 ? s.dust.meanLifetimeSeconds() : preroll) / stepSeconds);
     s.stepIndex = -s.prerollSteps;
-    s.now.vehicle = placeBefore(s.vehicle(), s.file.scene.terrain, s.file.start, s.steering, s.prerollSteps);
+    s.now.vehicle = placeBefore(s.vehicle(), s.file.scene.terrain, s.file.start, *s.source, s.prerollSteps);
     s.now.timeSeconds = s.time();
     s.lag = CameraLag::at(s.now.vehicle);
 }
@@ -166,14 +156,20 @@ const scene::Scene& World::scene() const {
 const SceneState& World::state() const {
     return state_->now;
 }
-const particles::ParticleStore& World::dust() const {
+Puffs World::dust() const {
     return state_->dust.store();
+}
+RunSetup World::setup() const {
+    return {state_->seed, state_->fixedCount};
 }
 std::int64_t World::prerollSteps() const {
     return state_->prerollSteps;
 }
+const Controls& World::controls() const {
+    return state_->controls;
+}
 double World::driveSeconds() const {
-    return state_->steering.drive().seconds();
+    return state_->source->seconds();
 }
 const std::string& World::driveId() const {
     return state_->driveId;
@@ -189,12 +185,12 @@ scene::View World::view(int width, int height) const {
 
 void World::readInput() {
     State& s = *state_;
-    s.controls = s.steering.decide(s.vehicle(), s.now.vehicle, s.time());
+    s.controls = s.source->decide(s.vehicle(), s.now.vehicle, s.time());
 }
 
 void World::simulate() {
     State& s = *state_;
-    s.now.vehicle = step(s.vehicle(), s.now.vehicle, s.controls, s.file.scene.terrain, stepSeconds);
+    s.now.vehicle = bench::step(s.vehicle(), s.now.vehicle, s.controls, s.file.scene.terrain, stepSeconds);
     ++s.stepIndex;
     s.now.timeSeconds = s.time();
     s.lag = s.lag.followed(s.now.vehicle, s.file.cameras.chase.smoothingSeconds, stepSeconds);

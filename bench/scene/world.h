@@ -9,15 +9,17 @@
 #include <string>
 #include <vector>
 
-#include "methods/shared/memory_ledger.h"
-#include "methods/shared/parameters.h"
-#include "methods/shared/particles/particle_store.h"
-#include "methods/shared/scene/scene.h"
+#include "bench/scene/control_source.h"
+#include "bench/scene/time_step.h"
+#include "methods/contract/memory_report.h"
+#include "methods/contract/method.h"
+#include "methods/contract/parameters.h"
+#include "methods/contract/scene.h"
+#include "methods/contract/volume.h"
 
 namespace dustbench::bench {
 
-/// The fixed time step of every simulation.
-inline constexpr double stepSeconds = 1.0 / 60;
+struct SceneFile;
 
 /// The parameters of the world itself, the same for every method: `particles`, `speed`, `preroll`, `camera`, …
 [[nodiscard]] const ParameterSet& worldParameters();
@@ -29,25 +31,39 @@ class World {
     /// Throws InputError for whatever is wrong with the files, std::invalid_argument for fewer than 1.
     World(const std::string& sceneId, const std::string& driveId, const ParameterValues& parameters, std::uint64_t seed,
           std::int64_t particlesPerPuff = 1);
+    /// The same with somebody else at the wheel; `driveId()` is empty, and the parameter `speed` has no effect.
+    World(const std::string& sceneId, std::unique_ptr<ControlSource> source, const ParameterValues& parameters,
+          std::uint64_t seed);
     ~World();
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
     [[nodiscard]] const scene::Scene& scene() const;
     [[nodiscard]] const scene::SceneState& state() const;
-    [[nodiscard]] const particles::ParticleStore& dust() const;
+    /// Valid until the next step.
+    [[nodiscard]] Puffs dust() const;
     [[nodiscard]] scene::View view(int width, int height) const;
+
+    /// The seed, and the number of particles asked for.
+    [[nodiscard]] RunSetup setup() const;
 
     /// Steps of the untimed preroll, so that the cloud is there when recording begins.
     [[nodiscard]] std::int64_t prerollSteps() const;
-    /// Length of the drive; after it the last row holds.
+    /// Length of the drive; after it its last row holds.
     [[nodiscard]] double driveSeconds() const;
     [[nodiscard]] const std::string& driveId() const;
 
     /// The driver decides for the next step (stage `input`).
     void readInput();
+    /// What was decided last.
+    [[nodiscard]] const Controls& controls() const;
     /// Vehicle, then dust, one step on (stage `simulate`).
     void simulate();
+    /// Both.
+    void step() {
+        readInput();
+        simulate();
+    }
 
     /// Of vehicle and dust: the same for every method, thread count and build.
     [[nodiscard]] std::uint64_t stateHash() const;
@@ -57,6 +73,9 @@ class World {
 
  private:
     struct State;
+    void begin(SceneFile file, const std::string& drive, std::unique_ptr<ControlSource> source,
+               const ParameterValues& parameters, std::uint64_t seed, std::int64_t particlesPerPuff);
+
     std::unique_ptr<State> state_;
 };
 

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <map>
 
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/test_folder.h"
+#include "bench/scene/control_recording.h"
+#include "bench/scene/drive_controls.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
 namespace {
@@ -22,10 +24,7 @@ ParameterValues with(const std::map<std::string, std::string>& settings) {
 }
 
 void run(World& world, std::int64_t steps) {
-    for (std::int64_t n = 0; n < steps; ++n) {
-        world.readInput();
-        world.simulate();
-    }
+    for (std::int64_t n = 0; n < steps; ++n) world.step();
 }
 
 std::uint64_t hashAfter(const std::string& scene, std::uint64_t seed, std::int64_t steps) {
@@ -47,6 +46,27 @@ TEST(World, GivesAnotherStateForAnotherSeedSceneOrMoment) {
     EXPECT_NE(hashAfter("plain", 8, 60), expected);
     EXPECT_NE(hashAfter("dunes", 7, 60), expected);
     EXPECT_NE(hashAfter("plain", 7, 61), expected);
+}
+
+TEST(World, ARecordingPlayedAgainEndsInTheSameState) {
+    for (const char* drive : {"acceleration", "stop_and_go"}) {  // from rest, as a file of pedals begins
+        World world("plain", drive, with({{"preroll", "0"}}), 5);
+        ControlRecording recording;
+        for (int step = 0; step < 300; ++step) {
+            world.step();
+            recording.add(world.controls());
+        }
+        const auto replay = [&](const ControlRecording& played) {
+            auto source = std::make_unique<DriveControls>(Drive::parseText(played.csv(), "recording.csv"));
+            World again("plain", std::move(source), with({{"preroll", "0"}}), 5);
+            run(again, 300);
+            return again.stateHash();
+        };
+        EXPECT_EQ(replay(recording), world.stateHash()) << drive;
+        ControlRecording other;
+        for (int step = 0; step < 300; ++step) other.add({0.5, 0, 0.001});
+        EXPECT_NE(replay(other), world.stateHash()) << drive;
+    }
 }
 
 TEST(World, PrerollEndsAtTheStartWhenTheDriveBegins) {

@@ -2,15 +2,18 @@
 
 #include <fmt/format.h>
 
-#include "bench/judge/judgement.h"
+#include "bench/reference/judge/judgement.h"
+#include "bench/results/method_facts.h"
 #include "bench/results/run_record.h"
 #include "bench/scene/data_list.h"
 #include "bench/scene/world.h"
 #include "bench/suite/suite.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/toml_reader.h"
-#include "methods/shared/registry.h"
-#include "methods/shared/stage_clock.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
+#include "methods/contract/stage_clock.h"
+#include "methods/kit/files/toml_reader.h"
+#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/part_toml.h"
 
 namespace dustbench::bench {
 namespace {
@@ -40,6 +43,7 @@ std::vector<CatalogueItem> listMetrics() {
     add("particles_median", "median number of dust particles");
     add("primitives_median", "median number of primitives that the method drew");
     for (const MetricInfo& metric : metricInfos()) add(std::string(metric.column), std::string(metric.title));
+    for (const MethodFact& fact : methodFacts()) add(fact.info.name, fact.info.meaning + ", " + fact.info.unit);
     add("state_hash", "hash of vehicle and dust after the last frame (run.json)");
     add("method_hash", "hash of the method's own simulation after the last frame (run.json)");
     return items;
@@ -49,6 +53,22 @@ std::vector<CatalogueItem> listMethods() {
     std::vector<CatalogueItem> items;
     for (const MethodInfo& info : methods())
         items.push_back({"methods", info.id, info.title, info.summary, info.source, info.parameters.all()});
+    return items;
+}
+
+std::vector<CatalogueItem> listExperiments() {
+    std::vector<CatalogueItem> items;
+    for (const ExperimentInfo& info : experiments())
+        items.push_back({"experiments", info.id, info.summary, "in methods/" + info.folder, info.source});
+    return items;
+}
+
+/// What the tables of a particle system may be, in files of data/particles.
+std::vector<CatalogueItem> listParts() {
+    std::vector<CatalogueItem> items;
+    for (const particles::PartInfo& info : particles::partTable())
+        items.push_back({"parts", fmt::format("{}/{}", particles::kindName(info.kind), info.name), info.help, "",
+                         info.source, particles::tableKeys(info.parameters)});
     return items;
 }
 
@@ -70,7 +90,8 @@ std::vector<CatalogueItem> listSuiteItems() {
 }  // namespace
 
 const std::vector<std::string>& catalogueKinds() {
-    static const std::vector<std::string> kinds{"methods", "scenes", "drives", "suites", "metrics"};
+    static const std::vector<std::string> kinds{"methods",     "scenes",  "drives", "suites",
+                                                "experiments", "metrics", "parts"};
     return kinds;
 }
 
@@ -79,6 +100,8 @@ std::vector<CatalogueItem> catalogue(const std::string& kind) {
     if (kind == "scenes") return fromData(kind, listScenes());
     if (kind == "drives") return fromData(kind, listDrives());
     if (kind == "suites") return listSuiteItems();
+    if (kind == "experiments") return listExperiments();
+    if (kind == "parts") return listParts();
     if (kind != "metrics") throw unknownName("list", kind, catalogueKinds());
     return listMetrics();
 }
@@ -99,8 +122,14 @@ const std::vector<Parameter>& worldParameterList() {
 std::string catalogueJson(const std::vector<CatalogueItem>& items) {
     std::vector<ListedItem> listed;
     for (const CatalogueItem& item : items) {
-        ListedItem entry{
-            {{"id", item.id}, {"kind", item.kind}, {"title", item.title}}, item.parameters, item.kind == "methods"};
+        ListedItem entry{{{"id", item.id}, {"kind", item.kind}, {"title", item.title}},
+                         item.parameters,
+                         item.kind == "methods" || item.kind == "parts"};
+        if (item.kind == "parts") {
+            const std::size_t slash = item.id.find('/');
+            entry.cells.emplace_back("part_kind", item.id.substr(0, slash));
+            entry.cells.emplace_back("part", item.id.substr(slash + 1));
+        }
         if (!item.summary.empty()) entry.cells.emplace_back("summary", item.summary);
         if (!item.source.empty()) entry.cells.emplace_back(item.kind == "suites" ? "paper" : "source", item.source);
         listed.push_back(std::move(entry));

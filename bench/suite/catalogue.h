@@ -4,23 +4,23 @@
 #include <string>
 #include <vector>
 
-#include "methods/shared/parameters.h"
+#include "methods/contract/parameters.h"
 
 namespace dustbench::bench {
 
 struct CatalogueItem {
     std::string kind;  ///< one of catalogueKinds()
-    std::string id;
+    std::string id;    ///< of a part `kind/name`
     std::string title;
     std::string summary;
-    std::string source;  ///< key in data/references.bib, or empty
-    std::vector<Parameter> parameters{};
+    std::string source;                   ///< key in data/references.bib, of a part with section; or empty
+    std::vector<Parameter> parameters{};  ///< of a part: the keys of its table
 };
 
-/// `methods scenes drives suites metrics`
+/// `methods scenes drives suites metrics parts`
 [[nodiscard]] const std::vector<std::string>& catalogueKinds();
 
-/// Sorted by id; metrics in the order of summary.csv.
+/// Sorted by id; metrics in the order of summary.csv, parts kind by kind.
 [[nodiscard]] std::vector<CatalogueItem> catalogue(const std::string& kind);
 
 /// Throws InputError with the nearest id.

@@ -7,14 +7,15 @@
 #include <numeric>
 
 #include "bench/suite/suite_axes.h"
-#include "bench/suite/suite_comparison.h"
+#include "bench/suite/suite_verdicts.h"
 
 namespace dustbench::bench {
 namespace {
 
-/// Scene, drive, size and the world's parameters.
+/// Scene, drive, size, seed and the world's parameters.
 std::string worldKey(const RunSpec& spec) {
-    std::string key = fmt::format("{}\n{}\n{}x{}\n", spec.scene, spec.drive, spec.size.width, spec.size.height);
+    std::string key =
+        fmt::format("{}\n{}\n{}x{}\n{}\n", spec.scene, spec.drive, spec.size.width, spec.size.height, spec.seed);
     for (const auto& [name, text] : spec.parameters)
         if (isOfTheWorld(name)) key += fmt::format("{}={}\n", name, text);
     return key;

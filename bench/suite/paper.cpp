@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/files/toml_reader.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/toml_reader.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;

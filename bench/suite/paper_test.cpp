@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/suite/suite.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "bench/suite/cell_groups.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 
@@ -19,10 +19,10 @@ Shard parseShard(std::string_view text) {
     if (indexError == std::errc() && slash != end && *slash == '/') {
         const auto [last, countError] = std::from_chars(slash + 1, end, shard.count);
         if (countError == std::errc() && last == end && shard.index >= 1 && shard.index <= shard.count &&
-            shard.count <= mostShards)
+            shard.count <= maximumShards)
             return shard;
     }
-    throw InputError(fmt::format("--shard: got '{}', allowed: I/N with 1 <= I <= N <= {}", text, mostShards));
+    throw InputError(fmt::format("--shard: got '{}', allowed: I/N with 1 <= I <= N <= {}", text, maximumShards));
 }
 
 std::vector<int> shardOfCells(const Suite& suite, int count) {
@@ -32,7 +32,7 @@ std::vector<int> shardOfCells(const Suite& suite, int count) {
     std::vector<std::pair<std::size_t, std::size_t>> largestFirst(sizes.begin(), sizes.end());
     std::ranges::stable_sort(largestFirst, std::ranges::greater(), [](const auto& entry) { return entry.second; });
 
-    std::set<std::pair<std::size_t, int>> loads;  // the fewest cells, then the lowest number, comes first
+    std::set<std::pair<std::size_t, int>> loads;  // the minimum cells, then the lowest number, comes first
     for (int shard = 1; shard <= count; ++shard) loads.emplace(0, shard);
     std::map<std::size_t, int> shardOfGroup;
     for (const auto& [first, size] : largestFirst) {

@@ -1,8 +1,8 @@
 // A suite in parts, for several machines: `--shard 2/3`.
 //
 // Runs that are compared with each other belong on one machine, so what is shared out are groups of cells
-// (cell_groups.h) with all their repetitions. The largest group goes first, each to the shard that has the fewest runs.
-// This depends on the suite alone; run ids do not depend on it.
+// (cell_groups.h) with all their repetitions. The largest group goes first, each to the shard that has the minimum
+// runs. This depends on the suite alone; run ids do not depend on it.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct Shard {
 /// `2/3`. Throws InputError.
 [[nodiscard]] Shard parseShard(std::string_view text);
 
-inline constexpr int mostShards = 10'000;
+inline constexpr int maximumShards = 10'000;
 
 /// The shard of every cell, from 1.
 [[nodiscard]] std::vector<int> shardOfCells(const Suite& suite, int count);

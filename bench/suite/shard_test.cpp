@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {

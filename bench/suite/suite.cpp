@@ -6,14 +6,14 @@
 #include <map>
 
 #include "bench/suite/cell_groups.h"
-#include "bench/suite/suite_comparison.h"
 #include "bench/suite/suite_draft.h"
 #include "bench/suite/suite_fit.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/files/toml_reader.h"
-#include "methods/shared/maths/philox.h"
-#include "methods/shared/registry.h"
+#include "bench/suite/suite_verdicts.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/toml_reader.h"
+#include "methods/kit/maths/philox.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
@@ -63,21 +63,24 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
                 for (const auto& [name, values] : own) setList(lists, name, values);
         for (const std::string& scene : draft.scenes)
             for (const std::string& drive : draft.drives)
-                for (const std::string& size : draft.sizes) {
-                    RunSpec base = draft.base;
-                    base.method = id;
-                    base.scene = scene;
-                    base.drive = drive;
-                    base.size = parseSize(size);
-                    if (const auto finer = draft.finerSettings.find(id);
-                        base.judging && finer != draft.finerSettings.end())
-                        base.judging->finer = finer->second;
-                    for (PlannedRun& run : expandParameters(base, findMethod(id), lists)) {
-                        if (draft.drives.size() > 1) run.label = drive + " " + run.label;
-                        if (draft.sizes.size() > 1) run.label = size + " " + run.label;
-                        suite.cells.push_back(std::move(run));
+                for (const std::string& size : draft.sizes)
+                    for (const std::uint64_t seed : draft.seeds) {
+                        RunSpec base = draft.base;
+                        base.method = id;
+                        base.scene = scene;
+                        base.drive = drive;
+                        base.size = parseSize(size);
+                        base.seed = seed;
+                        if (const auto finer = draft.finerSettings.find(id);
+                            base.judging && finer != draft.finerSettings.end())
+                            base.judging->finer = finer->second;
+                        for (PlannedRun& run : expandParameters(base, findMethod(id), lists)) {
+                            if (draft.seeds.size() > 1) run.label = fmt::format("seed={} {}", seed, run.label);
+                            if (draft.drives.size() > 1) run.label = drive + " " + run.label;
+                            if (draft.sizes.size() > 1) run.label = size + " " + run.label;
+                            suite.cells.push_back(std::move(run));
+                        }
                     }
-                }
     }
     for (const Exception& exception : draft.exceptions)
         if (leaveOut(exception, suite.cells) == 0 && wholeFile)
@@ -134,12 +137,6 @@ std::vector<std::vector<std::size_t>> listGroups(const Suite& suite) {
 }
 
 }  // namespace
-
-Order parseOrder(std::string_view text) {
-    if (text == "interleaved") return Order::interleaved;
-    if (text == "batch") return Order::batch;
-    throw InputError(fmt::format("order: got '{}', allowed: interleaved|batch", text));
-}
 
 std::vector<SuiteFile> listSuites() {
     std::vector<SuiteFile> suites;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/results/run_spec.h"
-#include "bench/suite/planned_comparison.h"
+#include "bench/suite/planned_evaluation.h"
 
 namespace dustbench::bench {
 
@@ -24,8 +24,7 @@ struct PlannedRun {
 /// (cell_groups.h), and the cells of each group one after the other, so that a drift of the machine hits alike what is
 /// compared. batch: all repetitions of a cell, then the next cell.
 enum class Order { interleaved, batch };
-/// Throws InputError.
-[[nodiscard]] Order parseOrder(std::string_view text);
+inline constexpr Choices<Order> orders{{"interleaved", Order::interleaved}, {"batch", Order::batch}};
 
 struct Suite {
     std::string id;

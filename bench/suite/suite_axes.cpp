@@ -35,7 +35,8 @@ std::vector<Axis> worldAxes(std::span<const PlannedRun* const> cells) {
     std::vector<Axis> axes{
         {"scene", [](const RunSpec& spec) { return spec.scene; }},
         {"drive", [](const RunSpec& spec) { return spec.drive; }},
-        {"size", [](const RunSpec& spec) { return fmt::format("{}x{}", spec.size.width, spec.size.height); }}};
+        {"size", [](const RunSpec& spec) { return fmt::format("{}x{}", spec.size.width, spec.size.height); }},
+        {"seed", [](const RunSpec& spec) { return fmt::format("{}", spec.seed); }}};
     for (const std::string& name : parameterNames(cells))
         if (isOfTheWorld(name)) axes.push_back(parameterAxis(name));
     std::erase_if(axes, [cells](const Axis& axis) {

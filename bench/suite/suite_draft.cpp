@@ -3,18 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 
 #include "bench/suite/value_list.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/registry.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
+#include "methods/kit/files/data_folder.h"
 
 namespace dustbench::bench {
 namespace {
 
-constexpr std::int64_t mostFrames = 10'000'000;
-constexpr std::int64_t mostRepetitions = 1000;
+constexpr std::int64_t maximumFrames = 10'000'000;
+constexpr std::int64_t maximumRepetitions = 1000;
 
 [[nodiscard]] InputError at(const std::string& where, const InputError& error) {
     return InputError(where + error.what());
@@ -45,6 +46,24 @@ void readParameters(files::TomlReader& table, const std::vector<std::string>& me
                 }
         setList(lists, name, values);
     }
+}
+
+/// One seed or several, whose runs are different worlds.
+void readSeeds(files::TomlReader& table, std::vector<std::uint64_t>& seeds) {
+    if (!table.has("seed")) return;
+    seeds.clear();
+    for (const std::string& text : table.scalars("seed")) {
+        std::uint64_t seed = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+        if (error != std::errc() || end != text.data() + text.size() ||
+            seed > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
+            throw InputError(table.where("seed") + "key 'seed': got " + text +
+                             ", expected an integer of 0 or more, or an array of them");
+        if (std::ranges::find(seeds, seed) != seeds.end())
+            throw InputError(table.where("seed") + "key 'seed': " + text + " stands twice");
+        seeds.push_back(seed);
+    }
+    if (seeds.empty()) throw InputError(table.where("seed") + "key 'seed': got an empty array, expected integers");
 }
 
 template <typename Check>
@@ -87,10 +106,12 @@ void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volume
         volumes->formats = parseFormats(joined);
     });
     read("resolution", [&](const std::string& key) {
-        volumes->resolution = static_cast<int>(table.integer(key, 1, mostCellsPerEdge, volumes->resolution));
+        volumes->resolution = static_cast<int>(table.integer(key, 1, maximumCellsPerEdge, volumes->resolution));
     });
     read("region", [&](const std::string& key) { volumes->region = parseRegion(table.text(key, "")); });
-    read("vdb_precision", [&](const std::string& key) { volumes->vdbPrecision = parsePrecision(table.text(key, "")); });
+    read("vdb_precision", [&](const std::string& key) {
+        volumes->vdbPrecision = vdbPrecisions.parse("vdb precision", table.text(key, ""));
+    });
 }
 
 /// `metrics` asks for them; `metric_frames` says of which frames.
@@ -163,7 +184,7 @@ void readExceptions(files::TomlReader& suite, SuiteDraft& draft) {
             parameters.finish();
         }
         exception.afterRepetition =
-            static_cast<int>(table.integer("after_repetition", 0, mostRepetitions, exception.afterRepetition));
+            static_cast<int>(table.integer("after_repetition", 0, maximumRepetitions, exception.afterRepetition));
         table.finish();
         draft.exceptions.push_back(std::move(exception));
     }
@@ -183,22 +204,21 @@ void SuiteDraft::read(files::TomlReader& table) {
     });
     readNames(table, "sizes", sizes, [](const std::string& size) { (void)parseSize(size); });
 
-    base.frames = table.integer("frames", 1, mostFrames, base.frames);
-    base.warmup = table.integer("warmup", 0, mostFrames, base.warmup);
-    base.seed = static_cast<std::uint64_t>(
-        table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), static_cast<std::int64_t>(base.seed)));
+    base.frames = table.integer("frames", 1, maximumFrames, base.frames);
+    base.warmup = table.integer("warmup", 0, maximumFrames, base.warmup);
+    readSeeds(table, seeds);
     base.threads = static_cast<int>(table.integer("threads", 0, 1024, base.threads));
-    base.imagesEvery = table.integer("images", 0, mostFrames, base.imagesEvery);
+    base.imagesEvery = table.integer("images", 0, maximumFrames, base.imagesEvery);
     readVolumes(table, base.volumes);
     readJudging(table, base.judging);
-    if (table.has("sync")) base.sync = parseSync(table.choice("sync", {"frame", "stage", "none"}));
+    if (table.has("sync")) base.sync = table.choice("sync", syncs);
 
     suite.title = table.text("title", suite.title);
     suite.summary = table.text("summary", suite.summary);
-    suite.repetitions = static_cast<int>(table.integer("repetitions", 1, mostRepetitions, suite.repetitions));
+    suite.repetitions = static_cast<int>(table.integer("repetitions", 1, maximumRepetitions, suite.repetitions));
     suite.timeoutSeconds = table.number("timeout_s", 1, 1e6, suite.timeoutSeconds);
     suite.cooldownSeconds = table.number("cooldown_s", 0, 3600, suite.cooldownSeconds);
-    if (table.has("order")) suite.order = parseOrder(table.choice("order", {"interleaved", "batch"}));
+    if (table.has("order")) suite.order = table.choice("order", orders);
 
     if (table.has("parameters")) {
         files::TomlReader ofAll = table.table("parameters");

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/suite/suite.h"
-#include "methods/shared/files/toml_reader.h"
+#include "methods/kit/files/toml_reader.h"
 
 namespace dustbench::bench {
 
@@ -24,6 +24,7 @@ struct SuiteDraft {
     std::vector<std::string> scenes{"plain"};
     std::vector<std::string> drives{""};
     std::vector<std::string> sizes{"640x480"};
+    std::vector<std::uint64_t> seeds{1};
     RunSpec base;
     Suite suite;
     ParameterLists parameters;

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "bench/suite/suite_axes.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {

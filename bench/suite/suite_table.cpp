@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/judge/judgement.h"
 #include "bench/measure/statistics.h"
+#include "bench/reference/judge/judgement.h"
 #include "bench/suite/suite_axes.h"
-#include "methods/shared/stage_clock.h"
+#include "methods/contract/stage_clock.h"
 
 namespace dustbench::bench {
 namespace {

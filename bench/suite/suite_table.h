@@ -17,7 +17,7 @@ struct TextRows {
     std::vector<std::vector<std::string>> rows;  ///< each as long as the header
 };
 
-/// FPS (median, least and greatest run), frame time and stages. Where the suite has one method in one setting, a row
+/// FPS (median, minimum and maximum run), frame time and stages. Where the suite has one method in one setting, a row
 /// says in columns of its own what varies; otherwise a row `particles=500 speed=20`, empty but for that, heads the
 /// rows of the methods, and these say which settings vary: `octree_search layout=morton`. Rows whose runs are not
 /// all done tell so: `billboard (4 of 6 runs)`.

@@ -5,10 +5,10 @@
 
 #include <limits>
 
-#include "bench/judge/judgement.h"
+#include "bench/reference/judge/judgement.h"
 #include "bench/results/summary.h"
 #include "bench/suite/suite_fit.h"
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <set>
 
-#include "bench/measure/paired_comparison.h"
+#include "bench/measure/paired_ratio.h"
 #include "bench/results/run_record.h"
 #include "bench/scene/world.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/registry.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
 
 namespace dustbench::bench {
 namespace {
@@ -62,6 +62,22 @@ TEST(Suite, IsTheProductOfItsLists) {
     EXPECT_EQ(plan.size(), suite.cells.size() * 4);
     const auto list = ids(plan);
     EXPECT_EQ(std::set<std::string>(list.begin(), list.end()).size(), plan.size());
+}
+
+TEST(Suite, OfSeveralSeedsHasAWorldForEach) {
+    const std::string text = "methods = [\"null_method\", \"billboard\"]\nseed = [1, 5, 9]\n";
+    const Suite suite = parseSuite(text, "seeds", false);
+    ASSERT_EQ(suite.cells.size(), 6u);
+    std::set<std::uint64_t> seeds;
+    for (const PlannedRun& cell : suite.cells) {
+        seeds.insert(cell.spec.seed);
+        EXPECT_THAT(cell.label, HasSubstr("seed=" + std::to_string(cell.spec.seed)));
+    }
+    EXPECT_EQ(seeds, (std::set<std::uint64_t>{1, 5, 9}));
+    EXPECT_THAT(messageOf("seed = [1, 1]"), HasSubstr("1 stands twice"));
+    EXPECT_THAT(messageOf("seed = []"), HasSubstr("empty array"));
+    EXPECT_THAT(messageOf("seed = -1"), HasSubstr("got -1, expected an integer of 0 or more"));
+    EXPECT_THAT(messageOf("seed = 1.5"), HasSubstr("got 1.5"));
 }
 
 TEST(Suite, QuickTakesTheValuesOfItsTableAndKeepsTheRest) {
@@ -208,7 +224,7 @@ TEST(Suite, EverySuiteOfTheProjectCanBePlanned) {
             EXPECT_FALSE(planRuns(suite).empty()) << file.id;
             EXPECT_FALSE(suite.title.empty()) << file.id;
             if (suite.comparisons.empty()) continue;
-            EXPECT_GE(suite.repetitions, static_cast<int>(fewestPairs)) << file.id << ": could resolve nothing";
+            EXPECT_GE(suite.repetitions, static_cast<int>(minimumPairs)) << file.id << ": could resolve nothing";
             EXPECT_EQ(suite.order, Order::interleaved) << file.id;
         }
 }

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <optional>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/files/csv.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 namespace {
 
-constexpr double mostValues = 10'000;
+constexpr double maximumValues = 10'000;
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
     std::vector<std::string_view> parts;
@@ -50,7 +50,7 @@ std::vector<std::string> range(std::string_view what, std::string_view text) {
     const double from = numbers[0], to = numbers[1], step = numbers[2];
     const double steps = (to - from) / step;
     if (step == 0 || steps < 0) throw refuse("never arrives");
-    if (steps >= mostValues) throw refuse("has more than 10000 values");
+    if (steps >= maximumValues) throw refuse("has more than 10000 values");
 
     std::vector<std::string> values;
     const auto last = static_cast<int>(std::floor(steps + 1e-9));

@@ -1,9 +1,8 @@
 #include "methods/billboard/billboard.h"
 
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/parallel/for_each_block.h"
-#include "methods/shared/particles/particle_store.h"
-#include "methods/shared/volume.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::billboard {
 namespace {
@@ -26,7 +25,7 @@ std::optional<draw::PuffTextures> loadPictures(Puff puff, gpu::Device& device) {
 }
 
 /// Which picture particle `i` shows: its own of several, or by how much of its life is over.
-float frameOf(const particles::ParticleStore& dust, std::size_t i, Puff puff, int frames) {
+float frameOf(const Puffs& dust, std::size_t i, Puff puff, int frames) {
     if (puff == Puff::animated)
         return std::clamp(dust.age[i] / dust.lifetime[i], 0.0f, 1.0f) * static_cast<float>(frames - 1);
     return static_cast<float>(dust.serial[i] % static_cast<std::uint64_t>(frames));
@@ -36,13 +35,13 @@ float frameOf(const particles::ParticleStore& dust, std::size_t i, Puff puff, in
 
 Billboard::Billboard(const Settings& settings) : settings_(settings), sort_(ledger_) {}
 
-void Billboard::prepare(const scene::Scene&, gpu::Device& device) {
+void Billboard::prepare(const scene::Scene&, const RunSetup&, gpu::Device& device) {
     pictures_ = loadPictures(settings_.puff, device);
     quads_.emplace(device, settings_.style, pictures_ ? &*pictures_ : nullptr);
 }
 
 void Billboard::update(const Frame& frame) {
-    const particles::ParticleStore& dust = frame.dust;
+    const Puffs& dust = frame.dust;
     std::span<const std::uint32_t> order;
     {
         const auto timing = frame.clock.measure(Stage::sort);
@@ -52,7 +51,7 @@ void Billboard::update(const Frame& frame) {
     upload(dust, order);
 }
 
-void Billboard::upload(const particles::ParticleStore& dust, std::span<const std::uint32_t> order) {
+void Billboard::upload(const Puffs& dust, std::span<const std::uint32_t> order) {
     const draw::InstanceLayout layout = quads_->layout(!dust.uniformColour);
     const std::span<float> memory = quads_->map(order.size(), layout);
     const int frames = pictures_ ? pictures_->frames() : 0;
@@ -105,21 +104,21 @@ MethodInfo describe() {
         "One camera-facing quad for each particle, sorted far to near and blended in one instanced draw call.";
     info.source = "Carr2006";
     info.parameters
-        .choice("sort", "radix", {"quicksort", "radix", "none"},
+        .choice("sort", draw::SortKind::radix, draw::sortKinds,
                 "order in which puffs are blended: far to near by the paper's quicksort or by a radix sort, or as they "
                 "come")
         .choice(
-            "puff", "gaussian", {"gaussian", "texture", "textures", "animated"},
+            "puff", Puff::gaussian, puffs,
             "what a quad shows: the optical model's Gaussian, one picture, one of several, or an animation over life")
         .boolean("soft", false, "let puffs end softly at the scene behind them instead of cutting them off")
-        .choice("facing", "viewpoint", {"viewpoint", "viewplane"},
+        .choice("facing", draw::Facing::viewpoint, draw::facings,
                 "turn each quad to the eye, or all of them parallel to the picture");
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         Settings settings;
-        settings.sort = values.choiceAs<draw::SortKind>("sort");
-        settings.puff = values.choiceAs<Puff>("puff");
+        settings.sort = values.choice("sort", draw::sortKinds);
+        settings.puff = values.choice("puff", puffs);
         settings.style.soft = values.boolean("soft");
-        settings.style.facing = values.choiceAs<draw::Facing>("facing");
+        settings.style.facing = values.choice("facing", draw::facings);
         return std::make_unique<Billboard>(settings);
     };
     return info;

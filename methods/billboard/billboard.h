@@ -7,14 +7,18 @@
 #include <memory>
 #include <optional>
 
-#include "methods/shared/draw/billboards.h"
-#include "methods/shared/draw/depth_sort.h"
-#include "methods/shared/draw/puff_textures.h"
-#include "methods/shared/method.h"
+#include "methods/contract/method.h"
+#include "methods/kit/draw/billboards.h"
+#include "methods/kit/draw/depth_sort.h"
+#include "methods/kit/draw/puff_textures.h"
 
 namespace dustbench::billboard {
 
 enum class Puff { gaussian, texture, textures, animated };
+inline constexpr Choices<Puff> puffs{{"gaussian", Puff::gaussian},
+                                     {"texture", Puff::texture},
+                                     {"textures", Puff::textures},
+                                     {"animated", Puff::animated}};
 
 struct Settings {
     draw::SortKind sort = draw::SortKind::radix;
@@ -26,7 +30,7 @@ class Billboard final : public Method {
  public:
     explicit Billboard(const Settings& settings);
 
-    void prepare(const scene::Scene& scene, gpu::Device& device) override;
+    void prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) override;
     void update(const Frame& frame) override;
     void draw(const Frame& frame, gpu::Layer& layer) override;
     void volume(const Frame& frame, VolumeVisitor& visitor) const override;
@@ -34,7 +38,7 @@ class Billboard final : public Method {
     [[nodiscard]] std::int64_t primitives() const override;
 
  private:
-    void upload(const particles::ParticleStore& dust, std::span<const std::uint32_t> order);
+    void upload(const Puffs& dust, std::span<const std::uint32_t> order);
 
     Settings settings_;
     MemoryLedger ledger_;

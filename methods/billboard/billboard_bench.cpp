@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "methods/billboard/billboard.h"
-#include "methods/shared/test_moment.h"
+#include "methods/kit/testing/test_moment.h"
 
 namespace dustbench::billboard {
 namespace {
@@ -72,7 +72,7 @@ class BareLoop {
 class WholeMethod {
  public:
     WholeMethod(Workload& work, const Settings& settings) : work_(work), method_(settings) {
-        method_.prepare(work.scene, work.device());
+        method_.prepare(work.scene, {}, work.device());
     }
 
     void operator()() {
@@ -86,12 +86,12 @@ class WholeMethod {
     Billboard method_;
 };
 
-draw::Image pictureOf(Workload& work, auto& loop) {
+pictures::Image pictureOf(Workload& work, auto& loop) {
     return work.picture([&](const gpu::Layer&) { loop(); });
 }
 
 /// Throws where the picture is not what the puffs must give.
-void verify(Workload& work, const draw::Image& bare, const draw::Image& whole) {
+void verify(Workload& work, const pictures::Image& bare, const pictures::Image& whole) {
     if (bare.pixels != whole.pixels) throw std::runtime_error("the two loops draw different pictures");
     // Optical depth over the picture against the puffs' masses: τ·2πs²·f²/(distance along the axis)², in pixels.
     const double focal = static_cast<double>(work.view.eyeToClip()[1][1]) * work.view.height / 2;
@@ -180,7 +180,7 @@ MODE(animated, {draw::SortKind::radix, Puff::animated, {}});
 void update(benchmark::State& state, draw::SortKind sort) {
     Workload work(static_cast<std::size_t>(state.range(0)), 1);
     Billboard method({sort, Puff::gaussian, {}});
-    method.prepare(work.scene, work.device());
+    method.prepare(work.scene, {}, work.device());
     const StageClock clock;
     const Frame frame{0, 1.0 / 60, work.state, work.dust, work.view, clock};
     for (auto _ : state) method.update(frame);

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/maths/transmittance.h"
-#include "methods/shared/test_moment.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/maths/transmittance.h"
+#include "methods/kit/testing/test_moment.h"
 
 namespace dustbench::billboard {
 namespace {
@@ -39,11 +39,11 @@ std::unique_ptr<Method> prepared(const Moment& moment, const std::vector<std::pa
     ParameterValues parameters(info.parameters);
     for (const auto& [name, value] : values) parameters.set(name, value);
     auto method = info.create(parameters);
-    method->prepare(moment.scene, Moment::device());
+    method->prepare(moment.scene, {}, Moment::device());
     return method;
 }
 
-double largestDifference(const draw::Image& a, const draw::Image& b, bool alphaOnly) {
+double largestDifference(const pictures::Image& a, const pictures::Image& b, bool alphaOnly) {
     double largest = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
         for (int c = alphaOnly ? 3 : 0; c < 4; ++c)
@@ -54,7 +54,7 @@ double largestDifference(const draw::Image& a, const draw::Image& b, bool alphaO
 TEST(Billboard, ShowsTheTransmittanceOfTheWholeCloud) {
     Moment moment(300);
     const auto method = prepared(moment, {});
-    const draw::Image image = moment.updateAndDraw(*method);
+    const pictures::Image image = moment.updateAndDraw(*method);
     double squares = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
@@ -76,9 +76,9 @@ TEST(Billboard, ShowsTheTransmittanceOfTheWholeCloud) {
 TEST(Billboard, SortsAloneDoNotChangeThePictureOfOneColour) {
     const std::size_t count = 2'000;
     Moment moment(count);
-    const draw::Image radix = moment.updateAndDraw(*prepared(moment, {{"sort", "radix"}}));
-    const draw::Image quick = moment.updateAndDraw(*prepared(moment, {{"sort", "quicksort"}}));
-    const draw::Image none = moment.updateAndDraw(*prepared(moment, {{"sort", "none"}}));
+    const pictures::Image radix = moment.updateAndDraw(*prepared(moment, {{"sort", "radix"}}));
+    const pictures::Image quick = moment.updateAndDraw(*prepared(moment, {{"sort", "quicksort"}}));
+    const pictures::Image none = moment.updateAndDraw(*prepared(moment, {{"sort", "none"}}));
     EXPECT_EQ(quick.pixels, radix.pixels);
     EXPECT_LT(largestDifference(radix, none, false), 1e-5);
 }
@@ -92,9 +92,9 @@ TEST(Billboard, SortMattersWhereColoursDiffer) {
         moment.dust.green[i] = 1 - moment.dust.red[i];
         moment.dust.blue[i] = 0;
     }
-    const draw::Image radix = moment.updateAndDraw(*prepared(moment, {{"sort", "radix"}}));
-    const draw::Image quick = moment.updateAndDraw(*prepared(moment, {{"sort", "quicksort"}}));
-    const draw::Image none = moment.updateAndDraw(*prepared(moment, {{"sort", "none"}}));
+    const pictures::Image radix = moment.updateAndDraw(*prepared(moment, {{"sort", "radix"}}));
+    const pictures::Image quick = moment.updateAndDraw(*prepared(moment, {{"sort", "quicksort"}}));
+    const pictures::Image none = moment.updateAndDraw(*prepared(moment, {{"sort", "none"}}));
     EXPECT_EQ(quick.pixels, radix.pixels);
     EXPECT_LT(largestDifference(radix, none, true), 1e-5);
     EXPECT_GT(largestDifference(radix, none, false), 0.05);
@@ -102,12 +102,12 @@ TEST(Billboard, SortMattersWhereColoursDiffer) {
 
 TEST(Billboard, DrawsTheSameAgainInEveryMode) {
     Moment moment(200);
-    std::vector<draw::Image> pictures;
+    std::vector<pictures::Image> pictures;
     for (const char* puff : {"gaussian", "texture", "textures", "animated"})
         for (const char* soft : {"false", "true"})
             for (const char* facing : {"viewpoint", "viewplane"}) {
                 const auto method = prepared(moment, {{"puff", puff}, {"soft", soft}, {"facing", facing}});
-                const draw::Image image = moment.updateAndDraw(*method);
+                const pictures::Image image = moment.updateAndDraw(*method);
                 EXPECT_EQ(moment.draw(*method).pixels, image.pixels) << puff << soft << facing;
                 EXPECT_EQ(moment.updateAndDraw(*method).pixels, image.pixels) << puff << soft << facing;
                 EXPECT_EQ(method->primitives(), 200);
@@ -127,11 +127,11 @@ TEST(Billboard, FollowsACloudThatComesAndGoes) {
     Moment empty(0), few(10), many(5'000);
     const auto method = prepared(empty, {});
     EXPECT_EQ(method->primitives(), 0);
-    const draw::Image first = few.updateAndDraw(*method);
+    const pictures::Image first = few.updateAndDraw(*method);
     EXPECT_EQ(method->primitives(), 10);
     (void)many.updateAndDraw(*method);
     EXPECT_EQ(method->primitives(), 5'000);
-    const draw::Image nothing = empty.updateAndDraw(*method);
+    const pictures::Image nothing = empty.updateAndDraw(*method);
     EXPECT_EQ(method->primitives(), 0);
     for (const glm::vec4& pixel : nothing.pixels) ASSERT_EQ(pixel, glm::vec4(0));
     EXPECT_EQ(few.updateAndDraw(*method).pixels, first.pixels);

@@ -1,14 +1,23 @@
 // What the method declares, and how its parameters change what a fluid's file says.
 #include <algorithm>
 
+#include "methods/contract/errors.h"
 #include "methods/grid_fluid/grid_fluid.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/files/data_folder.h"
+#include "methods/kit/files/data_folder.h"
 
 namespace dustbench::grid_fluid {
 namespace {
 
 constexpr double asTheFileSays = -1;
+
+constexpr Choices<flow::AdvectionScheme> advectionSchemes{{"semi_lagrangian", flow::AdvectionScheme::semiLagrangian},
+                                                          {"maccormack", flow::AdvectionScheme::macCormack}};
+constexpr Choices<flow::Limit> limits{
+    {"clamp", flow::Limit::clamp}, {"revert", flow::Limit::revert}, {"none", flow::Limit::none}};
+constexpr Choices<flow::PressureMethod> pressureMethods{{"jacobi", flow::PressureMethod::jacobi},
+                                                        {"multigrid", flow::PressureMethod::multigrid}};
+constexpr Choices<SolverBackend> solverBackends{
+    {"auto", SolverBackend::automatic}, {"cpu", SolverBackend::cpu}, {"opengl", SolverBackend::openGl}};
 
 std::vector<std::string> fluidNames() {
     std::vector<std::string> names = files::listData("fluids", ".toml");
@@ -42,28 +51,27 @@ GridFluidSettings settingsOf(const ParameterValues& values) {
     override(values, "decay", setup.forces.densityDecayPerSecond);
     override(values, "diffusion", setup.forces.viscosityM2PerSecond);
 
-    fluid::FluidSettings& solver = settings.solver;
+    flow::FluidSettings& solver = settings.solver;
     const auto cells = values.cells("grid");
     solver.box.cells = {cells[0], cells[1], cells[2]};
     solver.box.spacingMetres = spacingOf(values, setup, cells[0]);
     solver.forces = setup.forces;
     solver.noSlip = setup.noSlip;
-    solver.advection.scheme = values.choiceAs<fluid::AdvectionScheme>("advection");
-    solver.advection.limit = values.choiceAs<fluid::Limit>("limit");
+    solver.advection.scheme = values.choice("advection", advectionSchemes);
+    solver.advection.limit = values.choice("limit", limits);
     solver.keepsDensity = setup.keepsDensity;
-    solver.pressure = values.choiceAs<fluid::PressureMethod>("pressure");
+    solver.pressure = values.choice("pressure", pressureMethods);
     solver.jacobiSweeps = static_cast<int>(values.integer("sweeps"));
     solver.divergencePerStep = static_cast<float>(values.real("tolerance"));
-    fluid::check(solver.box);
-    settings.solverBackend = values.choiceAs<SolverBackend>("solver");
+    flow::check(solver.box);
+    settings.solverBackend = values.choice("solver", solverBackends);
     settings.framesPerStep = static_cast<int>(values.integer("frames_per_step"));
-    settings.seed = static_cast<std::uint64_t>(values.integer("fluid_seed"));
 
     raycast::RaycastSettings& picture = settings.picture;
-    picture.backend = values.choiceAs<raycast::Backend>("backend");
-    picture.renderer = values.choiceAs<raycast::Renderer>("renderer");
+    picture.backend = values.choice("backend", raycast::backends);
+    picture.renderer = values.choice("renderer", raycast::renderers);
     picture.isoDensity = values.real("iso_density");
-    picture.filter = values.choiceAs<raycast::Filter>("filter");
+    picture.filter = values.choice("filter", raycast::filters);
     picture.stepCells = values.real("step_cells");
     picture.jitter = values.boolean("jitter");
     picture.stopAlpha = values.real("stop_alpha");
@@ -87,14 +95,14 @@ MethodInfo describe() {
         .cells("grid", "128x64x64", 4, 4096, "cells along x, y and z")
         .real("spacing_m", asTheFileSays, asTheFileSays, 1000, "m",
               "edge of a cell; -1: the length of the fluid's box by its cells along x")
-        .choice("advection", "maccormack", {"semi_lagrangian", "maccormack"},
+        .choice("advection", flow::AdvectionScheme::macCormack, advectionSchemes,
                 "look back along the flow, or correct that by its own error as well")
-        .choice("limit", "revert", {"clamp", "revert", "none"},
+        .choice("limit", flow::Limit::revert, limits,
                 "what is done where that correction overshoots: the paper's clamp to the cells around, or back to the "
                 "uncorrected value")
-        .choice("pressure", "multigrid", {"jacobi", "multigrid"},
+        .choice("pressure", flow::PressureMethod::multigrid, pressureMethods,
                 "the paper's sweeps, or cycles over coarser and coarser grids until the tolerance is met")
-        .choice("solver", "auto", {"auto", "cpu", "opengl"},
+        .choice("solver", SolverBackend::automatic, solverBackends,
                 "who computes the flow; auto: the GPU where OpenGL has one and the rays are cast there, else the CPU")
         .integer("sweeps", 40, 0, 100'000, "", "of pressure=jacobi")
         .real("tolerance", 0.001, 1e-7, 10, "",
@@ -105,13 +113,14 @@ MethodInfo describe() {
         .real("decay", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the density lost; -1: as the file says")
         .real("diffusion", asTheFileSays, asTheFileSays, 1000, "m2/s", "viscosity; -1: as the file says")
         .integer("frames_per_step", 1, 1, 600, "frames", "the fluid takes one long step in so many frames")
-        .choice("backend", "auto", {"auto", "cpu", "gl"}, "who casts the rays; auto: the CPU where OpenGL is software")
+        .choice("backend", raycast::Backend::automatic, raycast::backends,
+                "who casts the rays; auto: the CPU where OpenGL is software")
         .choice(
-            "renderer", "raycast", {"raycast", "slices", "splat", "isosurface"},
+            "renderer", raycast::Renderer::raycast, raycast::renderers,
             "a march along each pixel's ray; planes across the view; a Gaussian for each cell; or an opaque surface of "
             "one density")
         .real("iso_density", 0.5, 1e-6, 1e6, "", "of renderer=isosurface")
-        .choice("filter", "linear", {"linear", "cubic"}, "how cells are interpolated")
+        .choice("filter", raycast::Filter::linear, raycast::filters, "how cells are interpolated")
         .real("step_cells", 0.5, 0.01, 8, "cells", "length of a ray's steps")
         .boolean("jitter", true, "shift each pixel's steps by a share of one: noise instead of bands")
         .real("stop_alpha", 0.99, 0, 1, "", "a ray ends where more than this is covered; 1: never")
@@ -119,8 +128,15 @@ MethodInfo describe() {
         .integer(
             "shadow_cells", -1, -1, 16, "cells",
             "the sun's light falls off within the cloud, found in blocks of so many cells; 0: not; -1: as the file "
-            "says")
-        .integer("fluid_seed", 1, 0, 1'000'000'000, "", "seed of the fluid's own random numbers");
+            "says");
+    info.facts = {
+        {"mass_kept", "share", FactOver::lastFrame,
+         "share of the particles' optical mass that the method's volume holds after the last frame"},
+        {"flow_speed_max", "m/s", FactOver::lastFrame, "speed of the flow along an axis: maximum since the beginning"},
+        {"flow_cells_per_step_max", "cells", FactOver::lastFrame,
+         "distance that the flow covers in a step (the Courant number): maximum since the beginning"},
+        {"flow_divergence_max", "share", FactOver::lastFrame,
+         "share of its volume that a cell gains in a step, as the pressure leaves it: maximum since the beginning"}};
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<GridFluid>(settingsOf(values));
     };

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 
-#include "methods/shared/maths/transmittance.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/maths/transmittance.h"
 
 namespace dustbench::grid_fluid {
 namespace {
 
 /// Mean of `value(i)` over particles as many as matter.
 template <typename Value>
-double sampledMean(const particles::ParticleStore& dust, const Value& value) {
+double sampledMean(const Puffs& dust, const Value& value) {
     constexpr std::size_t enough = 4096;
     const std::size_t stride = std::max<std::size_t>(1, dust.size() / enough);
     double sum = 0;
@@ -20,17 +21,17 @@ double sampledMean(const particles::ParticleStore& dust, const Value& value) {
 
 }  // namespace
 
-double meanPuffMassSquareMetres(const particles::ParticleStore& dust) {
+double meanPuffMassSquareMetres(const Puffs& dust) {
     return sampledMean(dust, [&](std::size_t i) {
         return maths::puffMassSquareMetres(static_cast<double>(dust.opacity[i]), static_cast<double>(dust.radius[i]));
     });
 }
 
-double meanLifetimeSeconds(const particles::ParticleStore& dust) {
+double meanLifetimeSeconds(const Puffs& dust) {
     return sampledMean(dust, [&](std::size_t i) { return static_cast<double>(dust.lifetime[i]); });
 }
 
-std::size_t bornWithin(const particles::ParticleStore& dust, double stepSeconds) {
+std::size_t bornWithin(const Puffs& dust, double stepSeconds) {
     const auto step = static_cast<float>(stepSeconds);
     std::size_t born = 0;
     for (const float age : dust.age) born += age < step ? 1u : 0u;

@@ -5,15 +5,15 @@
 // fluid's box reaches. Units: m² (∫ extinction dV). Threads: pure.
 #pragma once
 
-#include "methods/shared/particles/particle_store.h"
+#include "methods/contract/volume.h"
 
 namespace dustbench::grid_fluid {
 
 /// Of a cloud's puffs: a seeded sample would do, every n-th is taken where there are many.
-[[nodiscard]] double meanPuffMassSquareMetres(const particles::ParticleStore& dust);
+[[nodiscard]] double meanPuffMassSquareMetres(const Puffs& dust);
 /// Mean time that a puff lives; 0 of an empty cloud.
-[[nodiscard]] double meanLifetimeSeconds(const particles::ParticleStore& dust);
+[[nodiscard]] double meanLifetimeSeconds(const Puffs& dust);
 /// How many were born within the last step.
-[[nodiscard]] std::size_t bornWithin(const particles::ParticleStore& dust, double stepSeconds);
+[[nodiscard]] std::size_t bornWithin(const Puffs& dust, double stepSeconds);
 
 }  // namespace dustbench::grid_fluid

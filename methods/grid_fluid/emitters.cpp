@@ -4,17 +4,17 @@
 #include <cmath>
 #include <numbers>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/maths/philox.h"
-#include "methods/shared/scene/scene.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/scene.h"
+#include "methods/kit/maths/philox.h"
 
 namespace dustbench::grid_fluid {
 namespace {
 
 enum Stream : std::uint32_t { placesStream = 1, chanceStream };
 
-fluid::FluidSource ballOf(const SourceSetup& setup, const glm::dvec3& centre, float strength) {
-    fluid::FluidSource source;
+flow::FluidSource ballOf(const SourceSetup& setup, const glm::dvec3& centre, float strength) {
+    flow::FluidSource source;
     source.centreMetres = centre;
     source.radiusMetres = setup.radiusMetres;
     source.densityPerSecond = strength * setup.densityPerSecond;
@@ -68,8 +68,8 @@ void Emitters::scatterOver(const SourceSetup& setup, const scene::Scene& scene) 
     }
 }
 
-std::span<const fluid::FluidSource> Emitters::at(const scene::SceneState& state, std::int64_t step, double stepSeconds,
-                                                 double dustM2) {
+std::span<const flow::FluidSource> Emitters::at(const scene::SceneState& state, std::int64_t step, double stepSeconds,
+                                                double dustM2) {
     sources_.clear();
     for (std::size_t n = 0; n < balls_.size(); ++n) {
         const Ball& ball = balls_[n];
@@ -101,7 +101,7 @@ void Emitters::addWheels(const SourceSetup& setup, const scene::SceneState& stat
         const double faster = length > 0 ? 1 + static_cast<double>(setup.speedShare) * speed / length : 1;
         const glm::dvec3 velocity = faster * (thrown.x * wheel.forward + thrown.y * up + thrown.z * right) +
                                     static_cast<double>(setup.inherit) * wheel.velocity;
-        fluid::FluidSource source = ballOf(setup, wheel.contact, 1);
+        flow::FluidSource source = ballOf(setup, wheel.contact, 1);
         source.amountM3PerSecond =
             static_cast<float>(dustM2 / static_cast<double>(state.vehicle.wheels.size()) / stepSeconds);
         source.velocityMetresPerSecond = glm::vec3(velocity);

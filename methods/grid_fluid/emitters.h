@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "methods/contract/method.h"
+#include "methods/grid_fluid/flow/fluid_source.h"
 #include "methods/grid_fluid/fluid_setup.h"
-#include "methods/shared/fluid/fluid_source.h"
-#include "methods/shared/method.h"
 
 namespace dustbench::grid_fluid {
 
@@ -20,8 +20,8 @@ class Emitters {
     Emitters(const std::vector<SourceSetup>& setups, const scene::Scene& scene, std::uint64_t seed);
 
     /// Of this moment; `dustM2` is the optical mass that all wheels together raise in `stepSeconds`.
-    [[nodiscard]] std::span<const fluid::FluidSource> at(const scene::SceneState& state, std::int64_t step,
-                                                         double stepSeconds, double dustM2);
+    [[nodiscard]] std::span<const flow::FluidSource> at(const scene::SceneState& state, std::int64_t step,
+                                                        double stepSeconds, double dustM2);
 
  private:
     /// A ball that stays where it is.
@@ -36,7 +36,7 @@ class Emitters {
     const std::vector<SourceSetup>& setups_;
     std::uint64_t seed_;
     std::vector<Ball> balls_;
-    std::vector<fluid::FluidSource> sources_;
+    std::vector<flow::FluidSource> sources_;
 };
 
 }  // namespace dustbench::grid_fluid

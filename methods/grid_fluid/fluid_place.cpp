@@ -7,11 +7,11 @@ namespace dustbench::grid_fluid {
 namespace {
 
 /// A scroll moves all of the box; it waits until it is worth that.
-constexpr int fewestCells = 4;
+constexpr int minimumCells = 4;
 
 }  // namespace
 
-glm::dvec3 wantedOrigin(const FluidSetup& setup, const fluid::FluidBox& box, const scene::Terrain& terrain,
+glm::dvec3 wantedOrigin(const FluidSetup& setup, const flow::FluidBox& box, const scene::Terrain& terrain,
                         const scene::VehicleState& vehicle) {
     const glm::dvec3 extent = glm::dvec3(box.cells) * box.spacingMetres;
     if (!setup.followsVehicle) return setup.middleMetres - glm::dvec3(extent.x / 2, 0, extent.z / 2);
@@ -22,12 +22,12 @@ glm::dvec3 wantedOrigin(const FluidSetup& setup, const fluid::FluidBox& box, con
     return glm::round(origin / box.spacingMetres) * box.spacingMetres;
 }
 
-glm::ivec3 dueScroll(const fluid::FluidBox& box, const glm::dvec3& wantedOrigin) {
+glm::ivec3 dueScroll(const flow::FluidBox& box, const glm::dvec3& wantedOrigin) {
     const glm::dvec3 cells = glm::round((wantedOrigin - box.originMetres) / box.spacingMetres);
-    if (std::max({std::abs(cells.x), std::abs(cells.y), std::abs(cells.z)}) < fewestCells) return glm::ivec3(0);
+    if (std::max({std::abs(cells.x), std::abs(cells.y), std::abs(cells.z)}) < minimumCells) return glm::ivec3(0);
     // A jump of the vehicle beyond all of the box empties it, however far.
-    const glm::dvec3 most(1e6);
-    return {glm::clamp(cells, -most, most)};
+    const glm::dvec3 maximum(1e6);
+    return {glm::clamp(cells, -maximum, maximum)};
 }
 
 }  // namespace dustbench::grid_fluid

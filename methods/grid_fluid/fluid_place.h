@@ -6,18 +6,18 @@
 
 #include <glm/glm.hpp>
 
+#include "methods/contract/scene.h"
+#include "methods/grid_fluid/flow/fluid_box.h"
 #include "methods/grid_fluid/fluid_setup.h"
-#include "methods/shared/fluid/fluid_box.h"
-#include "methods/shared/scene/scene.h"
 
 namespace dustbench::grid_fluid {
 
-/// The least corner where it is wanted, on the lattice of the box. A box that follows keeps its vehicle near the end
+/// The minimum corner where it is wanted, on the lattice of the box. A box that follows keeps its vehicle near the end
 /// that it drives towards; its floor is the ground where that is level.
-[[nodiscard]] glm::dvec3 wantedOrigin(const FluidSetup& setup, const fluid::FluidBox& box,
-                                      const scene::Terrain& terrain, const scene::VehicleState& vehicle);
+[[nodiscard]] glm::dvec3 wantedOrigin(const FluidSetup& setup, const flow::FluidBox& box, const scene::Terrain& terrain,
+                                      const scene::VehicleState& vehicle);
 
 /// By how many cells the box must move: not before some are due along an axis, then by all of them.
-[[nodiscard]] glm::ivec3 dueScroll(const fluid::FluidBox& box, const glm::dvec3& wantedOrigin);
+[[nodiscard]] glm::ivec3 dueScroll(const flow::FluidBox& box, const glm::dvec3& wantedOrigin);
 
 }  // namespace dustbench::grid_fluid

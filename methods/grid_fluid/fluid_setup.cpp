@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/files/toml_reader.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/toml_reader.h"
 
 namespace dustbench::grid_fluid {
 namespace {
@@ -12,16 +12,16 @@ using files::TomlReader;
 
 constexpr double far = 1e5;  ///< metres: the largest coordinate that a file may give
 
-float number(TomlReader& table, const char* key, double least, double most, float initial) {
-    return static_cast<float>(table.number(key, least, most, static_cast<double>(initial)));
+float number(TomlReader& table, const char* key, double minimum, double maximum, float initial) {
+    return static_cast<float>(table.number(key, minimum, maximum, static_cast<double>(initial)));
 }
 
-glm::dvec3 within(TomlReader& table, const char* key, double least, double most, const glm::dvec3& initial) {
+glm::dvec3 within(TomlReader& table, const char* key, double minimum, double maximum, const glm::dvec3& initial) {
     const glm::dvec3 value = table.vector3(key, initial);
     for (int axis = 0; axis < 3; ++axis)
-        if (!(value[axis] >= least && value[axis] <= most))
+        if (!(value[axis] >= minimum && value[axis] <= maximum))
             throw InputError(table.where(key) + "key '" + key + "': got " + std::to_string(value[axis]) +
-                             ", allowed: " + std::to_string(least) + ".." + std::to_string(most));
+                             ", allowed: " + std::to_string(minimum) + ".." + std::to_string(maximum));
     return value;
 }
 
@@ -38,7 +38,7 @@ void readBox(TomlReader table, FluidSetup& setup) {
 }
 
 void readFlow(TomlReader table, FluidSetup& setup) {
-    fluid::ForceSettings& forces = setup.forces;
+    flow::ForceSettings& forces = setup.forces;
     forces.buoyancyPerKelvin = number(table, "buoyancy_per_kelvin", 0, 1e3, forces.buoyancyPerKelvin);
     forces.weightPerDensity = number(table, "weight_per_density", 0, 1e3, forces.weightPerDensity);
     forces.confinementPerSecond = number(table, "vorticity_per_second", 0, 1e3, forces.confinementPerSecond);
@@ -61,9 +61,7 @@ void readLook(TomlReader table, const std::filesystem::path& folder, FluidLook& 
 
 SourceSetup readSource(TomlReader& table) {
     SourceSetup source;
-    const std::vector<std::string> places{"point", "solid", "wheels"};
-    const std::string at = table.choice("at", places);
-    source.at = static_cast<SourceAt>(std::ranges::find(places, at) - places.begin());
+    source.at = table.choice("at", sourcePlaces);
     if (source.at == SourceAt::point) source.centreMetres = within(table, "centre", -far, far, {});
     if (source.at == SourceAt::solid) {
         source.solid = table.text("solid");

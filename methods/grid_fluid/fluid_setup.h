@@ -10,7 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "methods/shared/fluid/forces.h"
+#include "methods/contract/choices.h"
+#include "methods/grid_fluid/flow/forces.h"
 
 namespace dustbench::grid_fluid {
 
@@ -19,6 +20,8 @@ enum class SourceAt {
     solid,   ///< balls all over the surface of one of the scene's solids
     wheels,  ///< where each of the vehicle's wheels touches the ground
 };
+inline constexpr Choices<SourceAt> sourcePlaces{
+    {"point", SourceAt::point}, {"solid", SourceAt::solid}, {"wheels", SourceAt::wheels}};
 
 /// Strength at the centre; it swings with time: (1 − swing) + swing·(½ + ½ sin), times 1 ± chance.
 struct SourceSetup {
@@ -52,7 +55,7 @@ struct FluidSetup {
     double lengthMetres = 12.8;  ///< of the box along x; the cells are cubes
     double aheadMetres = 5;      ///< of the vehicle's rear axle, of a box that follows it
     double belowMetres = 0;      ///< how far the box reaches below the vehicle on ground that is not level
-    fluid::ForceSettings forces;
+    flow::ForceSettings forces;
     bool noSlip = false;
     bool keepsDensity = false;
     std::vector<SourceSetup> sources;

@@ -7,7 +7,7 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-glm::dmat4 worldToCells(const fluid::FluidBox& box) {
+glm::dmat4 worldToCells(const flow::FluidBox& box) {
     return glm::translate(glm::scale(glm::dmat4(1), glm::dvec3(1 / box.spacingMetres)), -box.originMetres);
 }
 
@@ -16,7 +16,7 @@ glm::dmat4 worldToCells(const fluid::FluidBox& box) {
 FluidSolids::FluidSolids(const scene::Scene& scene, glm::ivec3 cells, MemoryAccount& account)
     : scene_(scene), cells_(cells, account) {}
 
-fluid::SolidMask FluidSolids::voxelise(const fluid::FluidBox& box, const scene::SceneState& state) {
+flow::SolidMask FluidSolids::voxelise(const flow::FluidBox& box, const scene::SceneState& state) {
     cells_.clear();
     if (!scene_.terrain.isFlat() || box.originMetres.y < 0) addGround(box);
     for (std::size_t n = 0; n < scene_.solids.size(); ++n)
@@ -30,7 +30,7 @@ fluid::SolidMask FluidSolids::voxelise(const fluid::FluidBox& box, const scene::
     return {cells_.bodies(), motions_};
 }
 
-void FluidSolids::addGround(const fluid::FluidBox& box) {
+void FluidSolids::addGround(const flow::FluidBox& box) {
     for (int k = 0; k < box.cells.z; ++k)
         for (int i = 0; i < box.cells.x; ++i) {
             const glm::dvec3 place = box.originMetres + glm::dvec3(i + 0.5, 0, k + 0.5) * box.spacingMetres;
@@ -43,11 +43,11 @@ void FluidSolids::addGround(const fluid::FluidBox& box) {
         }
 }
 
-void FluidSolids::addMoving(const fluid::FluidBox& box, const scene::Mesh& mesh, const scene::SolidPose& pose,
+void FluidSolids::addMoving(const flow::FluidBox& box, const scene::Mesh& mesh, const scene::SolidPose& pose,
                             std::size_t body) {
     const glm::dmat4 toCells = worldToCells(box) * glm::dmat4(pose.toWorld);
     cells_.add(mesh, toCells, static_cast<std::uint8_t>(body));
-    fluid::BodyMotion& motion = motions_[body - 1];
+    flow::BodyMotion& motion = motions_[body - 1];
     motion.velocity = pose.velocity;
     motion.turnPerCell = pose.angularVelocity * static_cast<float>(box.spacingMetres);
     motion.centreCells = glm::vec3(toCells[3]);

@@ -5,22 +5,22 @@
 #include <cmath>
 #include <sstream>
 
+#include "methods/contract/errors.h"
+#include "methods/contract/scene.h"
+#include "methods/contract/volume.h"
 #include "methods/grid_fluid/dust_mass.h"
 #include "methods/grid_fluid/fluid_place.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/maths/transmittance.h"
-#include "methods/shared/scene/scene.h"
-#include "methods/shared/volume.h"
+#include "methods/kit/maths/transmittance.h"
 
 namespace dustbench::grid_fluid {
 namespace {
 
 /// Beyond this the flow is no longer one: a step carries the air across most of a box.
-constexpr float mostCellsPerStep = 100;
+constexpr float maximumCellsPerStep = 100;
 /// A vehicle this far from the box moves none of its cells.
 constexpr double vehicleReachMetres = 8;
 
-bool vehicleIsNear(const fluid::FluidBox& box, const scene::SceneState& state) {
+bool vehicleIsNear(const flow::FluidBox& box, const scene::SceneState& state) {
     const glm::dvec3 place = state.vehicle.position;
     const glm::dvec3 nearest =
         glm::clamp(place, box.originMetres, box.originMetres + glm::dvec3(box.cells) * box.spacingMetres);
@@ -40,16 +40,17 @@ GridFluid::GridFluid(GridFluidSettings settings)
       density_(ledger_.account("grid shown")),
       reaction_(ledger_.account("grid shown")) {}
 
-void GridFluid::prepare(const scene::Scene& scene, gpu::Device& device) {
+void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) {
     scene_ = &scene;
-    fluid::FluidSettings& solver = settings_.solver;
+    flow::FluidSettings& solver = settings_.solver;
     solver.windMetresPerSecond = scene.wind;
-    solver.sides = fluid::withWind(fluid::openOverFloor, scene.wind);
+    solver.sides = flow::withWind(flow::openOverFloor, scene.wind);
     if (!settings_.setup.followsVehicle)
         solver.box.originMetres = wantedOrigin(settings_.setup, solver.box, scene.terrain, {});
-    solver_.emplace(solver, isSolvedOnGpu(settings_.solverBackend, settings_.picture.backend, device), device, ledger_);
+    const bool onGpu = isSolvedOnGpu(settings_.solverBackend, settings_.picture.backend, device);
+    solver_ = makeFlowSolver(solver, onGpu, device, ledger_);
     solids_.emplace(scene, solver.box.cells, ledger_.account("solids"));
-    emitters_.emplace(settings_.setup.sources, scene, settings_.seed);
+    emitters_.emplace(settings_.setup.sources, scene, setup.seed);
     if (!settings_.setup.followsVehicle) requireSourcesInside({});
     settings_.picture.smokeColour = settings_.setup.look.albedo.value_or(scene.dustAlbedo);
     picture_.emplace(device, settings_.picture, scene.lights, ledger_);
@@ -68,19 +69,20 @@ void GridFluid::prepare(const scene::Scene& scene, gpu::Device& device) {
 }
 
 void GridFluid::requireSourcesInside(const scene::SceneState& state) {
-    const fluid::FluidBox& box = settings_.solver.box;
-    const glm::dvec3 most = box.originMetres + glm::dvec3(box.cells) * box.spacingMetres;
+    const flow::FluidBox& box = settings_.solver.box;
+    const glm::dvec3 maximum = box.originMetres + glm::dvec3(box.cells) * box.spacingMetres;
     const auto sources = emitters_->at(state, 0, 1, 0);
-    const bool any = std::ranges::any_of(sources, [&](const fluid::FluidSource& source) {
+    const bool any = std::ranges::any_of(sources, [&](const flow::FluidSource& source) {
         const glm::dvec3 centre = source.centreMetres;
-        return glm::all(glm::greaterThanEqual(centre, box.originMetres)) && glm::all(glm::lessThanEqual(centre, most));
+        return glm::all(glm::greaterThanEqual(centre, box.originMetres)) &&
+               glm::all(glm::lessThanEqual(centre, maximum));
     });
     if (!sources.empty() && !any)
         throw InputError(
             "fluid '" + settings_.setup.name + "': all of its sources lie outside the box, which goes from (" +
             std::to_string(box.originMetres.x) + ", " + std::to_string(box.originMetres.y) + ", " +
-            std::to_string(box.originMetres.z) + ") to (" + std::to_string(most.x) + ", " + std::to_string(most.y) +
-            ", " + std::to_string(most.z) + "); allowed: one source or more within it");
+            std::to_string(box.originMetres.z) + ") to (" + std::to_string(maximum.x) + ", " +
+            std::to_string(maximum.y) + ", " + std::to_string(maximum.z) + "); allowed: one source or more within it");
 }
 
 void GridFluid::update(const Frame& frame) {
@@ -110,16 +112,16 @@ void GridFluid::simulate(const Frame& frame) {
         placeSolids(frame.state);
     }
     const auto sources = emitters_->at(frame.state, steps_++, secondsDue_, dustDueM2_);
-    const fluid::StepReport report = solver_->step(secondsDue_, sources, frame.clock);
+    const flow::StepReport report = solver_->step(secondsDue_, sources, frame.clock);
     const auto cells = static_cast<double>(report.cellsPerStep);
-    flow_.cellsPerStep = std::max(flow_.cellsPerStep, cells);
-    flow_.speedMetresPerSecond =
-        std::max(flow_.speedMetresPerSecond, cells * settings_.solver.box.spacingMetres / secondsDue_);
-    flow_.divergencePerStep = std::max(flow_.divergencePerStep, static_cast<double>(report.divergencePerStep));
-    if (report.cellsPerStep > mostCellsPerStep) {
+    extremes_.cellsPerStep = std::max(extremes_.cellsPerStep, cells);
+    extremes_.speedMetresPerSecond =
+        std::max(extremes_.speedMetresPerSecond, cells * settings_.solver.box.spacingMetres / secondsDue_);
+    extremes_.divergencePerStep = std::max(extremes_.divergencePerStep, static_cast<double>(report.divergencePerStep));
+    if (report.cellsPerStep > maximumCellsPerStep) {
         std::ostringstream text;
         text << "fluid: got a flow that goes " << report.cellsPerStep << " cells in step " << solver_->steps()
-             << ", allowed: at most " << mostCellsPerStep << ": shorter steps, larger cells or weaker forces";
+             << ", allowed: at most " << maximumCellsPerStep << ": shorter steps, larger cells or weaker forces";
         throw InputError(text.str());
     }
     framesDue_ = 0;
@@ -134,17 +136,17 @@ void GridFluid::placeSolids(const scene::SceneState& state) {
 }
 
 void GridFluid::show() {
-    const fluid::FluidBox& box = solver_->box();
+    const flow::FluidBox& box = solver_->box();
     if (densityTexture_.bytes() > 0) {
         const bool burns = reactionTexture_.bytes() > 0;
-        solver_->gather(fluid::density, densityTexture_);
-        if (burns) solver_->gather(fluid::reaction, reactionTexture_);
+        solver_->gather(flow::density, densityTexture_);
+        if (burns) solver_->gather(flow::reaction, reactionTexture_);
         picture_->take(
             {box.cells, box.spacingMetres, box.originMetres, &densityTexture_, burns ? &reactionTexture_ : nullptr});
         return;
     }
-    solver_->gather(fluid::density, density_);
-    if (!reaction_.empty()) solver_->gather(fluid::reaction, reaction_);
+    solver_->gather(flow::density, density_);
+    if (!reaction_.empty()) solver_->gather(flow::reaction, reaction_);
     picture_->upload({box.cells, box.spacingMetres, box.originMetres, density_, reaction_});
 }
 
@@ -153,21 +155,21 @@ void GridFluid::draw(const Frame& frame, gpu::Layer& layer) {
 }
 
 void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
-    const fluid::FluidBox& box = solver_->box();
+    const flow::FluidBox& box = solver_->box();
     const std::size_t count = box.cellCount();
     std::vector<float> density(count);
-    solver_->gather(fluid::density, density);
+    solver_->gather(flow::density, density);
     std::vector<float> extinction = density;
     for (float& value : extinction) value *= static_cast<float>(settings_.setup.look.extinctionPerMetre);
     std::array<std::vector<float>, 4> lanes;
     for (std::size_t n = 0; n < lanes.size(); ++n) {
-        constexpr std::array from{fluid::velocityX, fluid::velocityY, fluid::velocityZ, fluid::temperature};
+        constexpr std::array from{flow::velocityX, flow::velocityY, flow::velocityZ, flow::temperature};
         lanes[n].resize(count);
         solver_->gather(from[n], lanes[n]);
     }
     const std::vector<float> pressure = solver_->pressuresM2PerS2();
     std::vector<float> velocity, reaction(count), solids;
-    solver_->gather(fluid::reaction, reaction);
+    solver_->gather(flow::reaction, reaction);
     for (std::size_t c = 0; c < count; ++c)
         for (std::size_t axis = 0; axis < 3; ++axis) velocity.push_back(lanes[axis][c]);
     for (const std::uint8_t body : solids_->bodies()) solids.push_back(body != 0 ? 1.0f : 0.0f);
@@ -182,18 +184,26 @@ void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
 
 double GridFluid::opticalMassSquareMetres() const {
     std::vector<float> density(solver_->box().cellCount());
-    solver_->gather(fluid::density, density);
+    solver_->gather(flow::density, density);
     double sum = 0;
     for (const float value : density) sum += static_cast<double>(value);
     return sum * settings_.setup.look.extinctionPerMetre * std::pow(settings_.solver.box.spacingMetres, 3);
 }
 
-std::optional<double> GridFluid::massKept(const Frame& frame) const {
+void GridFluid::report(const Frame& frame, Facts& facts) const {
+    facts.tell("flow_speed_max", extremes_.speedMetresPerSecond);
+    facts.tell("flow_cells_per_step_max", extremes_.cellsPerStep);
+    facts.tell("flow_divergence_max", extremes_.divergencePerStep);
+    if (!facts.wants("mass_kept")) return;
+    if (const auto kept = massKept(frame.dust)) facts.tell("mass_kept", *kept);
+}
+
+std::optional<double> GridFluid::massKept(const Puffs& dust) const {
     if (!settings_.setup.followsVehicle) return std::nullopt;
     double ofParticles = 0;
-    for (std::size_t i = 0; i < frame.dust.size(); ++i)
-        ofParticles += maths::puffMassSquareMetres(static_cast<double>(frame.dust.opacity[i]),
-                                                   static_cast<double>(frame.dust.radius[i]));
+    for (std::size_t i = 0; i < dust.size(); ++i)
+        ofParticles +=
+            maths::puffMassSquareMetres(static_cast<double>(dust.opacity[i]), static_cast<double>(dust.radius[i]));
     if (!(ofParticles > 0)) return std::nullopt;
     return opticalMassSquareMetres() / ofParticles;
 }

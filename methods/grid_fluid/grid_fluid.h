@@ -9,45 +9,52 @@
 #include <memory>
 #include <optional>
 
+#include "methods/contract/method.h"
 #include "methods/grid_fluid/emitters.h"
 #include "methods/grid_fluid/flow_solver.h"
 #include "methods/grid_fluid/fluid_setup.h"
 #include "methods/grid_fluid/fluid_solids.h"
-#include "methods/shared/method.h"
-#include "methods/shared/raycast/grid_raycast.h"
+#include "methods/kit/gpu/texture.h"
+#include "methods/kit/raycast/grid_raycast.h"
 
 namespace dustbench::grid_fluid {
 
 struct GridFluidSettings {
     FluidSetup setup;
-    fluid::FluidSettings solver;  ///< its box without a place
+    flow::FluidSettings solver;  ///< its box without a place
     SolverBackend solverBackend = SolverBackend::cpu;
     int framesPerStep = 1;
-    std::uint64_t seed = 1;
     raycast::RaycastSettings picture;
+};
+
+/// How wild the flow has been: the maximum of all steps so far.
+struct FlowExtremes {
+    double speedMetresPerSecond = 0;
+    double cellsPerStep = 0;       ///< the Courant number
+    double divergencePerStep = 0;  ///< the share of its volume that a cell gained in a step
 };
 
 class GridFluid final : public Method {
  public:
     explicit GridFluid(GridFluidSettings settings);
 
-    void prepare(const scene::Scene& scene, gpu::Device& device) override;
+    void prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) override;
     void update(const Frame& frame) override;
     void draw(const Frame& frame, gpu::Layer& layer) override;
     void volume(const Frame& frame, VolumeVisitor& visitor) const override;
-    [[nodiscard]] std::optional<double> massKept(const Frame& frame) const override;
+    void report(const Frame& frame, Facts& facts) const override;
     [[nodiscard]] MemoryReport memory() const override;
     [[nodiscard]] std::int64_t primitives() const override;
     [[nodiscard]] std::optional<std::uint64_t> stateHash() const override;
-    [[nodiscard]] std::optional<FlowExtremes> flow() const override { return flow_; }
     [[nodiscard]] bool wantsPreroll() const override { return true; }
 
-    [[nodiscard]] const FlowSolver& solver() const { return *solver_; }
     /// ∫ extinction dV.
     [[nodiscard]] double opticalMassSquareMetres() const;
 
  private:
     void simulate(const Frame& frame);
+    /// Of the shared dust's optical mass; empty where the box does not follow it.
+    [[nodiscard]] std::optional<double> massKept(const Puffs& dust) const;
     void placeSolids(const scene::SceneState& state);
     void requireSourcesInside(const scene::SceneState& state);
     void show();
@@ -57,7 +64,7 @@ class GridFluid final : public Method {
     MemoryLedger ledger_;
     LedgerVector<float> density_, reaction_;         ///< as the picture wants them
     gpu::Texture densityTexture_, reactionTexture_;  ///< the same where they stay on the GPU
-    std::optional<FlowSolver> solver_;
+    std::unique_ptr<flow::Solver> solver_;
     std::optional<FluidSolids> solids_;
     std::optional<Emitters> emitters_;
     std::optional<raycast::GridRaycast> picture_;
@@ -65,7 +72,7 @@ class GridFluid final : public Method {
     int framesDue_ = 0;
     double secondsDue_ = 0, dustDueM2_ = 0;
     std::int64_t steps_ = 0;
-    FlowExtremes flow_;
+    FlowExtremes extremes_;
 };
 
 /// What the method declares; the registry asks for it.

@@ -30,17 +30,17 @@ void MeshCells::clear() {
 }
 
 void MeshCells::cross(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    const glm::dvec3 least = glm::min(glm::min(a, b), c), most = glm::max(glm::max(a, b), c);
+    const glm::dvec3 minimum = glm::min(glm::min(a, b), c), maximum = glm::max(glm::max(a, b), c);
     const glm::dvec3 size(cells_);
     // What lies beside the box crosses no row of it; what lies before or behind it still counts.
-    if (most.y < 0 || most.z < 0 || least.y > size.y || least.z > size.z) return;
+    if (maximum.y < 0 || maximum.z < 0 || minimum.y > size.y || minimum.z > size.z) return;
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     if (!(std::abs(normal.x) > 0)) return;
     const bool leaving = normal.x > 0;
     const auto firstOf = [](double value) { return std::max(0, static_cast<int>(std::ceil(value - 0.5))); };
-    const int firstJ = firstOf(least.y), firstK = firstOf(least.z);
-    const int lastJ = static_cast<int>(std::min(size.y - 1, std::floor(most.y - 0.5)));
-    const int lastK = static_cast<int>(std::min(size.z - 1, std::floor(most.z - 0.5)));
+    const int firstJ = firstOf(minimum.y), firstK = firstOf(minimum.z);
+    const int lastJ = static_cast<int>(std::min(size.y - 1, std::floor(maximum.y - 0.5)));
+    const int lastK = static_cast<int>(std::min(size.z - 1, std::floor(maximum.z - 0.5)));
     const glm::dvec2 pa(a.y, a.z), pb(b.y, b.z), pc(c.y, c.z);
     for (int k = firstK; k <= lastK; ++k)
         for (int j = firstJ; j <= lastJ; ++j) {
@@ -57,13 +57,14 @@ void MeshCells::cross(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
 
 void MeshCells::add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uint8_t body) {
     places_.clear();
-    glm::dvec3 least(INFINITY), most(-INFINITY);
+    glm::dvec3 minimum(INFINITY), maximum(-INFINITY);
     for (const glm::vec3& position : mesh.positions) {
         places_.emplace_back(toCells * glm::dvec4(position, 1));
-        least = glm::min(least, places_.back());
-        most = glm::max(most, places_.back());
+        minimum = glm::min(minimum, places_.back());
+        maximum = glm::max(maximum, places_.back());
     }
-    if (glm::any(glm::lessThan(most, glm::dvec3(0))) || glm::any(glm::greaterThan(least, glm::dvec3(cells_)))) return;
+    if (glm::any(glm::lessThan(maximum, glm::dvec3(0))) || glm::any(glm::greaterThan(minimum, glm::dvec3(cells_))))
+        return;
     crossings_.clear();
     for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
         cross(places_[mesh.indices[t]], places_[mesh.indices[t + 1]], places_[mesh.indices[t + 2]]);

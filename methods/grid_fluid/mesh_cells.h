@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "methods/shared/memory_ledger.h"
-#include "methods/shared/scene/mesh.h"
+#include "methods/contract/solid.h"
+#include "methods/kit/memory/memory_ledger.h"
 
 namespace dustbench::grid_fluid {
 
@@ -22,7 +22,7 @@ class MeshCells {
 
     void clear();
     /// Cells whose middle is inside the mesh get `body`, over what was there. `toCells` brings the mesh's positions
-    /// into cells from the least corner of the grid.
+    /// into cells from the minimum corner of the grid.
     void add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uint8_t body);
     /// Cell by cell, for what is no mesh.
     void set(int i, int j, int k, std::uint8_t body) { bodies_[index(i, j, k)] = body; }

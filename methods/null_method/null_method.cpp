@@ -1,6 +1,6 @@
 #include "methods/null_method/null_method.h"
 
-#include "methods/shared/maths/philox.h"
+#include "methods/kit/maths/philox.h"
 
 namespace dustbench::null_method {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "methods/shared/method.h"
+#include "methods/contract/method.h"
 
 namespace dustbench::null_method {
 
@@ -14,7 +14,7 @@ class NullMethod final : public Method {
  public:
     explicit NullMethod(std::uint64_t work) : work_(work) {}
 
-    void prepare(const scene::Scene&, gpu::Device&) override {}
+    void prepare(const scene::Scene&, const RunSetup&, gpu::Device&) override {}
     void update(const Frame& frame) override;
     void draw(const Frame&, gpu::Layer&) override {}
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "methods/shared/octree/voxel_rule.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/octree/voxel_rule.h"
 
 namespace dustbench::octree_recursive {
 
@@ -12,7 +13,7 @@ namespace {
 
 class Construction {
  public:
-    Construction(Room<CellEntry>& lists, const VoxelRule& rule, Octree& tree)
+    Construction(ReusedArray<CellEntry>& lists, const VoxelRule& rule, Octree& tree)
         : lists_(lists),
           rule_(rule),
           tree_(tree),
@@ -70,7 +71,7 @@ class Construction {
     [[nodiscard]] std::uint32_t count() const { return count_; }
 
  private:
-    Room<CellEntry>& lists_;
+    ReusedArray<CellEntry>& lists_;
     const VoxelRule& rule_;
     Octree& tree_;
     CellEntry* voxels_;
@@ -80,8 +81,8 @@ class Construction {
 
 }  // namespace
 
-std::int64_t ListBuilder::build(const particles::ParticleStore& store, const Lattice& lattice,
-                                const OctreeSettings& settings, Octree& tree) {
+std::int64_t ListBuilder::build(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings,
+                                Octree& tree) {
     const VoxelRule rule(store, settings.policy);
     cells_.find(store, lattice, settings);
     const std::span<const CellEntry> entries = cells_.entries();

@@ -5,8 +5,9 @@
 // Source: Carr2006, 3.3 and 3.5.
 #pragma once
 
-#include "methods/shared/octree/octree_builder.h"
-#include "methods/shared/octree/particle_cells.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/octree/octree_builder.h"
+#include "methods/kit/octree/particle_cells.h"
 
 namespace dustbench::octree_recursive {
 
@@ -14,12 +15,12 @@ class ListBuilder final : public octree::OctreeBuilder {
  public:
     explicit ListBuilder(MemoryLedger& ledger) : cells_(ledger), lists_(ledger.account("octree particle lists")) {}
 
-    std::int64_t build(const particles::ParticleStore& store, const octree::Lattice& lattice,
-                       const octree::OctreeSettings& settings, octree::Octree& tree) override;
+    std::int64_t build(const Puffs& store, const octree::Lattice& lattice, const octree::OctreeSettings& settings,
+                       octree::Octree& tree) override;
 
  private:
     octree::ParticleCells cells_;
-    octree::Room<octree::CellEntry> lists_;
+    octree::ReusedArray<octree::CellEntry> lists_;
 };
 
 }  // namespace dustbench::octree_recursive

@@ -1,8 +1,8 @@
 // Octree dust built recursively.
+#include "methods/kit/octree/brick_builder.h"
+#include "methods/kit/octree/octree_dust.h"
 #include "methods/octree_recursive/list_builder.h"
 #include "methods/octree_recursive/sorting_reducer.h"
-#include "methods/shared/octree/brick_builder.h"
-#include "methods/shared/octree/octree_dust.h"
 
 namespace dustbench::octree_recursive {
 
@@ -12,7 +12,7 @@ MethodInfo describe() {
     info.summary =
         "Voxels of an octree that lists of particles are split down into: one recursion that also lists the voxels.";
     info.source = "Carr2006";
-    octree::declareDustParameters(info.parameters);
+    octree::declareDust(info);
     info.parameters.choice("layout", "faithful", {"faithful", "morton"},
                            "the paper's construction, or one of today: bricks of 16³ cells, Morton codes sorted in "
                            "each, in parallel");

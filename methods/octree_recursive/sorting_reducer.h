@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "methods/shared/octree/brick_assembly.h"
+#include "methods/kit/octree/brick_assembly.h"
 
 namespace dustbench::octree_recursive {
 

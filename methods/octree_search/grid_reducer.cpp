@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "methods/shared/octree/bits.h"
+#include "methods/kit/octree/bits.h"
 
 namespace dustbench::octree_search {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "methods/shared/octree/brick_assembly.h"
+#include "methods/kit/octree/brick_assembly.h"
 
 namespace dustbench::octree_search {
 

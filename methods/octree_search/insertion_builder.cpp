@@ -1,11 +1,12 @@
 #include "methods/octree_search/insertion_builder.h"
+#include "methods/contract/volume.h"
 
 namespace dustbench::octree_search {
 
 using namespace octree;
 
-std::int64_t InsertionBuilder::build(const particles::ParticleStore& store, const Lattice& lattice,
-                                     const OctreeSettings& settings, Octree& tree) {
+std::int64_t InsertionBuilder::build(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings,
+                                     Octree& tree) {
     const VoxelRule rule(store, settings.policy);
     cells_.find(store, lattice, settings);
     tree.clear(settings.depth);

@@ -5,9 +5,10 @@
 // Source: Carr2006, 3.4 and 3.5.
 #pragma once
 
-#include "methods/shared/octree/octree_builder.h"
-#include "methods/shared/octree/particle_cells.h"
-#include "methods/shared/octree/voxel_rule.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/octree/octree_builder.h"
+#include "methods/kit/octree/particle_cells.h"
+#include "methods/kit/octree/voxel_rule.h"
 
 namespace dustbench::octree_search {
 
@@ -18,16 +19,16 @@ class InsertionBuilder final : public octree::OctreeBuilder {
           found_(ledger.account("octree voxels found")),
           foundMasses_(ledger.account("octree voxels found")) {}
 
-    std::int64_t build(const particles::ParticleStore& store, const octree::Lattice& lattice,
-                       const octree::OctreeSettings& settings, octree::Octree& tree) override;
+    std::int64_t build(const Puffs& store, const octree::Lattice& lattice, const octree::OctreeSettings& settings,
+                       octree::Octree& tree) override;
 
  private:
     std::size_t insertAll(const octree::VoxelRule& rule, octree::Octree& tree);
     void list(std::size_t count, bool withMasses, octree::Octree& tree) const;
 
     octree::ParticleCells cells_;
-    octree::Room<octree::CellEntry> found_;
-    octree::Room<double> foundMasses_;
+    octree::ReusedArray<octree::CellEntry> found_;
+    octree::ReusedArray<double> foundMasses_;
 };
 
 }  // namespace dustbench::octree_search

@@ -1,8 +1,8 @@
 // Octree dust built by the search principle.
+#include "methods/kit/octree/brick_builder.h"
+#include "methods/kit/octree/octree_dust.h"
 #include "methods/octree_search/grid_reducer.h"
 #include "methods/octree_search/insertion_builder.h"
-#include "methods/shared/octree/brick_builder.h"
-#include "methods/shared/octree/octree_dust.h"
 
 namespace dustbench::octree_search {
 
@@ -12,7 +12,7 @@ MethodInfo describe() {
     info.summary =
         "Voxels of an octree that each particle is searched a place in: one pass from the root, one traversal.";
     info.source = "Carr2006";
-    octree::declareDustParameters(info.parameters);
+    octree::declareDust(info);
     info.parameters.choice("layout", "faithful", {"faithful", "morton"},
                            "the paper's construction, or one of today: bricks of 16³ cells, a small grid each, in "
                            "parallel");

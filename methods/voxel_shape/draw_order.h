@@ -4,7 +4,7 @@
 // threads. Source: JuckelBeckhaus2007, 4.4 (`sometimes it is sufficient to just sort parts of the particles`).
 #pragma once
 
-#include "methods/shared/draw/depth_sort.h"
+#include "methods/kit/draw/depth_sort.h"
 #include "methods/voxel_shape/shape.h"
 
 namespace dustbench::voxel_shape {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "methods/contract/choices.h"
 #include "methods/voxel_shape/collision/shape_collision.h"
 #include "methods/voxel_shape/particles/motion.h"
 #include "methods/voxel_shape/voxels/voxel_change.h"
@@ -15,14 +16,24 @@
 namespace dustbench::voxel_shape {
 
 enum class Source { vehicle, mesh, grid, voxels };
+
 enum class Voxeliser {
     conservative,  ///< all that the surface touches
     slices,        ///< the paper's, along z
     slicesXyz,     ///< the same along x, y and z, which misses no face for being seen edge-on
 };
+inline constexpr Choices<Voxeliser> voxelisers{
+    {"conservative", Voxeliser::conservative}, {"slices", Voxeliser::slices}, {"slices_xyz", Voxeliser::slicesXyz}};
+
 enum class Fill { surface, solid };
+inline constexpr Choices<Fill> fills{{"surface", Fill::surface}, {"solid", Fill::solid}};
+
 /// What a particle is drawn as.
 enum class Render { points, lines, sprites, billboards, textured, animated };
+inline constexpr Choices<Render> renders{{"points", Render::points},     {"lines", Render::lines},
+                                         {"sprites", Render::sprites},   {"billboards", Render::billboards},
+                                         {"textured", Render::textured}, {"animated", Render::animated}};
+
 /// The order in which particles are blended.
 enum class Order {
     radix,      ///< far to near
@@ -31,6 +42,11 @@ enum class Order {
     every,      ///< far to near every few frames, the same order in between
     none,       ///< as they come
 };
+inline constexpr Choices<Order> orders{{"radix", Order::radix},
+                                       {"quicksort", Order::quicksort},
+                                       {"nearest", Order::nearest},
+                                       {"every", Order::every},
+                                       {"none", Order::none}};
 
 struct Look {
     Render render = Render::sprites;

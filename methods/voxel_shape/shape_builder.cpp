@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/scene/mesh_file.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/meshes/mesh_file.h"
 #include "methods/voxel_shape/voxels/slice_pass.h"
 #include "methods/voxel_shape/voxels/solid_fill.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
@@ -34,17 +34,17 @@ void stand(scene::Mesh& mesh, const glm::vec3& turn, float longestSideMetres) {
     glm::mat4 rotation = glm::rotate(glm::mat4(1), turn.y, {0, 1, 0});
     rotation = glm::rotate(rotation, turn.z, {0, 0, 1});
     rotation = glm::rotate(rotation, turn.x, {1, 0, 0});
-    glm::vec3 least(INFINITY), most(-INFINITY);
+    glm::vec3 minimum(INFINITY), maximum(-INFINITY);
     for (glm::vec3& normal : mesh.normals) normal = glm::mat3(rotation) * normal;
     for (glm::vec3& position : mesh.positions) {
         position = glm::mat3(rotation) * position;
-        least = glm::min(least, position);
-        most = glm::max(most, position);
+        minimum = glm::min(minimum, position);
+        maximum = glm::max(maximum, position);
     }
-    const glm::vec3 extent = most - least;
+    const glm::vec3 extent = maximum - minimum;
     const float longest = std::max({extent.x, extent.y, extent.z});
     const float scale = longestSideMetres > 0 && longest > 0 ? longestSideMetres / longest : 1.0f;
-    const glm::vec3 foot((least.x + most.x) / 2, least.y, (least.z + most.z) / 2);
+    const glm::vec3 foot((minimum.x + maximum.x) / 2, minimum.y, (minimum.z + maximum.z) / 2);
     for (glm::vec3& position : mesh.positions) position = scale * (position - foot);
 }
 
@@ -97,7 +97,7 @@ scene::Mesh meshOf(const Shape& shape, const scene::Scene& scene) {
         lightFromAbove(mesh, shape.lightFromAbove);
         return mesh;
     }
-    scene::Mesh mesh = scene::readMesh(shape.mesh, shape.meshColour);
+    scene::Mesh mesh = meshes::readMesh(shape.mesh, shape.meshColour);
     stand(mesh, shape.turn, shape.longestSideMetres);
     lightFromAbove(mesh, shape.lightFromAbove);
     return mesh;

@@ -3,8 +3,8 @@
 // Frame: the shape's own. Threads: the OpenGL thread's.
 #pragma once
 
-#include "methods/shared/gpu/device.h"
-#include "methods/shared/scene/scene.h"
+#include "methods/contract/scene.h"
+#include "methods/kit/gpu/device.h"
 #include "methods/voxel_shape/particles/shape_system.h"
 #include "methods/voxel_shape/shape.h"
 

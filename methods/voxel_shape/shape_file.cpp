@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "methods/shared/errors.h"
-#include "methods/shared/files/toml_reader.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/toml_reader.h"
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -12,24 +12,24 @@ using files::TomlReader;
 
 constexpr double far = 1e4;  ///< metres: the largest coordinate that a file may give
 
-/// The enumerator whose name a key gives; `names` in the order of the enumeration.
+constexpr Choices<Force> forces{
+    {"linear", Force::linear}, {"orbit", Force::orbit}, {"spiral", Force::spiral}, {"helix", Force::helix}};
+
 template <typename Enumeration>
-Enumeration choice(TomlReader& table, const char* key, const std::vector<std::string>& names, Enumeration initial) {
-    if (!table.has(key)) return initial;
-    const std::string name = table.choice(key, names);
-    return static_cast<Enumeration>(std::ranges::find(names, name) - names.begin());
+Enumeration choice(TomlReader& table, const char* key, const Choices<Enumeration>& choices, Enumeration initial) {
+    return table.has(key) ? table.choice(key, choices) : initial;
 }
 
-float number(TomlReader& table, const char* key, double least, double most, float initial) {
-    return static_cast<float>(table.number(key, least, most, static_cast<double>(initial)));
+float number(TomlReader& table, const char* key, double minimum, double maximum, float initial) {
+    return static_cast<float>(table.number(key, minimum, maximum, static_cast<double>(initial)));
 }
 
-glm::vec3 vector(TomlReader& table, const char* key, double most, const glm::dvec3& initial) {
+glm::vec3 vector(TomlReader& table, const char* key, double maximum, const glm::dvec3& initial) {
     const glm::dvec3 value = table.vector3(key, initial);
     for (int axis = 0; axis < 3; ++axis)
-        if (std::abs(value[axis]) > most)
+        if (std::abs(value[axis]) > maximum)
             throw InputError(table.where(key) + "key '" + key + "': got " + std::to_string(value[axis]) +
-                             ", allowed: " + std::to_string(-most) + ".." + std::to_string(most));
+                             ", allowed: " + std::to_string(-maximum) + ".." + std::to_string(maximum));
     return value;
 }
 
@@ -42,7 +42,7 @@ glm::vec3 colour(TomlReader& table, const char* key, const glm::vec3& initial) {
 
 VoxelChange::ForceEffect readForce(TomlReader table) {
     VoxelChange::ForceEffect effect{};
-    effect.kind = choice(table, "kind", {"linear", "orbit", "spiral", "helix"}, Force::linear);
+    effect.kind = choice(table, "kind", forces, Force::linear);
     if (effect.kind == Force::linear) {
         effect.vector = vector(table, "acceleration", 1000, glm::dvec3(0));
     } else {
@@ -58,8 +58,8 @@ VoxelChange::ForceEffect readForce(TomlReader table) {
 
 VoxelChange readChange(TomlReader& table) {
     VoxelChange change;
-    const auto read = [&](const char* key, std::optional<float>& value, double least, double most) {
-        if (table.has(key)) value = static_cast<float>(table.number(key, least, most));
+    const auto read = [&](const char* key, std::optional<float>& value, double minimum, double maximum) {
+        if (table.has(key)) value = static_cast<float>(table.number(key, minimum, maximum));
     };
     if (table.has("active")) change.active = table.boolean("active", true);
     if (table.has("colour")) change.colour = colour(table, "colour", {});
@@ -80,19 +80,18 @@ VoxelChange readChange(TomlReader& table) {
 VoxelEdit readEdit(TomlReader& table) {
     VoxelEdit edit;
     edit.where = table.where();
-    const bool box = table.has("least") || table.has("most"),
-               sphere = table.has("centre") || table.has("radius_metres");
+    const bool box = table.has("min") || table.has("max"), sphere = table.has("centre") || table.has("radius_metres");
     if (box == sphere)
-        throw InputError(edit.where + "an edit takes either a box (least, most) or a sphere (centre, radius_metres)");
+        throw InputError(edit.where + "an edit takes either a box (min, max) or a sphere (centre, radius_metres)");
     edit.isSphere = sphere;
     if (sphere) {
         edit.centre = table.vector3("centre");
         edit.radiusMetres = static_cast<float>(table.number("radius_metres", 0, far));
     } else {
-        edit.least = table.vector3("least");
-        edit.most = table.vector3("most");
-        if (glm::any(glm::greaterThan(edit.least, edit.most)))
-            throw InputError(edit.where + "the edit's least corner lies beyond its most");
+        edit.minimum = table.vector3("min");
+        edit.maximum = table.vector3("max");
+        if (glm::any(glm::greaterThan(edit.minimum, edit.maximum)))
+            throw InputError(edit.where + "the edit's min lies beyond its max");
     }
     edit.change = readChange(table);
     if (edit.change.isEmpty()) throw InputError(edit.where + "the edit changes nothing");
@@ -118,9 +117,9 @@ void readSource(TomlReader& file, const std::filesystem::path& folder, Shape& sh
         shape.source = Source::grid;
         const glm::dvec3 cells = grid.vector3("cells");
         for (int axis = 0; axis < 3; ++axis) {
-            if (!(cells[axis] >= 1 && cells[axis] <= mostVoxelsASide))
+            if (!(cells[axis] >= 1 && cells[axis] <= maximumVoxelsASide))
                 throw InputError(grid.where("cells") + "key 'cells': got " + std::to_string(cells[axis]) +
-                                 ", allowed: 1.." + std::to_string(mostVoxelsASide));
+                                 ", allowed: 1.." + std::to_string(maximumVoxelsASide));
             shape.gridCells[axis] = static_cast<int>(cells[axis]);
         }
         shape.gridEdgeMetres = static_cast<float>(grid.number("edge_metres", 1e-3, 100));
@@ -136,9 +135,9 @@ void readSource(TomlReader& file, const std::filesystem::path& folder, Shape& sh
     shape.turn = glm::radians(vector(file, "turn_degrees", 360, glm::dvec3(0)));
     shape.lightFromAbove = number(file, "light_from_above", 0, 1, 0);
     shape.longestSideMetres = number(file, "longest_side_metres", 0, far, 0);
-    shape.resolution = static_cast<int>(file.integer("resolution", 1, mostVoxelsASide, shape.resolution));
-    shape.voxeliser = choice(file, "voxeliser", {"conservative", "slices", "slices_xyz"}, shape.voxeliser);
-    shape.fill = choice(file, "fill", {"surface", "solid"}, shape.fill);
+    shape.resolution = static_cast<int>(file.integer("resolution", 1, maximumVoxelsASide, shape.resolution));
+    shape.voxeliser = choice(file, "voxeliser", voxelisers, shape.voxeliser);
+    shape.fill = choice(file, "fill", fills, shape.fill);
     if (shape.fill == Fill::solid && shape.voxeliser != Voxeliser::conservative)
         throw InputError(file.where("fill") + "only the conservative voxeliser's surface is tight enough to be filled");
 }
@@ -174,11 +173,10 @@ void readLook(TomlReader& file, Shape& shape) {
     if (!file.has("look")) return;
     TomlReader table = file.table("look");
     Look& look = shape.look;
-    look.render =
-        choice(table, "render", {"points", "lines", "sprites", "billboards", "textured", "animated"}, look.render);
+    look.render = choice(table, "render", renders, look.render);
     look.pixels = number(table, "pixels", 0, 255, look.pixels);
     look.additive = table.boolean("additive", look.additive);
-    look.order = choice(table, "sort", {"radix", "quicksort", "nearest", "every", "none"}, look.order);
+    look.order = choice(table, "sort", orders, look.order);
     table.finish();
 }
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/parallel/for_each_block.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::voxel_shape {
 namespace {

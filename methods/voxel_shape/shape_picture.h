@@ -6,9 +6,9 @@
 #include <optional>
 #include <span>
 
-#include "methods/shared/draw/billboards.h"
-#include "methods/shared/draw/lines.h"
-#include "methods/shared/draw/points.h"
+#include "methods/kit/draw/billboards.h"
+#include "methods/kit/draw/lines.h"
+#include "methods/kit/draw/points.h"
 #include "methods/voxel_shape/particles/shape_particles.h"
 #include "methods/voxel_shape/shape.h"
 

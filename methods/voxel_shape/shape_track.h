@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "methods/shared/scene/scene.h"
+#include "methods/contract/scene.h"
 #include "methods/voxel_shape/particles/pose.h"
 #include "methods/voxel_shape/shape.h"
 

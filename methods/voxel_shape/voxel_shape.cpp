@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/volume.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/files/data_folder.h"
 #include "methods/voxel_shape/shape_builder.h"
 #include "methods/voxel_shape/shape_file.h"
 
@@ -17,11 +17,22 @@ std::vector<std::string> shapeNames() {
     return names;
 }
 
-/// `initial`, or what a parameter whose first choice is `preset` names instead.
+/// Leaves a choice to the shape's file.
+constexpr const char* preset = "preset";
+
 template <typename Enumeration>
-Enumeration unlessPreset(const ParameterValues& values, const char* name, Enumeration initial) {
-    const int choice = static_cast<int>(values.choiceAs<Enumeration>(name));
-    return choice == 0 ? initial : static_cast<Enumeration>(choice - 1);
+std::vector<std::string> presetOr(const Choices<Enumeration>& choices) {
+    std::vector<std::string> words = choices.words();
+    words.insert(words.begin(), preset);
+    return words;
+}
+
+/// What a parameter with the choices `presetOr(choices)` names, or `initial`.
+template <typename Enumeration>
+Enumeration unlessPreset(const ParameterValues& values, const char* name, const Choices<Enumeration>& choices,
+                         Enumeration initial) {
+    const std::string& word = values.choice(name);
+    return word == preset ? initial : choices.valueOf(word);
 }
 
 Shape shapeOf(const ParameterValues& values) {
@@ -30,11 +41,11 @@ Shape shapeOf(const ParameterValues& values) {
         shape.resolution = static_cast<int>(resolution);
     if (const auto particles = values.integer("shape_particles"); particles > 0)
         shape.particles = static_cast<std::uint32_t>(particles);
-    shape.voxeliser = unlessPreset(values, "voxeliser", shape.voxeliser);
+    shape.voxeliser = unlessPreset(values, "voxeliser", voxelisers, shape.voxeliser);
     Look& look = shape.look;
-    look.render = unlessPreset(values, "render", look.render);
-    if (values.choice("blend") != "preset") look.additive = values.choice("blend") == "additive";
-    look.order = unlessPreset(values, "sort", look.order);
+    look.render = unlessPreset(values, "render", renders, look.render);
+    if (values.choice("blend") != preset) look.additive = values.choice("blend") == "additive";
+    look.order = unlessPreset(values, "sort", orders, look.order);
     look.nearest = static_cast<std::uint32_t>(values.integer("sort_nearest"));
     look.every = static_cast<std::uint32_t>(values.integer("sort_every"));
     if (values.real("sprite_pixels") > 0) look.pixels = static_cast<float>(values.real("sprite_pixels"));
@@ -43,11 +54,10 @@ Shape shapeOf(const ParameterValues& values) {
 
 }  // namespace
 
-VoxelShape::VoxelShape(const Shape& shape, std::uint64_t seed)
-    : shape_(shape), seed_(seed), track_(shape.track), order_(ledger_) {}
+VoxelShape::VoxelShape(const Shape& shape) : shape_(shape), track_(shape.track), order_(ledger_) {}
 
-void VoxelShape::prepare(const scene::Scene& scene, gpu::Device& device) {
-    system_.emplace(buildShape(ledger_, shape_, scene, device, seed_));
+void VoxelShape::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) {
+    system_.emplace(buildShape(ledger_, shape_, scene, device, setup.seed));
     if (shape_.collides && !scene.solids.empty()) {
         double scale = 0;
         for (const TrackKey& key : shape_.track.keys) scale = std::max(scale, key.scale);
@@ -125,23 +135,21 @@ MethodInfo describe() {
     info.parameters
         .choice("shape", "car", shapeNames(), "which file of data/shapes: what is made of particles, and how")
         .integer("shape_particles", 0, 0, 10'000'000, "", "particles that the shape holds; 0: as its file says")
-        .integer("resolution", 0, 0, mostVoxelsASide, "voxels",
+        .integer("resolution", 0, 0, maximumVoxelsASide, "voxels",
                  "along the mesh's longest side; 0: as the shape's file says")
-        .choice("voxeliser", "preset", {"preset", "conservative", "slices", "slices_xyz"},
+        .choice("voxeliser", preset, presetOr(voxelisers),
                 "every voxel that the surface touches, by the CPU; the paper's slices, by the GPU; or slices along all "
                 "axes")
-        .choice("render", "preset", {"preset", "points", "lines", "sprites", "billboards", "textured", "animated"},
-                "what a particle is drawn as")
+        .choice("render", preset, presetOr(renders), "what a particle is drawn as")
         .real("sprite_pixels", 0, 0, 255, "pixels", "width of points and sprites; 0: as the shape's file says")
-        .choice("blend", "preset", {"preset", "alpha", "additive"}, "cover what is behind, or add light to it")
+        .choice("blend", preset, {preset, "alpha", "additive"}, "cover what is behind, or add light to it")
         .choice(
-            "sort", "preset", {"preset", "radix", "quicksort", "nearest", "every", "none"},
+            "sort", preset, presetOr(orders),
             "far to near, by a radix sort or the paper's quicksort; the nearest ones alone; every few frames; or not")
         .integer("sort_nearest", 2000, 0, 10'000'000, "", "how many sort=nearest sorts")
-        .integer("sort_every", 4, 1, 1000, "frames", "how often sort=every sorts")
-        .integer("shape_seed", 1, 0, 1'000'000'000, "", "seed of the shape's own random numbers");
+        .integer("sort_every", 4, 1, 1000, "frames", "how often sort=every sorts");
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
-        return std::make_unique<VoxelShape>(shapeOf(values), static_cast<std::uint64_t>(values.integer("shape_seed")));
+        return std::make_unique<VoxelShape>(shapeOf(values));
     };
     info.cannotTake = [](const scene::Scene& scene) {
         return scene.vehicle ? std::string() : std::string("needs a vehicle, which shapes are made of or follow");

@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "methods/shared/method.h"
+#include "methods/contract/method.h"
 #include "methods/voxel_shape/collision/shape_collision.h"
 #include "methods/voxel_shape/draw_order.h"
 #include "methods/voxel_shape/particles/shape_system.h"
@@ -19,9 +19,9 @@ namespace dustbench::voxel_shape {
 
 class VoxelShape final : public Method {
  public:
-    VoxelShape(const Shape& shape, std::uint64_t seed);
+    explicit VoxelShape(const Shape& shape);
 
-    void prepare(const scene::Scene& scene, gpu::Device& device) override;
+    void prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) override;
     void update(const Frame& frame) override;
     void draw(const Frame& frame, gpu::Layer& layer) override;
     void volume(const Frame& frame, VolumeVisitor& visitor) const override;
@@ -36,7 +36,6 @@ class VoxelShape final : public Method {
     void simulate(const Frame& frame, const Pose& pose);
 
     Shape shape_;
-    std::uint64_t seed_;
     MemoryLedger ledger_;
     ShapeTrack track_;
     DrawOrder order_;

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/test_moment.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/testing/test_moment.h"
 #include "methods/voxel_shape/shape_builder.h"
 #include "methods/voxel_shape/shape_file.h"
 #include "methods/voxel_shape/voxel_shape.h"
@@ -91,8 +91,8 @@ void update(benchmark::State& state, Order order) {
     TestMoment moment(0, 640, 480, {0, 1.6, 5}, {0, 0, -1});
     Shape shape = figure();
     shape.look.order = order;
-    VoxelShape method(shape, 1);
-    method.prepare(moment.scene, TestMoment::device());
+    VoxelShape method(shape);
+    method.prepare(moment.scene, {}, TestMoment::device());
     for (int step = 0; step < 60; ++step) method.update(moment.frame());
     for (auto _ : state) method.update(moment.frame());
     state.counters["particles"] = static_cast<double>(method.system().particles().size());

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/test_folder.h"
-#include "methods/shared/test_moment.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/testing/test_folder.h"
+#include "methods/kit/testing/test_moment.h"
 #include "methods/voxel_shape/shape_builder.h"
 #include "methods/voxel_shape/shape_file.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"
@@ -29,8 +29,8 @@ class Moment : public TestMoment {
         scene.vehicle = scene::VehicleModel{
             {}, {"ball", std::make_shared<scene::Mesh>(ball)}, {"wheel", std::make_shared<scene::Mesh>(wheel)}};
     }
-    void run(VoxelShape& method, int steps) {
-        method.prepare(scene, device());
+    void run(VoxelShape& method, int steps, std::uint64_t seed = 1) {
+        method.prepare(scene, {.seed = seed}, device());
         for (int step = 0; step < steps; ++step) method.update(frame());
     }
 };
@@ -48,9 +48,9 @@ std::vector<std::uint8_t> silhouette(const scene::Mesh& mesh, const Pose& pose, 
     const auto cross = [](glm::vec2 a, glm::vec2 b) { return a.x * b.y - a.y * b.x; };
     for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
         const glm::vec2 a = points[mesh.indices[t]], b = points[mesh.indices[t + 1]], c = points[mesh.indices[t + 2]];
-        const glm::vec2 least = glm::min(glm::min(a, b), c), most = glm::max(glm::max(a, b), c);
-        for (int y = std::max(0, static_cast<int>(least.y)); y <= most.y && y < view.height; ++y)
-            for (int x = std::max(0, static_cast<int>(least.x)); x <= most.x && x < view.width; ++x) {
+        const glm::vec2 minimum = glm::min(glm::min(a, b), c), maximum = glm::max(glm::max(a, b), c);
+        for (int y = std::max(0, static_cast<int>(minimum.y)); y <= maximum.y && y < view.height; ++y)
+            for (int x = std::max(0, static_cast<int>(minimum.x)); x <= maximum.x && x < view.width; ++x) {
                 const glm::vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
                 const float u = cross(b - a, p - a), v = cross(c - b, p - b), w = cross(a - c, p - c);
                 if ((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))
@@ -62,15 +62,15 @@ std::vector<std::uint8_t> silhouette(const scene::Mesh& mesh, const Pose& pose, 
 
 TEST(Presets, KeepTheSilhouettesOfTheirMeshes) {
     const std::pair<const char*, double> wanted[]{{"bunny", 0.9}, {"helicopter", 0.8}, {"figure", 0.8}, {"car", 0.8}};
-    for (const auto& [name, least] : wanted) {
+    for (const auto& [name, minimum] : wanted) {
         Moment moment;
         Shape shape = preset(name);
         shape.track.keys = {{0, {0, 0, 0}, glm::radians(30.0), 1}};
         moment.view.camera.eye = {0, shape.source == Source::vehicle ? 0 : 1.4, 8};
         moment.view.camera.target = {0, shape.source == Source::vehicle ? 0 : 1.4, 0};
-        VoxelShape method(shape, 1);
+        VoxelShape method(shape);
         moment.run(method, 60);
-        const draw::Image image = moment.draw(method);
+        const pictures::Image image = moment.draw(method);
         ShapeTrack track(shape.track);
         const auto mask = silhouette(meshOf(shape, moment.scene), track.advance(moment.state, 1), moment.view);
         double both = 0, either = 0;
@@ -79,7 +79,7 @@ TEST(Presets, KeepTheSilhouettesOfTheirMeshes) {
             both += drawn && expected;
             either += drawn || expected;
         }
-        EXPECT_GE(both / either, least) << name;
+        EXPECT_GE(both / either, minimum) << name;
         EXPECT_GT(both, 4000) << name;
         RecordProperty(std::string("silhouette_") + name, std::to_string(both / either));
     }
@@ -91,10 +91,10 @@ TEST(Presets, OfTheGridBurnAndFade) {
         Shape shape = preset(name);
         shape.track.keys = {{}};
         moment.view.camera = {.eye = {0, 1, 5}, .target = {0, 1, 0}};
-        VoxelShape method(shape, 1);
+        VoxelShape method(shape);
         moment.run(method, 180);
         double light = 0, left = 0, right = 0;
-        const draw::Image image = moment.draw(method);
+        const pictures::Image image = moment.draw(method);
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
                 light += static_cast<double>(image.at(x, y).r);
@@ -126,9 +126,9 @@ TEST(VoxelShape, DrawsTheSameTwiceInEveryWay) {
             shape.motion.birthSpeed = 1;
             shape.look.render = render;
             shape.look.additive = additive;
-            VoxelShape method(shape, 1);
+            VoxelShape method(shape);
             moment.run(method, 5);
-            const draw::Image first = moment.draw(method);
+            const pictures::Image first = moment.draw(method);
             EXPECT_EQ(first.pixels, moment.draw(method).pixels);
             const auto covered = std::ranges::count_if(first.pixels, [](const glm::vec4& p) { return p.b > 0; });
             EXPECT_GT(covered, 300) << static_cast<int>(render);
@@ -140,8 +140,10 @@ TEST(VoxelShape, TellsItsMemoryAndItsStateBySeed) {
     Moment moment;
     Shape shape = preset("car");
     shape.resolution = 20;
-    VoxelShape first(shape, 1), again(shape, 1), other(shape, 2);
-    for (VoxelShape* method : {&first, &again, &other}) moment.run(*method, 3);
+    VoxelShape first(shape), again(shape), other(shape);
+    moment.run(first, 3);
+    moment.run(again, 3);
+    moment.run(other, 3, 2);
     EXPECT_EQ(first.stateHash(), again.stateHash());
     EXPECT_NE(first.stateHash(), other.stateHash());
     std::size_t voxels = 0, gpu = 0;
@@ -223,9 +225,9 @@ TEST(ShapeFile, SaysInOneLineWhatIsWrong) {
     expect("mesh = \"vehicle\"\nfill = \"solid\"\nvoxeliser = \"slices\"\n", "conservative");
     expect(grid + "[voxels]\nopacity = 2\n", "opacity");
     expect(grid + "[voxels]\nforce = { kind = \"helix\", axis = [0, 0, 0] }\n", "axis");
-    expect(grid + "[[edit]]\nleast = [0, 0, 0]\nmost = [1, 1, 1]\n", "changes nothing");
-    expect(grid + "[[edit]]\nleast = [1, 0, 0]\nmost = [0, 1, 1]\nopacity = 0.1\n", "beyond its most");
-    expect(grid + "[[edit]]\nleast = [0, 0, 0]\nradius_metres = 1\nopacity = 0.1\n", "either a box");
+    expect(grid + "[[edit]]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n", "changes nothing");
+    expect(grid + "[[edit]]\nmin = [1, 0, 0]\nmax = [0, 1, 1]\nopacity = 0.1\n", "beyond its max");
+    expect(grid + "[[edit]]\nmin = [0, 0, 0]\nradius_metres = 1\nopacity = 0.1\n", "either a box");
     expect(grid + "[[edit]]\ncentre = [9, 0, 0]\nradius_metres = 1\nopacity = 0.1\n", "meets no voxel");
     expect(grid + "[[edit]]\ncentre = [0, 0, 0]\nradius_metres = 5\nactive = false\nopacity = 0.1\n",
            "contradicts itself");
@@ -238,8 +240,8 @@ TEST(ShapeFile, EditsSetWhatTheySay) {
     Moment moment;
     const auto file = folder.write("s.toml",
                                    "description = \"\"\nparticles = 100\n[grid]\ncells = [4, 1, 1]\nedge_metres = 1\n"
-                                   "[[edit]]\nleast = [-2, 0, -1]\nmost = [-1, 1, 1]\nactive = false\n"
-                                   "[[edit]]\nleast = [-1, 0, -1]\nmost = [0, 1, 1]\ncolour = [1, 0, 0]\n"
+                                   "[[edit]]\nmin = [-2, 0, -1]\nmax = [-1, 1, 1]\nactive = false\n"
+                                   "[[edit]]\nmin = [-1, 0, -1]\nmax = [0, 1, 1]\ncolour = [1, 0, 0]\n"
                                    "maximum_density = 7\n"
                                    "[[edit]]\ncentre = [1.5, 0.5, 0]\nradius_metres = 0.1\nsize_voxels = 3\n"
                                    "force = { kind = \"spiral\", axis = [0, 0, 0.5], radians_per_second = 4 }\n");
@@ -275,7 +277,7 @@ TEST(ShapeFile, TakesUpVoxelsThatWereSaved) {
     }
     EXPECT_EQ(build("third.toml",
                     "description = \"\"\nvoxels_from = \"voxels.vti\"\n"
-                    "[[edit]]\nleast = [-2, 0, -1]\nmost = [-1, 1, 1]\nopacity = 0.1\n")[0]
+                    "[[edit]]\nmin = [-2, 0, -1]\nmax = [-1, 1, 1]\nopacity = 0.1\n")[0]
                       .colour.blueOpacity >>
                   16,
               6554u);

@@ -43,10 +43,10 @@ const chartKit = (() => {
     const domainOf = (values, log, zero) => {
         const finite = values.filter(value => Number.isFinite(value) && (!log || value > 0));
         if (!finite.length) return [log ? 1 : 0, 10];
-        let [least, greatest] = [Math.min(...finite), Math.max(...finite)];
-        if (log) return [least / 1.2, greatest * 1.2];
-        const room = (greatest - least) * 0.06 || Math.abs(greatest) * 0.1 || 1;
-        return [zero && least >= 0 ? 0 : least - room, greatest + room];
+        let [min, max] = [Math.min(...finite), Math.max(...finite)];
+        if (log) return [min / 1.2, max * 1.2];
+        const room = (max - min) * 0.06 || Math.abs(max) * 0.1 || 1;
+        return [zero && min >= 0 ? 0 : min - room, max + room];
     };
     const spans = (values, factor) => {
         const above = values.filter(value => value > 0);
@@ -54,7 +54,7 @@ const chartKit = (() => {
     };
     const intervalText = (cell, [, low, high], unit) => {
         if (cell.runs.length < 2) return 'one run';
-        const share = cell.probability >= 0.95 ? `, ${Math.floor(cell.probability * 100)} % interval of the median` : ', least and greatest';
+        const share = cell.probability >= 0.95 ? `, ${Math.floor(cell.probability * 100)} % interval of the median` : ', min and max';
         return `${fourDigits(shown(low, unit))} to ${fourDigits(shown(high, unit))}${share}`;
     };
 
@@ -70,13 +70,13 @@ const chartKit = (() => {
         return charts;
     };
 
-    const fitCurves = (report, experiment, x, column, theSeries, thePanel, least, greatest) => {
+    const fitCurves = (report, experiment, x, column, theSeries, thePanel, min, max) => {
         const rows = [];
         const of = column === 'fps_avg' ? 'frame_ms_median' : column;
         for (const fit of experiment.fits.filter(item => item.axis === x && item.column === of)) {
             const cell = { ...fit, settings: fit.settings };
             for (let step = 0; step <= 40; ++step) {
-                const load = least > 0 ? least * (greatest / least) ** (step / 40) : least + (greatest - least) * step / 40;
+                const load = min > 0 ? min * (max / min) ** (step / 40) : min + (max - min) * step / 40;
                 const ms = fit.a[0] + fit.b[0] * load ** fit.k[0];
                 rows.push({ series: theSeries(cell), panel: thePanel(cell), x: load, y: column === 'fps_avg' ? 1000 / ms : ms });
             }
@@ -140,8 +140,8 @@ const chartKit = (() => {
             .filter(row => seen.some(point => point.series === row.series && point.panel === row.panel)) : [];
         const published = experiment.published.filter(item => item.column === column && (!item.axis || (!named && item.axis === load.name)))
             .map(item => ({
-                x: item.axis ? item.x : null, least: item.least, greatest: item.greatest,
-                tip: { title: 'published', [info.name]: `${fourDigits(item.least)} to ${fourDigits(item.greatest)} ${info.unit}`, of: item.what },
+                x: item.axis ? item.x : null, min: item.min, max: item.max,
+                tip: { title: 'published', [info.name]: `${fourDigits(item.min)} to ${fourDigits(item.max)} ${info.unit}`, of: item.what },
             }));
         const series = distinct(seen.map(point => point.series))
             .map(name => ({ name, method: cells.find(cell => theSeries(cell) === name).method }));
@@ -157,7 +157,7 @@ const chartKit = (() => {
         const labelRoom = labelled ? Math.ceil(longest * 6.6 + 12) : 0;
         const panelWidth = Math.max(Math.min(single ? 760 : each, each - labelRoom), 120);
         const panelHeight = single ? 300 : Math.max(170, Math.min(240, Math.round(panelWidth * 0.75)));
-        const yDomain = domainOf(seen.flatMap(point => [point.y, point.low, point.high]).concat(published.flatMap(item => [item.least, item.greatest])), yLog, true);
+        const yDomain = domainOf(seen.flatMap(point => [point.y, point.low, point.high]).concat(published.flatMap(item => [item.min, item.max])), yLog, true);
         const xRoom = (xs[xs.length - 1] - xs[0]) * 0.04 || 1;
 
         const spec = fresh(report.specifications.cost);
@@ -227,7 +227,7 @@ const chartKit = (() => {
         const spec = fresh(report.specifications.stages);
         setSignals(spec, {
             xTitle: 'medians of the stages [ms]', ink: themes[theme].ink,
-            legendColumns: Math.max(Math.floor(chart.width / 92), 2), greatest: Math.max(...rows.map(row => row.ms)) * (1 + 70 / chart.width),
+            legendColumns: Math.max(Math.floor(chart.width / 92), 2), max: Math.max(...rows.map(row => row.ms)) * (1 + 70 / chart.width),
         });
         spec.width = chart.width - 24;
         spec.height = rows.length * spec.signals.find(signal => signal.name === 'rowHeight').value;
@@ -298,7 +298,7 @@ const chartKit = (() => {
         const run = frames.find(item => item.run === chart.run) || frames[0];
         const trace = run.trace.map(([frame, ms]) => ({ frame, ms, tip: { title: `frame ${frame}`, time: `${fourDigits(ms)} ms` } }));
         const width = run.binMs || 0.1;
-        const low = run.binMs ? run.leastMs : run.leastMs - 0.05;
+        const low = run.binMs ? run.minimumMs : run.minimumMs - 0.05;
         const bins = run.bins.map((count, index) => ({
             low: low + index * width, high: low + (index + 1) * width, count,
             tip: { title: `${fourDigits(low + index * width)} to ${fourDigits(low + (index + 1) * width)} ms`, frames: String(count) },

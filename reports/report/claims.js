@@ -4,8 +4,8 @@ const claimTable = (() => {
 
     /// Where the measured interval lies to the values in which the claim is true, as a small picture.
     const claimRange = claim => {
-        if (claim.measured === null || (claim.least === null && claim.greatest === null)) return '';
-        const marks = [claim.measured, claim.low, claim.high, claim.least, claim.greatest].filter(value => value !== null);
+        if (claim.measured === null || (claim.min === null && claim.max === null)) return '';
+        const marks = [claim.measured, claim.low, claim.high, claim.min, claim.max].filter(value => value !== null);
         let [low, high] = [Math.min(...marks), Math.max(...marks)];
         const log = low > 0 && high / low > 4;
         const bend = value => (log ? Math.log(value) : value);
@@ -18,18 +18,18 @@ const claimTable = (() => {
             return made;
         };
         const svg = shape('svg', { viewBox: '0 0 150 22', class: 'claim-range', role: 'img' });
-        const [from, to] = [claim.least === null ? 0 : at(claim.least), claim.greatest === null ? 150 : at(claim.greatest)];
+        const [from, to] = [claim.min === null ? 0 : at(claim.min), claim.max === null ? 150 : at(claim.max)];
         put(svg, shape('title', {}), shape('rect', { x: from, y: 2, width: Math.max(to - from, 1), height: 18, fill: 'var(--good)', 'fill-opacity': 0.2 }));
         svg.firstChild.textContent = `green: ${claim.expected}; measured ${chartKit.fourDigits(claim.measured)}`;
-        for (const bound of [claim.least, claim.greatest])
+        for (const bound of [claim.min, claim.max])
             if (bound !== null) put(svg, shape('line', { x1: at(bound), x2: at(bound), y1: 2, y2: 20, stroke: 'var(--good)', 'stroke-width': 1.5 }));
         if (claim.low !== null) put(svg, shape('line', { x1: at(claim.low), x2: at(claim.high), y1: 11, y2: 11, stroke: 'var(--ink)', 'stroke-width': 2 }));
         put(svg, shape('circle', { cx: at(claim.measured), cy: 11, r: 4, fill: 'var(--ink)' }));
         return svg;
     };
-    const expectedOf = ({ least, greatest, expected }, number) => {
-        if (least !== null && greatest !== null) return `${number(least)} to ${number(greatest)}`;
-        return least !== null ? `${number(least)} or more` : greatest !== null ? `${number(greatest)} or less` : expected;
+    const expectedOf = ({ min, max, expected }, number) => {
+        if (min !== null && max !== null) return `${number(min)} to ${number(max)}`;
+        return min !== null ? `${number(min)} or more` : max !== null ? `${number(max)} or less` : expected;
     };
     const verdictMarks = { confirmed: '✓', refuted: '✗', unresolved: '?', 'not-tested': '–' };
 

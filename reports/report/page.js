@@ -138,7 +138,7 @@
         const known = chartKit.list(report);
         if (!known.length) put(here, paragraph('There is no run with frame times.', 'muted'));
         else put(here, paragraph('Each point is the median of a cell\'s runs; the bar is the interval in which the true median lies with 95 % or more, by ' +
-            'the order of 6 runs or more, and with fewer the least and the greatest run. Points of one load stand a little apart. Runs take turns in random order, each in a process of its own.', 'muted'));
+            'the order of 6 runs or more, and with fewer the minimum and the maximum run. Points of one load stand a little apart. Runs take turns in random order, each in a process of its own.', 'muted'));
         for (const experiment of data.experiments) {
             const own = known.filter(chart => chart.experiment === experiment);
             if (!own.length) continue;
@@ -216,7 +216,7 @@
                 paragraph([paper.authors + (paper.year ? ` (${paper.year})` : ''), paper.venue].filter(Boolean).join(', '), 'muted'),
                 table(claimTable.heads, claims.map(claim => claimTable.row(report, claim, runLinks)), 'stacking'),
                 paragraph('Confirmed: the whole interval lies within the values in which the claim is true. Refuted: wholly outside. Unresolved: neither, or fewer than ' +
-                    '6 repetitions. The interval has 95 %; for what no machine changes (bytes, counts, image metrics) it is the least and the greatest cell.', 'note'),
+                    '6 repetitions. The interval has 95 %; for what no machine changes (bytes, counts, image metrics) it is the min and the max cell.', 'note'),
             ]));
         }
     };
@@ -224,7 +224,7 @@
     const addMachine = () => {
         const here = section('machine');
         const fields = [['cpu', 'CPU'], ['cores', 'cores'], ['ram_bytes', 'memory'], ['governor', 'governor'], ['virtual_machine', 'virtual machine'], ['kernel', 'kernel'],
-            ['gl_renderer', 'OpenGL renderer'], ['gl_vendor', 'OpenGL vendor'], ['gl_version', 'OpenGL version'], ['gl_platform', 'platform'], ['gpu_timers', 'GPU timers'],
+            ['gl_renderer', 'OpenGL renderer'], ['gl_vendor', 'OpenGL vendor'], ['gl_version', 'OpenGL version'], ['gl_platform', 'platform'], ['adapter', 'adapter'], ['adapter_why', 'taken as'], ['gpu_timers', 'GPU timers'],
             ['version', 'dustbench'], ['git_commit', 'commit'], ['git_dirty', 'changed since'], ['compiler', 'compiler'], ['flags', 'flags'], ['build_type', 'build']];
         const text = (name, value) => (name === 'ram_bytes' ? `${(Number(value) / 2 ** 30).toFixed(1)} GiB` : value || '–');
         if (data.machines.length)

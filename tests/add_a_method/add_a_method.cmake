@@ -1,8 +1,9 @@
-# A method folder dropped into methods/ is listed and runs in a suite with no other edit; deleted, it leaves no trace.
+# A method folder dropped into methods/ is listed and runs in a suite with no other edit, and the file of a particle
+# part is listed; deleted, they leave no trace.
 #
-# The folder and the suite are those of methods/README.md, so that the page cannot go wrong. All happens in a copy of the
-# tree below WORK, which is kept from one run to the next: only what changed is compiled again, the first time from
-# the compiler cache.
+# The folder, the suite and the part are those of methods/README.md, so that the page cannot go wrong. All happens in a
+# copy of the tree below WORK, which is kept from one run to the next: only what changed is compiled again, the first
+# time from the compiler cache.
 #
 #   cmake -DSOURCE=tree -DWORK=folder -DCOMPILER=c++ -DC_COMPILER=cc -DARCH=native -P add_a_method.cmake
 cmake_minimum_required(VERSION 3.25)
@@ -41,8 +42,8 @@ function(write_from_page FILE)
   file(WRITE ${TREE}/${FILE} "${TEXT}")
 endfunction()
 
-function(ids_of_methods RESULT)
-  must_run(JSON ${PROGRAM} list methods --json)
+function(ids_of WHAT RESULT)
+  must_run(JSON ${PROGRAM} list ${WHAT} --json)
   string(JSON COUNT LENGTH "${JSON}")
   set(IDS "")
   if(COUNT GREATER 0)
@@ -67,40 +68,50 @@ endforeach()
 foreach(PART ${PARTS})
   file(COPY ${SOURCE}/${PART} DESTINATION ${TREE} REGEX "/reports/out(/|$)" EXCLUDE)
 endforeach()
-if(EXISTS ${TREE}/methods/nothing)
-  message(FATAL_ERROR "methods/nothing is there already: the example of methods/README.md must be a new name")
+if(EXISTS ${TREE}/methods/dots)
+  message(FATAL_ERROR "methods/dots is there already: the example of methods/README.md must be a new name")
 endif()
 
-write_from_page(methods/nothing/nothing.cpp)
-write_from_page(data/suites/nothing.toml)
+write_from_page(methods/dots/dots.cpp)
+write_from_page(data/suites/dots.toml)
+write_from_page(methods/kit/particles/parts/force/updraught.cpp)
 must_run(IGNORED ${CMAKE_COMMAND} -S ${TREE} -B ${BUILD} -G Ninja -DCMAKE_BUILD_TYPE=Release -DDUSTBENCH_ARCH=${ARCH}
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_C_COMPILER=${C_COMPILER})
 build_copy()
 
-ids_of_methods(WITH)
-if(NOT "nothing" IN_LIST WITH)
-  message(FATAL_ERROR "'nothing' is not among the listed methods: ${WITH}")
+ids_of(methods WITH)
+if(NOT "dots" IN_LIST WITH)
+  message(FATAL_ERROR "'dots' is not among the listed methods: ${WITH}")
+endif()
+ids_of(parts PARTS_WITH)
+if(NOT "force/updraught" IN_LIST PARTS_WITH)
+  message(FATAL_ERROR "'force/updraught' is not among the listed parts: ${PARTS_WITH}")
 endif()
 
 file(REMOVE_RECURSE ${WORK}/results)
-must_run(IGNORED ${PROGRAM} suite nothing --out ${WORK}/results)
+must_run(IGNORED ${PROGRAM} suite dots --out ${WORK}/results)
 file(STRINGS ${WORK}/results/summary.csv ROWS)
 list(LENGTH ROWS COUNT)
 list(GET ROWS -1 ROW)
-if(NOT COUNT EQUAL 2 OR NOT ROW MATCHES ",done,.*nothing,")
+if(NOT COUNT EQUAL 3 OR NOT ROW MATCHES ",done,.*dots,")
   list(JOIN ROWS "\n" ROWS)
-  message(FATAL_ERROR "the suite should have one run of 'nothing', done:\n${ROWS}")
+  message(FATAL_ERROR "the suite should have two runs of 'dots', done:\n${ROWS}")
 endif()
 
-file(REMOVE_RECURSE ${TREE}/methods/nothing)
-file(REMOVE ${TREE}/data/suites/nothing.toml)
+file(REMOVE_RECURSE ${TREE}/methods/dots)
+file(REMOVE ${TREE}/data/suites/dots.toml ${TREE}/methods/kit/particles/parts/force/updraught.cpp)
 build_copy()
-ids_of_methods(WITHOUT)
-list(REMOVE_ITEM WITH nothing)
+ids_of(parts PARTS_WITHOUT)
+list(REMOVE_ITEM PARTS_WITH force/updraught)
+if(NOT "${PARTS_WITHOUT}" STREQUAL "${PARTS_WITH}")
+  message(FATAL_ERROR "with the file deleted the parts should be '${PARTS_WITH}', they are '${PARTS_WITHOUT}'")
+endif()
+ids_of(methods WITHOUT)
+list(REMOVE_ITEM WITH dots)
 if(NOT "${WITHOUT}" STREQUAL "${WITH}")
   message(FATAL_ERROR "with the folder deleted the methods should be '${WITH}', they are '${WITHOUT}'")
 endif()
-execute_process(COMMAND ${PROGRAM} run --method nothing --frames 1 --out ${WORK}/gone
+execute_process(COMMAND ${PROGRAM} run --method dots --frames 1 --out ${WORK}/gone
   RESULT_VARIABLE STATUS OUTPUT_QUIET ERROR_QUIET)
 if(NOT STATUS EQUAL 3)
   message(FATAL_ERROR "a deleted method must be bad input (exit code 3), got ${STATUS}")

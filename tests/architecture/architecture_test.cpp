@@ -65,6 +65,23 @@ TEST(Architecture, IncludesPointOneWay) {
     EXPECT_EQ(faultsOfAll(includeFaults), "");
 }
 
+TEST(Architecture, TheContractIsAShortReadAndNeedsNothingOfOurs) {
+    EXPECT_EQ(faultsOfAll(contractFaults), "");
+    const auto isHeader = [](const SourceFile& file) {
+        return file.path.starts_with("methods/contract/") && file.path.ends_with(".h");
+    };
+    EXPECT_LE(std::ranges::count_if(sources(), isHeader), 15);
+}
+
+TEST(Architecture, EveryFolderOfTheKitHasTwoUsers) {
+    // Until methods come that show given volumes.
+    const std::set<std::string> exceptions{"raycast", "lanes"};
+    for (const auto& [folder, users] : kitUsers(sources())) {
+        if (exceptions.contains(folder)) continue;
+        EXPECT_GE(users.size(), 2u) << "methods/kit/" << folder << ": what one method alone uses lives in that method";
+    }
+}
+
 TEST(Architecture, OpenGlStaysInTheGpuLayer) {
     EXPECT_EQ(faultsOfAll(openGlFaults), "");
 }

@@ -13,7 +13,7 @@ namespace dustbench::architecture {
 
 namespace {
 
-constexpr std::size_t mostLines = 400;
+constexpr std::size_t maximumLines = 400;
 
 std::vector<std::string> linesOf(std::string_view text) {
     std::vector<std::string> lines;
@@ -26,7 +26,8 @@ std::string fault(const SourceFile& file, std::size_t lineIndex, const std::stri
     return file.path + ":" + std::to_string(lineIndex + 1) + ": " + what;
 }
 
-/// `methods/billboard` of `methods/billboard/parts/a.h`, and `bench` of `bench/run/a.h`.
+/// `methods/billboard` of `methods/billboard/parts/a.h`, `methods/kit` of `methods/kit/gpu/a.h`, and `bench` of
+/// `bench/run/a.h`.
 std::string territoryOf(const std::string& path) {
     const auto first = path.find('/');
     const std::string top = path.substr(0, first);
@@ -35,9 +36,8 @@ std::string territoryOf(const std::string& path) {
 }
 
 /// The rooms of bench/: each may use those before it.
-constexpr std::array<std::string_view, 14> benchRooms{"scene",      "measure", "sheet",  "export",      "reference",
-                                                      "judge",      "results", "suite",  "experiments", "claims",
-                                                      "regression", "run",     "report", "cli"};
+constexpr std::array<std::string_view, 11> benchRooms{"scene",  "measure", "export", "reference", "results", "suite",
+                                                      "claims", "run",     "view",   "report",    "cli"};
 
 /// Where a room of bench/ stands in that order; nothing for all other files.
 std::optional<std::size_t> roomOf(const std::string& path) {
@@ -49,13 +49,18 @@ std::optional<std::size_t> roomOf(const std::string& path) {
 }
 
 bool mayInclude(const std::string& from, const std::string& to) {
-    if (from == to || to == "methods/shared") return true;
+    if (from == to || to == "methods/contract") return true;
+    if (from == "methods/contract") return !to.starts_with("methods/") && to != "bench" && to != "tests";
+    if (to == "methods/kit") return true;
     const bool toMethod = to.starts_with("methods/");
     if (from.starts_with("methods/")) return !toMethod && to != "bench" && to != "tests";
     if (from == "bench") return !toMethod && to != "tests";
     return true;
 }
 
+bool isContractTest(const SourceFile& file) {
+    return file.path.starts_with("methods/contract/") && file.path.ends_with("_test.cpp");
+}
 bool isHeader(const SourceFile& file) {
     return file.path.ends_with(".h");
 }
@@ -75,6 +80,8 @@ Faults includeFaults(const SourceFile& file) {
         const std::string target = match[1];
         if (target.find("..") != std::string::npos) {
             faults.push_back(fault(file, i, "includes '" + target + "': name it from the root of the tree"));
+        } else if (isContractTest(file) && target.starts_with("methods/kit/testing/")) {
+            continue;
         } else if (!mayInclude(territoryOf(file.path), territoryOf(target))) {
             faults.push_back(fault(file, i, "must not include '" + target + "'"));
         } else if (roomOf(target) > roomOf(file.path) && roomOf(file.path)) {
@@ -84,19 +91,58 @@ Faults includeFaults(const SourceFile& file) {
     return faults;
 }
 
+Faults contractFaults(const SourceFile& file) {
+    static const std::regex include(R"re(^\s*#\s*include\s*([<"][^>"]+[>"]))re");
+    static const std::regex allowed(R"re(<[a-z_]+>|<glm/[\w/]+\.hpp>|"methods/contract/\w+\.h")re");
+    if (!file.path.starts_with("methods/contract/") || !isHeader(file)) return {};
+    Faults faults;
+    const auto lines = linesOf(file.text);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        std::smatch match;
+        if (std::regex_search(lines[i], match, include) && !std::regex_match(match[1].str(), allowed))
+            faults.push_back(
+                fault(file, i, "the contract needs the standard library and GLM alone, not " + match.str(1)));
+    }
+    return faults;
+}
+
+std::map<std::string, std::set<std::string>> kitUsers(const std::vector<SourceFile>& files) {
+    static const std::regex include(R"re(#\s*include\s*"methods/kit/(\w+)/)re");
+    static const std::regex kitFolder(R"re(^methods/kit/(\w+)/)re");
+    std::map<std::string, std::set<std::string>> users;
+    for (const SourceFile& file : files)  // a folder without a user is one with none
+        if (std::smatch own; std::regex_search(file.path, own, kitFolder)) users[own[1]];
+    std::map<std::string, std::set<std::string>> folders;  // that include a folder, within the kit
+    for (const SourceFile& file : files) {
+        std::smatch own;
+        const bool inKit = std::regex_search(file.path, own, kitFolder);
+        const std::string territory = territoryOf(file.path);
+        if (!inKit && !territory.starts_with("methods/") && territory != "bench") continue;
+        for (std::sregex_iterator at(file.text.begin(), file.text.end(), include), end; at != end; ++at)
+            (inKit ? folders : users)[(*at)[1]].insert(inKit ? own[1].str() : territory);
+    }
+    for (bool grown = true; grown;) {
+        grown = false;
+        for (const auto& [folder, through] : folders)
+            for (const std::string& other : through)
+                for (const std::string& user : std::set(users[other])) grown |= users[folder].insert(user).second;
+    }
+    return users;
+}
+
 Faults openGlFaults(const SourceFile& file) {
     static const std::array rules{
         std::regex(R"re(\bgl[A-Z]\w*\s*\()re"),
         std::regex(R"re(\bGL(u?int(64)?|enum|sizei(ptr)?|intptr|bitfield|boolean|u?byte|u?short|sync|char)\b)re"),
         std::regex(R"re(^\s*#\s*include\s*[<"](epoxy|GL|GLES\d?|EGL)/)re")};
-    if (!isCxx(file) || file.path.starts_with("methods/shared/gpu/")) return {};
+    if (!isCxx(file) || file.path.starts_with("methods/kit/gpu/")) return {};
     Faults faults;
     const auto lines = linesOf(codeOnly(file.text));
     for (std::size_t i = 0; i < lines.size(); ++i) {
         for (const std::regex& rule : rules) {
             std::smatch match;
             if (std::regex_search(lines[i], match, rule)) {
-                faults.push_back(fault(file, i, "raw OpenGL outside methods/shared/gpu: '" + match.str() + "'"));
+                faults.push_back(fault(file, i, "raw OpenGL outside methods/kit/gpu: '" + match.str() + "'"));
             }
         }
     }
@@ -106,11 +152,12 @@ Faults openGlFaults(const SourceFile& file) {
 Faults lengthFaults(const SourceFile& file) {
     static const std::regex excuse(R"re(Over 400 lines: \w+)re");
     const auto lines = linesOf(file.text);
-    if (lines.size() <= mostLines) return {};
+    if (lines.size() <= maximumLines) return {};
     const bool excused =
         std::ranges::any_of(lines, [](const std::string& line) { return std::regex_search(line, excuse); });
     if (excused) return {};
-    return {fault(file, mostLines, std::to_string(lines.size()) + " lines: divide it, or say 'Over 400 lines: why'")};
+    return {
+        fault(file, maximumLines, std::to_string(lines.size()) + " lines: divide it, or say 'Over 400 lines: why'")};
 }
 
 Faults purposeFaults(const SourceFile& file) {

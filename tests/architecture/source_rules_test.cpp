@@ -28,33 +28,63 @@ TEST(SourceRules, RefuseAMethodThatIncludesAnother) {
 
 TEST(SourceRules, LetAMethodIncludeItselfAndWhatIsShared) {
     EXPECT_THAT(includesOf("methods/billboard/a.cpp", "methods/billboard/parts/b.h"), IsEmpty());
-    EXPECT_THAT(includesOf("methods/billboard/a.cpp", "methods/shared/gpu/device.h"), IsEmpty());
+    EXPECT_THAT(includesOf("methods/billboard/a.cpp", "methods/kit/gpu/device.h"), IsEmpty());
     EXPECT_THAT(includesOf("methods/billboard/a.cpp", "billboard_shaders.h"), IsEmpty());
     EXPECT_THAT(includeFaults({"methods/billboard/a.cpp", "#include <vector>\n"}), IsEmpty());
 }
 
 TEST(SourceRules, RefuseTheHarnessInMethods) {
     EXPECT_THAT(includesOf("methods/billboard/a.cpp", "bench/scene/world.h"), SizeIs(1));
-    EXPECT_THAT(includesOf("methods/shared/a.h", "bench/scene/world.h"), SizeIs(1));
-    EXPECT_THAT(includesOf("methods/shared/a.h", "tests/architecture/source_rules.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("methods/kit/draw/a.h", "bench/scene/world.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("methods/kit/draw/a.h", "tests/architecture/source_rules.h"), SizeIs(1));
 }
 
 TEST(SourceRules, RefuseAMethodInWhatIsShared) {
-    EXPECT_THAT(includesOf("methods/shared/draw/a.cpp", "methods/billboard/b.h"), SizeIs(1));
-    EXPECT_THAT(includesOf("methods/shared/draw/a.cpp", "methods/shared/gpu/b.h"), IsEmpty());
+    EXPECT_THAT(includesOf("methods/kit/draw/a.cpp", "methods/billboard/b.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("methods/kit/draw/a.cpp", "methods/kit/gpu/b.h"), IsEmpty());
+    EXPECT_THAT(includesOf("methods/kit/draw/a.cpp", "methods/contract/b.h"), IsEmpty());
+    EXPECT_THAT(includesOf("methods/contract/a.cpp", "methods/kit/gpu/b.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("methods/contract/a.cpp", "methods/billboard/b.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("methods/contract/a_test.cpp", "methods/kit/testing/b.h"), IsEmpty());
+    EXPECT_THAT(includesOf("methods/contract/a.cpp", "methods/kit/testing/b.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("methods/contract/a_test.cpp", "methods/kit/gpu/b.h"), SizeIs(1));
 }
 
 TEST(SourceRules, LetTheHarnessKnowMethodsThroughTheRegistryAlone) {
     EXPECT_THAT(includesOf("bench/run/a.cpp", "methods/billboard/b.h"), SizeIs(1));
-    EXPECT_THAT(includesOf("bench/run/a.cpp", "methods/shared/registry.h"), IsEmpty());
+    EXPECT_THAT(includesOf("bench/run/a.cpp", "methods/contract/registry.h"), IsEmpty());
     EXPECT_THAT(includesOf("bench/run/a.cpp", "bench/scene/world.h"), IsEmpty());
     EXPECT_THAT(includesOf("bench/scene/a.cpp", "bench/run/executor.h"), SizeIs(1));
     EXPECT_THAT(includesOf("bench/results/a.cpp", "bench/suite/suite.h"), SizeIs(1));
 }
 
+TEST(SourceRules, KeepTheContractFreeOfAllButTheStandardLibraryAndGlm) {
+    const auto faults = [](const std::string& line) {
+        return contractFaults({"methods/contract/a.h", "// Sorts.\n#include " + line + "\n"});
+    };
+    EXPECT_THAT(faults("<string_view>"), IsEmpty());
+    EXPECT_THAT(faults("<glm/glm.hpp>"), IsEmpty());
+    EXPECT_THAT(faults("\"methods/contract/b.h\""), IsEmpty());
+    EXPECT_THAT(faults("\"methods/kit/gpu/device.h\""), SizeIs(1));
+    EXPECT_THAT(faults("<fmt/format.h>"), SizeIs(1));
+    EXPECT_THAT(faults("<epoxy/gl.h>"), SizeIs(1));
+}
+
+TEST(SourceRules, CountTheUsersOfAKitFolderThroughOtherFolders) {
+    const auto users = kitUsers({{"methods/kit/files/a.h", ""},
+                                 {"methods/kit/gpu/a.h", "#include \"methods/kit/memory/a.h\"\n"},
+                                 {"methods/kit/memory/a.h", ""},
+                                 {"methods/one/a.cpp", "#include \"methods/kit/gpu/a.h\"\n"},
+                                 {"bench/run/a.cpp", "#include \"methods/kit/memory/a.h\"\n"},
+                                 {"tests/b/a.cpp", "#include \"methods/kit/files/a.h\"\n"}});
+    EXPECT_THAT(users.at("files"), IsEmpty());
+    EXPECT_THAT(users.at("gpu"), ElementsAre("methods/one"));
+    EXPECT_THAT(users.at("memory"), ElementsAre("bench", "methods/one"));
+}
+
 TEST(SourceRules, RefusePathsThatClimb) {
     EXPECT_THAT(includesOf("methods/billboard/a.cpp", "../relief/b.h"), SizeIs(1));
-    EXPECT_THAT(includesOf("bench/run/a.cpp", "methods/shared/../relief/b.h"), SizeIs(1));
+    EXPECT_THAT(includesOf("bench/run/a.cpp", "methods/kit/../relief/b.h"), SizeIs(1));
 }
 
 TEST(SourceRules, FindRawOpenGlInCode) {
@@ -77,7 +107,7 @@ TEST(SourceRules, LeaveOpenGlAloneInCommentsTextsAndTheGpuLayer) {
     EXPECT_THAT(faults("f(\"glFinish() \\\" GLuint\");"), IsEmpty());
     EXPECT_THAT(faults("f(R\"x(glFinish() \" )\" )x\");"), IsEmpty());
     EXPECT_THAT(faults("glm::vec3 globalGLuint; eglue(); angle(2);"), IsEmpty());
-    EXPECT_THAT(openGlFaults({"methods/shared/gpu/a.cpp", "glFinish();"}), IsEmpty());
+    EXPECT_THAT(openGlFaults({"methods/kit/gpu/a.cpp", "glFinish();"}), IsEmpty());
 }
 
 TEST(SourceRules, WantAReasonPast400Lines) {
@@ -109,6 +139,8 @@ TEST(SourceRules, WantEveryCitationInTheBibliography) {
                 SizeIs(1));
     EXPECT_THAT(citationFaults({"methods/a/a.cpp", "info.source = \"Wang2005\";\n"}, keys), SizeIs(1));
     EXPECT_THAT(citationFaults({"methods/a/a.cpp", "info.source = \"Wang2004\";\n"}, keys), IsEmpty());
+    EXPECT_THAT(citationFaults({"a.cpp", "info.source = \"Wang2004, 4.2 and 4.3\";\n"}, keys), IsEmpty());
+    EXPECT_THAT(citationFaults({"a.cpp", "info.source = \"Wang2004, 4.2; Wang2005, 2.1\";\n"}, keys), SizeIs(1));
 }
 
 TEST(SourceRules, MatchPatternsWithinOneFolder) {

@@ -10,11 +10,12 @@
 #include <random>
 #include <vector>
 
+#include "methods/kit/octree/brick_builder.h"
+#include "methods/kit/particles/particle_store.h"
 #include "methods/octree_recursive/list_builder.h"
 #include "methods/octree_recursive/sorting_reducer.h"
 #include "methods/octree_search/grid_reducer.h"
 #include "methods/octree_search/insertion_builder.h"
-#include "methods/shared/octree/brick_builder.h"
 
 namespace dustbench::octree_pair {
 namespace {

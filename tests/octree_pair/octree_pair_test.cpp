@@ -11,13 +11,14 @@
 #include <random>
 #include <vector>
 
+#include "methods/kit/octree/brick_builder.h"
+#include "methods/kit/octree/octree_march_tree.h"
+#include "methods/kit/octree/plain_octree.h"
+#include "methods/kit/particles/particle_store.h"
 #include "methods/octree_recursive/list_builder.h"
 #include "methods/octree_recursive/sorting_reducer.h"
 #include "methods/octree_search/grid_reducer.h"
 #include "methods/octree_search/insertion_builder.h"
-#include "methods/shared/octree/brick_builder.h"
-#include "methods/shared/octree/octree_march_tree.h"
-#include "tests/octree_pair/octree_oracle.h"
 
 namespace dustbench::octree_pair {
 namespace {
@@ -26,6 +27,7 @@ using octree::Lattice;
 using octree::Octree;
 using octree::OctreeBuilder;
 using octree::OctreeSettings;
+using octree::PlainOctree;
 using particles::ParticleStore;
 
 struct NamedBuilder {
@@ -93,20 +95,20 @@ std::string described(const Case& made, std::size_t count) {
            std::to_string(static_cast<int>(made.settings.levelRule)) + " particles " + std::to_string(count);
 }
 
-/// Each voxel is the oracle's; all of them are there; they come in pre-order; and the nodes lead to them.
-void expectOracle(const Octree& tree, const Case& made, const Oracle& oracle) {
-    ASSERT_EQ(tree.voxels().size(), oracle.voxels.size());
+/// Each voxel is the plain octree's; all of them are there; they come in pre-order; and the nodes lead to them.
+void expectPlain(const Octree& tree, const Case& made, const PlainOctree& plain) {
+    ASSERT_EQ(tree.voxels().size(), plain.voxels.size());
     const bool sums = made.settings.policy == octree::OpacityPolicy::accumulate;
-    ASSERT_EQ(tree.masses().size(), sums ? oracle.voxels.size() : 0);
+    ASSERT_EQ(tree.masses().size(), sums ? plain.voxels.size() : 0);
     std::uint64_t last = 0;
     for (std::size_t i = 0; i < tree.voxels().size(); ++i) {
         const octree::CellEntry voxel = tree.voxels()[i];
         const glm::uvec3 cell = octree::mortonCell(voxel.code()) >> static_cast<unsigned>(voxel.rise());
-        const auto found = oracle.voxels.find({voxel.rise(), cell.x, cell.y, cell.z});
-        ASSERT_NE(found, oracle.voxels.end());
+        const auto found = plain.voxels.find({voxel.rise(), cell.x, cell.y, cell.z});
+        ASSERT_NE(found, plain.voxels.end());
         ASSERT_EQ(voxel.index(), found->second.particle);
         if (sums) {
-            ASSERT_NEAR(tree.masses()[i], found->second.mass, 1e-12 * found->second.mass);
+            ASSERT_NEAR(tree.masses()[i], found->second.massSquareMetres, 1e-12 * found->second.massSquareMetres);
         }
         ASSERT_TRUE(i == 0 || voxel.place() > last);
         last = voxel.place();
@@ -131,13 +133,13 @@ TEST(OctreePair, GivesTheSameVoxelsInEveryWayOfBuilding) {
         const std::size_t count = set < 200 ? static_cast<std::size_t>(set % 4) : random() % 400;
         const Case made = makeCase(random, count, store);
         SCOPED_TRACE("set " + std::to_string(set) + ": " + described(made, count));
-        const Oracle oracle = oracleOf(store, made.lattice, made.settings);
-        ASSERT_LE(oracle.voxels.size(), count);
+        const PlainOctree plain = octree::plainOctree(store, made.lattice, made.settings);
+        ASSERT_LE(plain.voxels.size(), count);
         for (const NamedBuilder& each : builders) {
             SCOPED_TRACE(each.name);
             Octree& built = &each == builders.data() ? first : tree;
-            ASSERT_EQ(each.builder->build(store, made.lattice, made.settings, built), oracle.clipped);
-            ASSERT_NO_FATAL_FAILURE(expectOracle(built, made, oracle));
+            ASSERT_EQ(each.builder->build(store, made.lattice, made.settings, built), plain.clipped);
+            ASSERT_NO_FATAL_FAILURE(expectPlain(built, made, plain));
             ASSERT_TRUE(std::ranges::equal(built.voxels(), first.voxels()));
             ASSERT_TRUE(std::ranges::equal(built.masses(), first.masses()));  // to the last bit
             ASSERT_EQ(built.countNodes(), first.countNodes());
@@ -167,14 +169,14 @@ TEST(OctreePair, IsMarchedAlikeInEveryWayOfBuilding) {
 }
 
 TEST(OctreePair, GivesTheSameVoxelsOfManyParticlesAtAnyNumberOfThreads) {
-    const tbb::global_control most(tbb::global_control::max_allowed_parallelism, 8);
+    const tbb::global_control maximum(tbb::global_control::max_allowed_parallelism, 8);
     std::mt19937_64 random(7);
     MemoryLedger ledger;
     ParticleStore store(ledger);
     for (int set = 0; set < 6; ++set) {
         const Case made = makeCase(random, 100'000, store);
         SCOPED_TRACE(described(made, store.size()));
-        const Oracle oracle = oracleOf(store, made.lattice, made.settings);
+        const PlainOctree plain = octree::plainOctree(store, made.lattice, made.settings);
         for (const NamedBuilder& each : allBuilders(ledger)) {
             SCOPED_TRACE(each.name);
             for (const int threads : {1, 2, 5}) {
@@ -182,8 +184,8 @@ TEST(OctreePair, GivesTheSameVoxelsOfManyParticlesAtAnyNumberOfThreads) {
                 tbb::task_arena arena(threads);
                 const std::int64_t clipped =
                     arena.execute([&] { return each.builder->build(store, made.lattice, made.settings, tree); });
-                ASSERT_EQ(clipped, oracle.clipped);
-                ASSERT_NO_FATAL_FAILURE(expectOracle(tree, made, oracle));
+                ASSERT_EQ(clipped, plain.clipped);
+                ASSERT_NO_FATAL_FAILURE(expectPlain(tree, made, plain));
             }
         }
     }
@@ -202,12 +204,12 @@ TEST(OctreePair, TellsPrioritiesApartByTheirLastBits) {
         made.settings.levels = 4;
         for (std::size_t i = 0; i < count; ++i)
             store.opacity[i] = std::bit_cast<float>(0x3d000000u + static_cast<std::uint32_t>(random() % 16));
-        const Oracle oracle = oracleOf(store, made.lattice, made.settings);
+        const PlainOctree plain = octree::plainOctree(store, made.lattice, made.settings);
         for (const NamedBuilder& each : allBuilders(ledger)) {
             SCOPED_TRACE(each.name);
             Octree tree(ledger);
-            EXPECT_EQ(each.builder->build(store, made.lattice, made.settings, tree), oracle.clipped);
-            ASSERT_NO_FATAL_FAILURE(expectOracle(tree, made, oracle));
+            EXPECT_EQ(each.builder->build(store, made.lattice, made.settings, tree), plain.clipped);
+            ASSERT_NO_FATAL_FAILURE(expectPlain(tree, made, plain));
         }
     }
 }
@@ -218,9 +220,9 @@ TEST(OctreePair, AccumulatesTheMassOfAllParticlesInside) {
     ParticleStore store(ledger);
     Case made = makeCase(random, 5000, store);
     made.settings.policy = octree::OpacityPolicy::accumulate;
-    const Oracle oracle = oracleOf(store, made.lattice, made.settings);
+    const PlainOctree plain = octree::plainOctree(store, made.lattice, made.settings);
     double expected = 0;
-    for (const auto& [cell, voxel] : oracle.voxels) expected += voxel.mass;
+    for (const auto& [cell, voxel] : plain.voxels) expected += voxel.massSquareMetres;
     for (const NamedBuilder& each : allBuilders(ledger)) {
         Octree tree(ledger);
         each.builder->build(store, made.lattice, made.settings, tree);

@@ -45,7 +45,7 @@ column = "primitives_median"
 against = "p.particles"
 of = "billboard"
 exact = true
-least = 1
+min = 1
 """,
 }
 

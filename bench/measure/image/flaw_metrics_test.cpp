@@ -21,7 +21,7 @@ Plane even(int width, int height, double value) {
 
 /// A picture of even encoded brightness.
 Picture greyPicture(float encoded) {
-    return pictureOf(20, 10, [=](int, int, int) { return draw::decodeSrgb(encoded); });
+    return pictureOf(20, 10, [=](int, int, int) { return maths::decodeSrgb(encoded); });
 }
 
 TEST(FlawMetrics, AreEmptyWhereNoDustIsInView) {

@@ -9,8 +9,8 @@
 
 #include "bench/measure/image/colour_spaces.h"
 #include "bench/measure/image/separable_filter.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/parallel/for_each_block.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::bench {
 namespace {
@@ -155,9 +155,9 @@ Features featuresOf(const Plane& luminance, const FeatureKernels& kernels) {
 
 Measured flip(const Picture& reference, const Picture& picture, double pixelsPerDegree) {
     requireSameSize(reference, picture);
-    if (!(pixelsPerDegree >= leastPixelsPerDegree && pixelsPerDegree <= mostPixelsPerDegree))
+    if (!(pixelsPerDegree >= minimumPixelsPerDegree && pixelsPerDegree <= maximumPixelsPerDegree))
         throw InputError(fmt::format("pixels per degree: got {}, allowed: {}..{}", pixelsPerDegree,
-                                     leastPixelsPerDegree, mostPixelsPerDegree));
+                                     minimumPixelsPerDegree, maximumPixelsPerDegree));
     const Opponent referenceColours = opponentOf(reference), pictureColours = opponentOf(picture);
     const Opponent referenceSeen = seen(referenceColours, pixelsPerDegree);
     const Opponent pictureSeen = seen(pictureColours, pixelsPerDegree);

@@ -16,7 +16,7 @@ namespace dustbench::bench {
 
 /// A display 0.7 m wide with 3840 pixels, seen from 0.7 m.
 inline constexpr double defaultPixelsPerDegree = 67.02;
-inline constexpr double leastPixelsPerDegree = 1, mostPixelsPerDegree = 1000;
+inline constexpr double minimumPixelsPerDegree = 1, maximumPixelsPerDegree = 1000;
 
 /// Mean of the map: 0..1, 0 for identical pictures. The map has the pictures' size, 0..1.
 /// Throws InputError for different sizes, or pixels per degree that are out of range.

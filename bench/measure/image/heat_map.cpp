@@ -32,11 +32,12 @@ glm::vec3 heatColour(float share) {
     return linearFromLab({lightness, chroma * std::cos(hue), chroma * std::sin(hue)});
 }
 
-draw::Image heatMap(const Plane& map, float least, float most) {
-    if (!(most > least)) throw std::invalid_argument("heatMap: `most` must be above `least`");
-    draw::Image image{map.width, map.height, {}};
+pictures::Image heatMap(const Plane& map, float minimum, float maximum) {
+    if (!(maximum > minimum)) throw std::invalid_argument("heatMap: `most` must be above `least`");
+    pictures::Image image{map.width, map.height, {}};
     image.pixels.reserve(map.values.size());
-    for (const float value : map.values) image.pixels.emplace_back(heatColour((value - least) / (most - least)), 1.0f);
+    for (const float value : map.values)
+        image.pixels.emplace_back(heatColour((value - minimum) / (maximum - minimum)), 1.0f);
     return image;
 }
 

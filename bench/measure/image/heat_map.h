@@ -8,14 +8,14 @@
 #include <glm/glm.hpp>
 
 #include "bench/measure/image/plane.h"
-#include "methods/shared/draw/image.h"
+#include "methods/kit/pictures/image.h"
 
 namespace dustbench::bench {
 
 /// The colour of a share in [0, 1], which is clamped; linear light.
 [[nodiscard]] glm::vec3 heatColour(float share);
 
-/// `least` is black, `most` pale yellow. Throws std::invalid_argument where `most` is not above `least`.
-[[nodiscard]] draw::Image heatMap(const Plane& map, float least = 0, float most = 1);
+/// `minimum` is black, `maximum` pale yellow. Throws std::invalid_argument where `maximum` is not above `minimum`.
+[[nodiscard]] pictures::Image heatMap(const Plane& map, float minimum = 0, float maximum = 1);
 
 }  // namespace dustbench::bench

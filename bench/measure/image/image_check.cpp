@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {
@@ -36,7 +36,7 @@ bool isFinite(const glm::vec4& pixel) {
 
 }  // namespace
 
-void requireFinite(const draw::Image& image, std::string_view name) {
+void requireFinite(const pictures::Image& image, std::string_view name) {
     refuse(image.width, image.height, image.pixels.size(), name, "not finite",
            [&](std::size_t i) { return !isFinite(image.pixels[i]); });
 }
@@ -46,7 +46,7 @@ void requireFinite(const Plane& plane, std::string_view name) {
            [&](std::size_t i) { return !std::isfinite(plane.values[i]); });
 }
 
-void requireOpaque(const draw::Image& image, std::string_view name) {
+void requireOpaque(const pictures::Image& image, std::string_view name) {
     refuse(image.width, image.height, image.pixels.size(), name, "not opaque (expected alpha 1)",
            [&](std::size_t i) { return !(std::abs(image.pixels[i].a - 1) <= alphaTolerance); });
 }
@@ -62,7 +62,7 @@ void requireSameSize(const Plane& plane, std::string_view name, const Plane& oth
     requireSameSize(plane.width, plane.height, name, other.width, other.height, otherName);
 }
 
-Plane alphaOf(const draw::Image& layer, std::string_view name) {
+Plane alphaOf(const pictures::Image& layer, std::string_view name) {
     requireFinite(layer, name);
     refuse(layer.width, layer.height, layer.pixels.size(), name, "of an alpha outside 0..1", [&](std::size_t i) {
         return layer.pixels[i].a < -alphaTolerance || layer.pixels[i].a > 1 + alphaTolerance;

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "bench/measure/image/plane.h"
-#include "methods/shared/draw/image.h"
+#include "methods/kit/pictures/image.h"
 
 namespace dustbench::bench {
 
@@ -15,16 +15,16 @@ namespace dustbench::bench {
 inline constexpr float alphaTolerance = 1e-3f;
 
 /// Pixels that are not finite in any of the four channels are counted, and the first is named.
-void requireFinite(const draw::Image& image, std::string_view name);
+void requireFinite(const pictures::Image& image, std::string_view name);
 void requireFinite(const Plane& plane, std::string_view name);
 
-void requireOpaque(const draw::Image& image, std::string_view name);
+void requireOpaque(const pictures::Image& image, std::string_view name);
 
 void requireSameSize(int width, int height, std::string_view name, int otherWidth, int otherHeight,
                      std::string_view otherName);
 void requireSameSize(const Plane& plane, std::string_view name, const Plane& other, std::string_view otherName);
 
 /// The alpha of a layer, checked to lie in [0, 1] but for the tolerance, and clamped.
-[[nodiscard]] Plane alphaOf(const draw::Image& layer, std::string_view name);
+[[nodiscard]] Plane alphaOf(const pictures::Image& layer, std::string_view name);
 
 }  // namespace dustbench::bench

@@ -14,19 +14,19 @@
 #include "bench/measure/image/test_images.h"
 #include "bench/measure/image/trail_gaps.h"
 #include "bench/measure/image/volume_error.h"
-#include "methods/shared/test_input_error.h"
+#include "methods/kit/testing/test_input_error.h"
 
 namespace dustbench::bench {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
 
-draw::Image grey(int width, int height) {
+pictures::Image grey(int width, int height) {
     return imageOf(width, height, [](int, int, int) { return 0.5; });
 }
 
 TEST(ImageCheck, CountsAndNamesPixelsThatAreNotFinite) {
-    draw::Image image = grey(7, 5);
+    pictures::Image image = grey(7, 5);
     image.pixels[7 * 2 + 3].g = nan;
     image.pixels[7 * 2 + 4] = {inf, nan, 0, 1};
     image.pixels[7 * 4].a = -inf;
@@ -39,7 +39,7 @@ TEST(ImageCheck, CountsAndNamesPixelsThatAreNotFinite) {
 }
 
 TEST(ImageCheck, RefusesAlphaWhereNoneIsExpected) {
-    draw::Image image = grey(3, 2);
+    pictures::Image image = grey(3, 2);
     image.pixels[4].a = 0.5f;
     EXPECT_EQ(inputError([&] { static_cast<void>(preparePicture(image, "b.png")); }),
               "b.png: 1 pixel is not opaque (expected alpha 1), the first at (1, 1)");
@@ -48,7 +48,7 @@ TEST(ImageCheck, RefusesAlphaWhereNoneIsExpected) {
 }
 
 TEST(ImageCheck, RefusesAlphasThatAreNone) {
-    draw::Image layer = grey(3, 2);
+    pictures::Image layer = grey(3, 2);
     layer.pixels[5].a = 1.5f;
     EXPECT_EQ(inputError([&] { static_cast<void>(alphaOf(layer, "the layer")); }),
               "the layer: 1 pixel is of an alpha outside 0..1, the first at (2, 1)");

@@ -19,7 +19,7 @@ struct Frame {
     TestView view{640, 480, {}};
     std::vector<TestPuff> puffs, displaced;
     Plane alpha, reference;
-    draw::Image image, referenceImage;
+    pictures::Image image, referenceImage;
 
     Frame() {
         for (std::uint64_t i = 0; i < 5'000; ++i) {
@@ -33,8 +33,8 @@ struct Frame {
         image = imageOf(alpha);
         referenceImage = imageOf(reference);
     }
-    static draw::Image imageOf(const Plane& alpha) {
-        draw::Image image{alpha.width, alpha.height, {}};
+    static pictures::Image imageOf(const Plane& alpha) {
+        pictures::Image image{alpha.width, alpha.height, {}};
         const Picture picture = testPicture(alpha);
         for (std::size_t i = 0; i < alpha.values.size(); ++i)
             image.pixels.emplace_back(picture.linear[0].values[i], picture.linear[1].values[i],

@@ -230,23 +230,23 @@ bool isCounted(const std::string& metric) {
     return metric == "components" || metric == "identical";
 }
 
-/// Largest minus least of those that are there.
+/// Largest minus minimum of those that are there.
 double spanOf(const Series& series) {
-    double least = std::numeric_limits<double>::infinity(), most = -least;
+    double minimum = std::numeric_limits<double>::infinity(), maximum = -minimum;
     for (const auto& value : series)
         if (value) {
-            least = std::min(least, *value);
-            most = std::max(most, *value);
+            minimum = std::min(minimum, *value);
+            maximum = std::max(maximum, *value);
         }
-    return most < least ? 0 : most - least;
+    return maximum < minimum ? 0 : maximum - minimum;
 }
 
 /// The most by which a metric moves under a flaw for which the table lets it rise or fall.
 double ownSpan(const std::string& metric) {
-    double most = 0;
+    double maximum = 0;
     for (const auto& [flaw, word] : documented().at(metric))
-        if (word == "rises" || word == "falls") most = std::max(most, spanOf(responses().at(flaw).at(metric)));
-    return most;
+        if (word == "rises" || word == "falls") maximum = std::max(maximum, spanOf(responses().at(flaw).at(metric)));
+    return maximum;
 }
 
 std::string textOf(const Series& series) {

@@ -1,11 +1,11 @@
 #include "bench/measure/image/picture.h"
 
 #include "bench/measure/image/image_check.h"
-#include "methods/shared/parallel/for_each_block.h"
+#include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::bench {
 
-Picture preparePicture(const draw::Image& image, const std::string& name) {
+Picture preparePicture(const pictures::Image& image, const std::string& name) {
     requireFinite(image, name);
     requireOpaque(image, name);
     Picture picture{name, image.width, image.height, {}, {}, Plane(image.width, image.height)};
@@ -16,7 +16,7 @@ Picture preparePicture(const draw::Image& image, const std::string& name) {
             for (std::size_t channel = 0; channel < 3; ++channel) {
                 const float value = image.pixels[i][static_cast<int>(channel)];
                 picture.linear[channel].values[i] = value;
-                picture.encoded[channel].values[i] = draw::encodeSrgb(value);
+                picture.encoded[channel].values[i] = maths::encodeSrgb(value);
             }
             picture.luma.values[i] = 0.2126f * picture.encoded[0].values[i] + 0.7152f * picture.encoded[1].values[i] +
                                      0.0722f * picture.encoded[2].values[i];

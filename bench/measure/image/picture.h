@@ -8,7 +8,7 @@
 #include <string>
 
 #include "bench/measure/image/plane.h"
-#include "methods/shared/draw/image.h"
+#include "methods/kit/pictures/image.h"
 
 namespace dustbench::bench {
 
@@ -22,7 +22,7 @@ struct Picture {
 };
 
 /// Throws InputError where it has no pixels, or some are not finite or not opaque.
-[[nodiscard]] Picture preparePicture(const draw::Image& image, const std::string& name);
+[[nodiscard]] Picture preparePicture(const pictures::Image& image, const std::string& name);
 
 /// Throws InputError.
 void requireSameSize(const Picture& picture, const Picture& other);

@@ -35,11 +35,11 @@ TEST(PictureMetrics, IdenticalPicturesScorePerfectly) {
 TEST(PictureMetrics, AConstantOffsetHasItsClosedForm) {
     // Encoded values c and c + d everywhere: PSNR = −20 log₁₀ d, and SSIM has nothing but its brightness term.
     const auto even = [](float encoded) {
-        return pictureOf(40, 30, [=](int, int, int) { return draw::decodeSrgb(encoded); });
+        return pictureOf(40, 30, [=](int, int, int) { return maths::decodeSrgb(encoded); });
     };
     const Picture a = even(0.5f), b = even(0.6f);
     EXPECT_NEAR(*pictureError(a, b).psnrDb, 20, 1e-4);
-    EXPECT_NEAR(pictureError(a, b).rmseLinear, draw::decodeSrgb(0.6f) - draw::decodeSrgb(0.5f), 1e-6f);
+    EXPECT_NEAR(pictureError(a, b).rmseLinear, maths::decodeSrgb(0.6f) - maths::decodeSrgb(0.5f), 1e-6f);
     EXPECT_NEAR(*ssim(a, b).value, (2 * 0.5 * 0.6 + 1e-4) / (0.25 + 0.36 + 1e-4), 1e-6);
 }
 
@@ -161,7 +161,7 @@ TEST(HeatMap, GetsLighterEvenlyAndStaysWithinTheDisplaysColours) {
 
 TEST(HeatMap, SpansTheRangeThatItIsGiven) {
     const Plane ramp = planeOf(3, 1, [](int x, int) { return 10 + 10 * x; });
-    const draw::Image image = heatMap(ramp, 10, 30);
+    const pictures::Image image = heatMap(ramp, 10, 30);
     for (int x = 0; x < 3; ++x) EXPECT_EQ(glm::vec3(image.at(x, 0)), heatColour(0.5f * static_cast<float>(x)));
     EXPECT_EQ(image.at(1, 0).a, 1);
     EXPECT_THROW(static_cast<void>(heatMap(ramp, 1, 1)), std::invalid_argument);

@@ -57,7 +57,7 @@ void PoppingSummary::endStretch() {
 }
 
 PoppingSummary::Stretch PoppingSummary::counted() const {
-    if (current_.pairs < fewestPairs) return ended_;
+    if (current_.pairs < minimumPairs) return ended_;
     return {ended_.pairs + current_.pairs, ended_.sum + current_.sum, std::max(ended_.maximum, current_.maximum)};
 }
 

@@ -26,11 +26,11 @@ struct DustFrame {
 
 /// The number for a run: mean and maximum over pairs of consecutive frames.
 ///
-/// Only unbroken stretches of at least `fewestPairs` pairs count, so that a jump that comes every now and then has its
+/// Only unbroken stretches of at least `minimumPairs` pairs count, so that a jump that comes every now and then has its
 /// chance to be seen.
 class PoppingSummary {
  public:
-    static constexpr std::int64_t fewestPairs = 30;
+    static constexpr std::int64_t minimumPairs = 30;
 
     /// The next pair; an empty one (no dust in view) ends the stretch.
     void add(const std::optional<double>& pair);

@@ -6,14 +6,14 @@
 #include <numbers>
 
 #include "bench/measure/image/image_check.h"
-#include "methods/shared/maths/philox.h"
+#include "methods/kit/maths/philox.h"
 
 namespace dustbench::bench {
 namespace {
 
 constexpr int side = 17;
 constexpr double reach = 0.8;  // of the radius, to either side
-constexpr double leastRms = 0.5 / 255;
+constexpr double minimumRms = 0.5 / 255;
 constexpr int shiftsTried = 8;
 enum Stream : std::uint32_t { lotStream = 0x55e1f000, shiftStream };
 
@@ -51,7 +51,7 @@ Patch patchAt(const Plane& detail, const ScreenPrimitive& frame) {
         value -= sum / (side * side);
         squares += value * value;
     }
-    const bool visible = squares >= leastRms * leastRms * side * side;
+    const bool visible = squares >= minimumRms * minimumRms * side * side;
     for (double& value : patch) value = visible ? value / std::sqrt(squares) : 0;
     return patch;
 }
@@ -80,16 +80,16 @@ class PairMean {
     double count_ = 0;
 };
 
-/// At most `mostPrimitives` of them, drawn by lot, in their order.
+/// At most `maximumPrimitives` of them, drawn by lot, in their order.
 std::vector<std::size_t> sampleOf(const Plane& detail, std::span<const ScreenPrimitive> primitives,
                                   std::uint64_t seed) {
     std::vector<std::pair<std::uint32_t, std::size_t>> lots;
     for (std::size_t i = 0; i < primitives.size(); ++i)
-        if (primitives[i].radiusPixels >= leastRadiusPixels && isInside(detail, primitives[i]))
+        if (primitives[i].radiusPixels >= minimumRadiusPixels && isInside(detail, primitives[i]))
             lots.emplace_back(maths::randomWords(seed, lotStream, i)[0], i);
-    if (lots.size() > mostPrimitives) {
-        std::ranges::nth_element(lots, lots.begin() + static_cast<std::ptrdiff_t>(mostPrimitives));
-        lots.resize(mostPrimitives);
+    if (lots.size() > maximumPrimitives) {
+        std::ranges::nth_element(lots, lots.begin() + static_cast<std::ptrdiff_t>(maximumPrimitives));
+        lots.resize(maximumPrimitives);
     }
     std::vector<std::size_t> chosen;
     for (const auto& [lot, index] : lots) chosen.push_back(index);
@@ -118,7 +118,7 @@ Measured selfSimilarity(const Plane& alpha, const Plane& referenceAlpha, std::sp
         result.map.values[i] = std::abs(detail.values[i]);
     }
     const std::vector<std::size_t> chosen = sampleOf(detail, primitives, seed);
-    if (chosen.size() < fewestPrimitives) return result;
+    if (chosen.size() < minimumPrimitives) return result;
     PairMean own, elsewhere;
     for (const std::size_t index : chosen) {
         own.add(patchAt(detail, primitives[index]));

@@ -22,10 +22,10 @@
 namespace dustbench::bench {
 
 /// Smaller ones show no detail to compare.
-inline constexpr double leastRadiusPixels = 4;
-inline constexpr std::size_t fewestPrimitives = 8;
+inline constexpr double minimumRadiusPixels = 4;
+inline constexpr std::size_t minimumPrimitives = 8;
 /// Of more, as many are drawn by lot: of a seed, the same ones each time.
-inline constexpr std::size_t mostPrimitives = 2048;
+inline constexpr std::size_t maximumPrimitives = 2048;
 
 /// −1..1, about 0 where no two look alike, 1 where all do and nothing hides them. Empty for fewer than 8 primitives of
 /// at least 4 pixels' radius whose ±0.8 r lie wholly within the picture. The map is |α − R|: 0..1.

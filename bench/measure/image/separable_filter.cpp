@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "methods/shared/parallel/for_each_block.h"
+#include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::bench {
 namespace {

@@ -15,8 +15,8 @@ namespace dustbench::bench {
 
 using Formula = std::function<double(int x, int y, int c)>;
 
-inline draw::Image imageOf(int width, int height, const Formula& formula) {
-    draw::Image image{width, height, {}};
+inline pictures::Image imageOf(int width, int height, const Formula& formula) {
+    pictures::Image image{width, height, {}};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             image.pixels.emplace_back(static_cast<float>(formula(x, y, 0)), static_cast<float>(formula(x, y, 1)),

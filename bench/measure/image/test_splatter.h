@@ -13,7 +13,7 @@
 
 #include "bench/measure/image/picture.h"
 #include "bench/measure/image/screen_primitive.h"
-#include "methods/shared/maths/philox.h"
+#include "methods/kit/maths/philox.h"
 
 namespace dustbench::bench {
 
@@ -102,7 +102,7 @@ inline Plane testAlpha(const std::vector<TestPuff>& puffs, const TestView& view)
 
 /// Brown dust over a scene of two gradients.
 inline Picture testPicture(const Plane& alpha) {
-    draw::Image image{alpha.width, alpha.height, {}};
+    pictures::Image image{alpha.width, alpha.height, {}};
     for (int y = 0; y < alpha.height; ++y)
         for (int x = 0; x < alpha.width; ++x) {
             const float a = alpha.at(x, y), down = static_cast<float>(y) / static_cast<float>(alpha.height);

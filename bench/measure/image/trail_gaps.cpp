@@ -34,7 +34,7 @@ int numberParts(Plane& map) {
                             members.emplace_back(nx, ny);
                         }
             }
-            if (members.size() >= static_cast<std::size_t>(fewestPartPixels))
+            if (members.size() >= static_cast<std::size_t>(minimumPartPixels))
                 ++parts;
             else
                 for (const auto& [mx, my] : members) map.at(mx, my) = 0;

@@ -14,7 +14,7 @@ namespace dustbench::bench {
 inline constexpr float trailAlpha = 0.1f;
 /// A connected part of fewer pixels is a speck, not a part: where α and R/2 run close together, single pixels fall to
 /// either side.
-inline constexpr int fewestPartPixels = 16;
+inline constexpr int minimumPartPixels = 16;
 
 /// Share of the trail that is not covered: 0..1. Empty where the reference has no trail. The map is 1 in gaps, else 0.
 /// Throws InputError for different sizes.

@@ -18,7 +18,7 @@ struct GridCells {
 
 /// 0 or more, 0 for equal grids, 1 for an empty one against the reference. Empty where the reference holds nothing. The
 /// map is seen from above, one pixel for each column of cells: √ Σ (a − b)² over the column, divided by ‖b‖, so that
-/// value² = Σ map². Rows run along z, from its least.
+/// value² = Σ map². Rows run along z, from its minimum.
 /// Throws InputError for grids of different or wrong size, and for cells that are not finite.
 [[nodiscard]] Measured volumeError(const GridCells& reference, const GridCells& grid);
 

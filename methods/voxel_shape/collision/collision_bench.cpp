@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <map>
 
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/scene/mesh_file.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/meshes/mesh_file.h"
 #include "methods/voxel_shape/collision/shape_collision.h"
 #include "methods/voxel_shape/particles/shape_system.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
@@ -35,7 +35,7 @@ scene::Mesh subdivided(const scene::Mesh& mesh) {
 void collision(benchmark::State& state) {
     const auto bunny = files::dataFolder() / "shapes" / "meshes" / "bunny.ply";
     const bool there = std::filesystem::exists(bunny);
-    scene::Mesh mesh = scene::readMesh(there ? bunny : bunny.parent_path() / "hare.ply", glm::vec3(1));
+    scene::Mesh mesh = meshes::readMesh(there ? bunny : bunny.parent_path() / "hare.ply", glm::vec3(1));
     // Of the bunny's npm package 3,674 triangles become 58,784.
     mesh = subdivided(subdivided(mesh));
     scene::Scene scene;

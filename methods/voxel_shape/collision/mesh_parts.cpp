@@ -9,7 +9,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// Numbers that are joined into groups; the least number of a group stands for it.
+/// Numbers that are joined into groups; the minimum number of a group stands for it.
 class Groups {
  public:
     explicit Groups(std::size_t count) : leader_(count) { std::iota(leader_.begin(), leader_.end(), std::size_t{0}); }
@@ -29,9 +29,10 @@ class Groups {
 };
 
 struct Box {
-    glm::vec3 least{INFINITY}, most{-INFINITY};
+    glm::vec3 minimum{INFINITY}, maximum{-INFINITY};
     [[nodiscard]] bool meets(const Box& other) const {
-        return glm::all(glm::lessThanEqual(least, other.most)) && glm::all(glm::lessThanEqual(other.least, most));
+        return glm::all(glm::lessThanEqual(minimum, other.maximum)) &&
+               glm::all(glm::lessThanEqual(other.minimum, maximum));
     }
 };
 
@@ -53,8 +54,8 @@ std::vector<scene::Mesh> partsOf(const scene::Mesh& mesh) {
         for (std::size_t t = 0; t < triangles; ++t) {
             Box& box = boxes[groups.of(t)];
             for (std::size_t k = 0; k < 3; ++k) {
-                box.least = glm::min(box.least, mesh.positions[mesh.indices[3 * t + k]]);
-                box.most = glm::max(box.most, mesh.positions[mesh.indices[3 * t + k]]);
+                box.minimum = glm::min(box.minimum, mesh.positions[mesh.indices[3 * t + k]]);
+                box.maximum = glm::max(box.maximum, mesh.positions[mesh.indices[3 * t + k]]);
             }
         }
         for (auto a = boxes.begin(); a != boxes.end(); ++a)

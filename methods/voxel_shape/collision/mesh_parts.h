@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "methods/shared/scene/mesh.h"
+#include "methods/contract/solid.h"
 
 namespace dustbench::voxel_shape {
 

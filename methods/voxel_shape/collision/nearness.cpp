@@ -9,11 +9,11 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-constexpr int mostCells = 128;
+constexpr int maximumCells = 128;
 
 MarkedVoxels surfaceOf(const scene::Mesh& mesh, float cellMetres) {
     const Lattice one = latticeAround(mesh, 1);  // its edge is the longest side
-    const int cells = std::clamp(static_cast<int>(std::ceil(one.edgeMetres / cellMetres)), 1, mostCells);
+    const int cells = std::clamp(static_cast<int>(std::ceil(one.edgeMetres / cellMetres)), 1, maximumCells);
     return surfaceVoxels(mesh, latticeAround(mesh, cells));
 }
 

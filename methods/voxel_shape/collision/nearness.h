@@ -21,7 +21,7 @@ class Nearness {
     Nearness(const scene::Mesh& mesh, float cellMetres, float reachMetres);
 
     [[nodiscard]] const Lattice& lattice() const { return lattice_; }
-    /// `place` in cells from the lattice's least corner.
+    /// `place` in cells from the lattice's minimum corner.
     [[nodiscard]] bool at(const glm::vec3& place) const {
         // NaN and far away are no; negative shares must not be rounded towards 0.
         if (!(place.x >= 0 && place.y >= 0 && place.z >= 0)) return false;

@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "methods/shared/maths/philox.h"
-#include "methods/shared/maths/sampling.h"
-#include "methods/shared/parallel/for_each_block.h"
-#include "methods/shared/particles/chunk.h"
+#include "methods/kit/maths/philox.h"
+#include "methods/kit/maths/sampling.h"
+#include "methods/kit/parallel/for_each_block.h"
+#include "methods/kit/particles/chunk.h"
 #include "methods/voxel_shape/collision/mesh_parts.h"
 
 namespace dustbench::voxel_shape {
@@ -27,9 +27,10 @@ glm::vec3 alongSurface(const glm::vec3& normal, std::uint64_t serial) {
 }
 
 template <typename Visit>
-void forEachCorner(const glm::vec3& least, const glm::vec3& most, const Visit& visit) {
+void forEachCorner(const glm::vec3& minimum, const glm::vec3& maximum, const Visit& visit) {
     for (int corner = 0; corner < 8; ++corner)
-        visit(glm::vec3(corner & 1 ? most.x : least.x, corner & 2 ? most.y : least.y, corner & 4 ? most.z : least.z));
+        visit(glm::vec3(corner & 1 ? maximum.x : minimum.x, corner & 2 ? maximum.y : minimum.y,
+                        corner & 4 ? maximum.z : minimum.z));
 }
 
 }  // namespace
@@ -38,10 +39,10 @@ ShapeCollision::Place ShapeCollision::placeOf(Nearness nearness, const glm::mat4
     const Lattice& lattice = nearness.lattice();
     const glm::mat4 toSolid = glm::inverse(toWorld);
     Box box{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
-    forEachCorner(lattice.origin, lattice.mostCorner(), [&](const glm::vec3& corner) {
+    forEachCorner(lattice.origin, lattice.maximumCorner(), [&](const glm::vec3& corner) {
         const glm::vec3 world(toWorld * glm::vec4(corner, 1));
-        box.least = glm::min(box.least, world);
-        box.most = glm::max(box.most, world);
+        box.minimum = glm::min(box.minimum, world);
+        box.maximum = glm::max(box.maximum, world);
     });
     const glm::mat3 toCells = glm::mat3(toSolid) / lattice.edgeMetres;
     const glm::vec3 offset = (glm::vec3(toSolid[3]) - lattice.origin) / lattice.edgeMetres;
@@ -82,10 +83,10 @@ bool ShapeCollision::nearAny(const std::vector<std::uint32_t>& places, const glm
 void ShapeCollision::switchVoxels(VoxelGrid& grid, const Pose& pose) {
     const Lattice& lattice = grid.lattice();
     Box box{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
-    forEachCorner(lattice.origin, lattice.mostCorner(), [&](const glm::vec3& corner) {
+    forEachCorner(lattice.origin, lattice.maximumCorner(), [&](const glm::vec3& corner) {
         const glm::vec3 world = pose.toWorld(corner);
-        box.least = glm::min(box.least, world);
-        box.most = glm::max(box.most, world);
+        box.minimum = glm::min(box.minimum, world);
+        box.maximum = glm::max(box.maximum, world);
     });
     const std::vector<std::uint32_t> close = placesMeeting(box);
     if (close.empty() && off_ == 0) return;
@@ -114,8 +115,8 @@ std::size_t ShapeCollision::stopParticles(ShapeParticles& particles, float stepS
         for (std::size_t i = first; i < first + count; ++i) {
             const glm::vec3 now = s.position(i);
             const glm::vec3 before = now - stepSeconds * glm::vec3(s.velocityX[i], s.velocityY[i], s.velocityZ[i]);
-            box.least = glm::min(box.least, glm::min(now, before));
-            box.most = glm::max(box.most, glm::max(now, before));
+            box.minimum = glm::min(box.minimum, glm::min(now, before));
+            box.maximum = glm::max(box.maximum, glm::max(now, before));
         }
         const std::vector<std::uint32_t> close = placesMeeting(box);
         if (close.empty()) return;

@@ -12,8 +12,8 @@
 
 #include <vector>
 
-#include "methods/shared/memory_ledger.h"
-#include "methods/shared/scene/scene.h"
+#include "methods/contract/scene.h"
+#include "methods/kit/memory/memory_ledger.h"
 #include "methods/voxel_shape/collision/nearness.h"
 #include "methods/voxel_shape/collision/triangle_tree.h"
 #include "methods/voxel_shape/particles/pose.h"
@@ -44,9 +44,10 @@ class ShapeCollision {
 
  private:
     struct Box {
-        glm::vec3 least, most;
+        glm::vec3 minimum, maximum;
         [[nodiscard]] bool meets(const Box& other) const {
-            return glm::all(glm::lessThanEqual(least, other.most)) && glm::all(glm::lessThanEqual(other.least, most));
+            return glm::all(glm::lessThanEqual(minimum, other.maximum)) &&
+                   glm::all(glm::lessThanEqual(other.minimum, maximum));
         }
     };
     /// Of one part of the scene's solids.

@@ -149,7 +149,7 @@ std::uint64_t throughAWall(bool check) {
                              {});
     Motion motion;
     motion.birthSpeed = 0.3f;
-    std::size_t hits = 0, mostOff = 0, mostOutside = 0;
+    std::size_t hits = 0, maximumOff = 0, maximumOutside = 0;
     for (int step = 0; step < 120; ++step) {
         Pose pose;
         pose.velocity = {4, 0, 0};
@@ -165,15 +165,15 @@ std::uint64_t throughAWall(bool check) {
                 << step << ": " << system.particles().store.serial[i];
             within += (system.particles().place[i] & ShapeParticles::outside) == 0;
         }
-        mostOff = std::max(mostOff, collision.switchedOff());
-        mostOutside = std::max(mostOutside, system.particles().size() - within);
+        maximumOff = std::max(maximumOff, collision.switchedOff());
+        maximumOutside = std::max(maximumOutside, system.particles().size() - within);
     }
     if (check) {
         std::size_t within = 0;
         for (const std::uint32_t place : system.particles().place) within += (place & ShapeParticles::outside) == 0;
         EXPECT_GT(hits, 500u);
-        EXPECT_GT(mostOff, system.grid().active().size() / 10) << "it burst";
-        EXPECT_GT(mostOutside, 1000u);
+        EXPECT_GT(maximumOff, system.grid().active().size() / 10) << "it burst";
+        EXPECT_GT(maximumOutside, 1000u);
         EXPECT_GT(within, 5900u) << "and is whole again";
         EXPECT_LE(within, 6000u);
         EXPECT_EQ(collision.switchedOff(), 0u);

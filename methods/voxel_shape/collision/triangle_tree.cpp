@@ -7,7 +7,7 @@
 #include <atomic>
 #include <cstring>
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::voxel_shape {
 

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "methods/shared/scene/mesh.h"
+#include "methods/contract/solid.h"
 
 namespace dustbench::voxel_shape {
 

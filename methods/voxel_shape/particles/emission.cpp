@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/shared/maths/philox.h"
-#include "methods/shared/maths/sampling.h"
-#include "methods/shared/parallel/for_each_block.h"
+#include "methods/kit/maths/philox.h"
+#include "methods/kit/maths/sampling.h"
+#include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::voxel_shape {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstring>
 
-#include "methods/shared/parallel/for_each_block.h"
-#include "methods/shared/particles/flagged.h"
+#include "methods/kit/parallel/for_each_block.h"
+#include "methods/kit/particles/flagged.h"
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -76,7 +76,7 @@ void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t coun
     float *const __restrict rx = scratch.rx.data(), *const __restrict ry = scratch.ry.data(),
                       *const __restrict rz = scratch.rz.data();
     const glm::mat3 m = step.toVoxels;
-    const glm::vec3 offset = step.offset, counts(step.counts), most = counts - 1.0f;
+    const glm::vec3 offset = step.offset, counts(step.counts), maximum = counts - 1.0f;
     const int nx = step.counts.x, ny = step.counts.y;
 #pragma GCC ivdep
     for (std::size_t i = 0; i < count; ++i) {
@@ -85,9 +85,9 @@ void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t coun
         const float gz = m[0][2] * x[i] + m[1][2] * y[i] + m[2][2] * z[i] + offset.z;
         const bool within = (gx >= 0) & (gy >= 0) & (gz >= 0) & (gx < counts.x) & (gy < counts.y) & (gz < counts.z);
         // Clamped, so that the index is that of a cell.
-        const int cx = static_cast<int>(gx > 0 ? (gx < most.x ? gx : most.x) : 0.0f);
-        const int cy = static_cast<int>(gy > 0 ? (gy < most.y ? gy : most.y) : 0.0f);
-        const int cz = static_cast<int>(gz > 0 ? (gz < most.z ? gz : most.z) : 0.0f);
+        const int cx = static_cast<int>(gx > 0 ? (gx < maximum.x ? gx : maximum.x) : 0.0f);
+        const int cy = static_cast<int>(gy > 0 ? (gy < maximum.y ? gy : maximum.y) : 0.0f);
+        const int cz = static_cast<int>(gz > 0 ? (gz < maximum.z ? gz : maximum.z) : 0.0f);
         const auto index = static_cast<std::uint32_t>((cz * ny + cy) * nx + cx);
         const bool same = within & (index == (place[i] & ~ShapeParticles::outside));
         const bool on = (flags[i] & (Voxel::active | Voxel::switchedOff)) == Voxel::active;

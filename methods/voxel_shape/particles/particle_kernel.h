@@ -20,7 +20,7 @@ namespace dustbench::voxel_shape {
 struct KernelStep {
     KernelStep(const VoxelGrid& grid, const Pose& pose, const Motion& motion, float stepSeconds);
 
-    glm::mat3 toVoxels;  ///< world → voxels from the least corner: toVoxels·p + offset
+    glm::mat3 toVoxels;  ///< world → voxels from the minimum corner: toVoxels·p + offset
     glm::vec3 offset;
     glm::ivec3 counts;
     float voxelMetres;  ///< edge of a voxel in the world

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "methods/shared/maths/hash.h"
+#include "methods/kit/maths/hash.h"
 
 namespace dustbench::voxel_shape {
 

@@ -4,7 +4,7 @@
 // Owns: its columns, on a ledger. Threads: const access from any; writers on disjoint ranges.
 #pragma once
 
-#include "methods/shared/particles/particle_store.h"
+#include "methods/kit/particles/particle_store.h"
 
 namespace dustbench::voxel_shape {
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <utility>
 
-#include "methods/shared/maths/hash.h"
-#include "methods/shared/parallel/for_each_block.h"
-#include "methods/shared/particles/chunk.h"
+#include "methods/kit/maths/hash.h"
+#include "methods/kit/parallel/for_each_block.h"
+#include "methods/kit/particles/chunk.h"
 
 namespace dustbench::voxel_shape {
 namespace {

@@ -5,7 +5,7 @@
 // Source: JuckelBeckhaus2007, 4.3 (the update cycle).
 #pragma once
 
-#include "methods/shared/particles/noted_particles.h"
+#include "methods/kit/particles/noted_particles.h"
 #include "methods/voxel_shape/particles/emission.h"
 #include "methods/voxel_shape/particles/particle_kernel.h"
 

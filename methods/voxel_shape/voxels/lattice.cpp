@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -28,16 +28,16 @@ void requireSoundMesh(const scene::Mesh& mesh, const char* what) {
 }
 
 Lattice latticeAround(const scene::Mesh& mesh, int resolution) {
-    if (resolution < 1 || resolution > mostVoxelsASide)
+    if (resolution < 1 || resolution > maximumVoxelsASide)
         throw InputError("voxel resolution: got " + std::to_string(resolution) + ", allowed: 1.." +
-                         std::to_string(mostVoxelsASide));
+                         std::to_string(maximumVoxelsASide));
     requireSoundMesh(mesh, "voxels of a mesh");
-    glm::vec3 least(INFINITY), most(-INFINITY);
+    glm::vec3 minimum(INFINITY), maximum(-INFINITY);
     for (const std::uint32_t index : mesh.indices) {
-        least = glm::min(least, mesh.positions[index]);
-        most = glm::max(most, mesh.positions[index]);
+        minimum = glm::min(minimum, mesh.positions[index]);
+        maximum = glm::max(maximum, mesh.positions[index]);
     }
-    const glm::vec3 extent = most - least;
+    const glm::vec3 extent = maximum - minimum;
     const float longest = std::max({extent.x, extent.y, extent.z});
     if (!(longest > 0) || !std::isfinite(longest))
         throw InputError("voxels of a mesh: its longest side is " + std::to_string(longest) +
@@ -47,7 +47,7 @@ Lattice latticeAround(const scene::Mesh& mesh, int resolution) {
     for (int axis = 0; axis < 3; ++axis)
         lattice.counts[axis] =
             std::clamp(static_cast<int>(std::ceil(extent[axis] / lattice.edgeMetres + 2 * rim)), 1, resolution);
-    lattice.origin = (least + most) / 2.0f - lattice.edgeMetres / 2 * glm::vec3(lattice.counts);
+    lattice.origin = (minimum + maximum) / 2.0f - lattice.edgeMetres / 2 * glm::vec3(lattice.counts);
     return lattice;
 }
 

@@ -7,15 +7,15 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "methods/shared/scene/mesh.h"
+#include "methods/contract/solid.h"
 
 namespace dustbench::voxel_shape {
 
-inline constexpr int mostVoxelsASide = 256;
+inline constexpr int maximumVoxelsASide = 256;
 
 struct Lattice {
     glm::ivec3 counts{1};  ///< voxels along x, y, z
-    glm::vec3 origin{0};   ///< least corner
+    glm::vec3 origin{0};   ///< minimum corner
     float edgeMetres = 1;  ///< of a voxel
 
     [[nodiscard]] std::size_t size() const {
@@ -36,9 +36,9 @@ struct Lattice {
     [[nodiscard]] glm::vec3 centre(const glm::ivec3& cell) const {
         return origin + edgeMetres * (glm::vec3(cell) + 0.5f);
     }
-    /// In voxels from the least corner.
+    /// In voxels from the minimum corner.
     [[nodiscard]] glm::vec3 toVoxels(const glm::vec3& point) const { return (point - origin) / edgeMetres; }
-    [[nodiscard]] glm::vec3 mostCorner() const { return origin + edgeMetres * glm::vec3(counts); }
+    [[nodiscard]] glm::vec3 maximumCorner() const { return origin + edgeMetres * glm::vec3(counts); }
 };
 
 /// Throws InputError, naming `what`, where a mesh has no triangles, an index without a vertex, or a corner that is not

@@ -3,8 +3,8 @@
 #include <memory>
 #include <type_traits>
 
-#include "methods/shared/draw/solid_mesh.h"
-#include "methods/shared/gpu/framebuffer.h"
+#include "methods/kit/draw/solid_mesh.h"
+#include "methods/kit/gpu/framebuffer.h"
 #include "voxel_shape_voxels_shaders.h"
 
 namespace dustbench::voxel_shape {

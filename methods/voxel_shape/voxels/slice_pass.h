@@ -6,7 +6,7 @@
 // Frame: the mesh's own. Threads: the OpenGL thread's. Source: JuckelBeckhaus2007, 4.2.
 #pragma once
 
-#include "methods/shared/gpu/device.h"
+#include "methods/kit/gpu/device.h"
 #include "methods/voxel_shape/voxels/marked_voxels.h"
 
 namespace dustbench::voxel_shape {

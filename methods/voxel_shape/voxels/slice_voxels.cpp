@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "methods/shared/parallel/for_each_block.h"
+#include "methods/kit/parallel/for_each_block.h"
 #include "methods/voxel_shape/voxels/triangle_bins.h"
 
 namespace dustbench::voxel_shape {
@@ -42,8 +42,8 @@ void markRow(const TriangleBins& bins, int row, MarkedVoxels& result, std::vecto
         const std::int64_t whole = area(p[0], p[1], p[2]);
         if (whole == 0) continue;  // edge-on
         const std::int64_t side = whole > 0 ? 1 : -1;
-        const int last = std::min(static_cast<int>(std::floor(triangle.most().x + 1)), lattice.counts.x - 1);
-        for (int x = std::max(static_cast<int>(std::floor(triangle.least().x - 1)), 0); x <= last; ++x) {
+        const int last = std::min(static_cast<int>(std::floor(triangle.maximum().x + 1)), lattice.counts.x - 1);
+        for (int x = std::max(static_cast<int>(std::floor(triangle.minimum().x - 1)), 0); x <= last; ++x) {
             const Snapped middle(256 * x + 128, 256 * row + 128);
             bool within = true;
             std::array<float, 3> weights{};

@@ -11,7 +11,7 @@
 
 namespace dustbench::voxel_shape {
 
-/// A voxel's colour is that of the triangle point in it with the greatest z, as a depth test from there leaves it.
+/// A voxel's colour is that of the triangle point in it with the maximum z, as a depth test from there leaves it.
 /// Throws InputError for a mesh that is not sound.
 [[nodiscard]] MarkedVoxels sliceVoxels(const scene::Mesh& mesh, const Lattice& lattice);
 

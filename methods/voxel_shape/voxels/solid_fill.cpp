@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::voxel_shape {
 namespace {

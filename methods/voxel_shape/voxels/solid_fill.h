@@ -18,7 +18,7 @@ namespace dustbench::voxel_shape {
 bool markInside(MarkedVoxels& surface);
 
 /// Marks what `surface` (every touched voxel marked) encloses; false where that is nothing. Inner voxels take the
-/// colour of the surface voxel from which the fewest steps lead to them.
+/// colour of the surface voxel from which the minimum steps lead to them.
 bool fillInside(MarkedVoxels& surface);
 
 /// The same for the surface of this mesh. Throws InputError where the mesh is open and encloses nothing.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "methods/shared/parallel/for_each_block.h"
+#include "methods/kit/parallel/for_each_block.h"
 #include "methods/voxel_shape/voxels/triangle_bins.h"
 #include "methods/voxel_shape/voxels/triangle_overlap.h"
 
@@ -21,10 +21,10 @@ void markLayer(const TriangleBins& bins, int layer, MarkedVoxels& result, std::v
     for (const std::uint32_t number : bins.inLayer(static_cast<std::size_t>(layer))) {
         const Triangle& triangle = bins.triangle(number);
         const TriangleOverlap overlap(triangle, margin);
-        const glm::ivec3 least = glm::max(glm::ivec3(glm::floor(triangle.least() - margin)), glm::ivec3(0));
-        const glm::ivec3 most = glm::min(glm::ivec3(glm::floor(triangle.most() + margin)), lattice.counts - 1);
-        for (int y = least.y; y <= most.y; ++y)
-            for (int x = least.x; x <= most.x; ++x) {
+        const glm::ivec3 minimum = glm::max(glm::ivec3(glm::floor(triangle.minimum() - margin)), glm::ivec3(0));
+        const glm::ivec3 maximum = glm::min(glm::ivec3(glm::floor(triangle.maximum() + margin)), lattice.counts - 1);
+        for (int y = minimum.y; y <= maximum.y; ++y)
+            for (int x = minimum.x; x <= maximum.x; ++x) {
                 if (!overlap.overlaps({x, y, layer})) continue;
                 const std::uint32_t voxel = lattice.index({x, y, layer});
                 const glm::vec3 weights = nearestWeights(triangle, glm::vec3(x, y, layer) + 0.5f);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "methods/shared/scene/mesh.h"
+#include "methods/contract/solid.h"
 
 namespace dustbench::voxel_shape {
 

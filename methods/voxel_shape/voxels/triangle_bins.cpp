@@ -21,8 +21,8 @@ TriangleBins::TriangleBins(const scene::Mesh& mesh, const Lattice& lattice, int 
 
     const int layers = lattice.counts[axis];
     const auto reached = [&](const Triangle& triangle) {
-        const auto first = static_cast<int>(std::floor(triangle.least()[axis] - margin));
-        const auto last = static_cast<int>(std::floor(triangle.most()[axis] + margin));
+        const auto first = static_cast<int>(std::floor(triangle.minimum()[axis] - margin));
+        const auto last = static_cast<int>(std::floor(triangle.maximum()[axis] + margin));
         return std::pair(std::max(first, 0), std::min(last, layers - 1));
     };
     starts_.assign(static_cast<std::size_t>(layers) + 1, 0);

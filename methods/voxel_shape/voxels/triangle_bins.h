@@ -1,6 +1,6 @@
 // The triangles of a mesh in voxels, sorted into the layers of a lattice that they reach: a layer is then one thread's.
 //
-// Units: voxels from the lattice's least corner. Owns: its lists.
+// Units: voxels from the lattice's minimum corner. Owns: its lists.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ struct Triangle {
     std::array<glm::vec3, 3> corners;
     std::array<glm::vec3, 3> colours;
 
-    [[nodiscard]] glm::vec3 least() const { return glm::min(glm::min(corners[0], corners[1]), corners[2]); }
-    [[nodiscard]] glm::vec3 most() const { return glm::max(glm::max(corners[0], corners[1]), corners[2]); }
+    [[nodiscard]] glm::vec3 minimum() const { return glm::min(glm::min(corners[0], corners[1]), corners[2]); }
+    [[nodiscard]] glm::vec3 maximum() const { return glm::max(glm::max(corners[0], corners[1]), corners[2]); }
 };
 
 class TriangleBins {

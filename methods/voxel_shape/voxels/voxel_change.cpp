@@ -1,6 +1,6 @@
 #include "methods/voxel_shape/voxels/voxel_change.h"
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::voxel_shape {
 
@@ -35,7 +35,7 @@ bool VoxelChange::contradictsItself() const {
 
 bool VoxelEdit::contains(const glm::vec3& point) const {
     if (isSphere) return glm::distance(point, centre) <= radiusMetres;
-    return glm::all(glm::lessThanEqual(least, point)) && glm::all(glm::lessThanEqual(point, most));
+    return glm::all(glm::lessThanEqual(minimum, point)) && glm::all(glm::lessThanEqual(point, maximum));
 }
 
 void VoxelEdit::applyTo(VoxelGrid& grid) const {
@@ -49,7 +49,7 @@ void VoxelEdit::applyTo(VoxelGrid& grid) const {
         ++met;
     }
     if (met == 0) {
-        const glm::vec3 low = lattice.origin, high = lattice.mostCorner();
+        const glm::vec3 low = lattice.origin, high = lattice.maximumCorner();
         const auto text = [](const glm::vec3& p) {
             return std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z);
         };

@@ -37,8 +37,8 @@ struct VoxelChange {
 struct VoxelEdit {
     std::string where;  ///< for messages: `bunny.toml:31: `
     bool isSphere = false;
-    glm::vec3 least{0}, most{0};  ///< of a box
-    glm::vec3 centre{0};          ///< of a sphere
+    glm::vec3 minimum{0}, maximum{0};  ///< of a box
+    glm::vec3 centre{0};               ///< of a sphere
     float radiusMetres = 0;
     VoxelChange change;
 

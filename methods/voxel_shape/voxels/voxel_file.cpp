@@ -15,7 +15,7 @@
 #include <fstream>
 #include <string>
 
-#include "methods/shared/errors.h"
+#include "methods/contract/errors.h"
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -26,7 +26,7 @@ constexpr const char* versionName = "dustbench_voxels";
 struct Attribute {
     const char* name;
     int components;
-    double least, most;
+    double minimum, maximum;
     float (*get)(const Voxel& voxel, int component);
     void (*set)(Voxel& voxel, const float* numbers);
 };
@@ -96,9 +96,9 @@ Lattice latticeOf(vtkImageData& image, const std::filesystem::path& file) {
     const double* const spacing = image.GetSpacing();
     for (int axis = 0; axis < 3; ++axis) {
         lattice.counts[axis] = image.GetDimensions()[axis] - 1;
-        if (lattice.counts[axis] < 1 || lattice.counts[axis] > mostVoxelsASide)
+        if (lattice.counts[axis] < 1 || lattice.counts[axis] > maximumVoxelsASide)
             fail(file, "got " + std::to_string(lattice.counts[axis]) + " voxels along one side, allowed: 1.." +
-                           std::to_string(mostVoxelsASide));
+                           std::to_string(maximumVoxelsASide));
         if (!(spacing[axis] > 0) || std::abs(spacing[axis] / spacing[0] - 1) > 1e-5)
             fail(file, "the voxels are no cubes: got spacings of " + std::to_string(spacing[0]) + ", " +
                            std::to_string(spacing[1]) + ", " + std::to_string(spacing[2]));
@@ -120,10 +120,10 @@ void readAttribute(const Attribute& attribute, vtkImageData& image, VoxelGrid& g
         float numbers[4];
         for (int c = 0; c < attribute.components; ++c) {
             const double value = array->GetComponent(i, c);
-            if (!(value >= attribute.least && value <= attribute.most))
+            if (!(value >= attribute.minimum && value <= attribute.maximum))
                 fail(file, "cell data '" + std::string(attribute.name) + "': voxel " + std::to_string(i) + " has " +
-                               std::to_string(value) + ", allowed: " + std::to_string(attribute.least) + ".." +
-                               std::to_string(attribute.most));
+                               std::to_string(value) + ", allowed: " + std::to_string(attribute.minimum) + ".." +
+                               std::to_string(attribute.maximum));
             numbers[c] = static_cast<float>(value);
         }
         attribute.set(grid.voxels()[static_cast<std::size_t>(i)], numbers);

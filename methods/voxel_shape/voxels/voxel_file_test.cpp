@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "methods/shared/test_folder.h"
+#include "methods/kit/testing/test_folder.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"
 

@@ -1,8 +1,8 @@
 #include "methods/voxel_shape/voxels/voxel_grid.h"
 
-#include "methods/shared/available_memory.h"
-#include "methods/shared/errors.h"
-#include "methods/shared/maths/hash.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/maths/hash.h"
+#include "methods/kit/memory/available_memory.h"
 
 namespace dustbench::voxel_shape {
 

@@ -8,7 +8,7 @@
 
 #include <span>
 
-#include "methods/shared/memory_ledger.h"
+#include "methods/kit/memory/memory_ledger.h"
 #include "methods/voxel_shape/voxels/marked_voxels.h"
 #include "methods/voxel_shape/voxels/voxel.h"
 

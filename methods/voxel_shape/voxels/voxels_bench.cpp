@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/gpu/device.h"
-#include "methods/shared/scene/mesh_file.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/gpu/device.h"
+#include "methods/kit/meshes/mesh_file.h"
 #include "methods/voxel_shape/voxels/slice_pass.h"
 #include "methods/voxel_shape/voxels/slice_voxels.h"
 #include "methods/voxel_shape/voxels/solid_fill.h"
@@ -19,7 +19,7 @@ const scene::Mesh& model(benchmark::State& state) {
     static const auto bunny = files::dataFolder() / "shapes" / "meshes" / "bunny.ply";
     static const bool there = std::filesystem::exists(bunny);
     static const scene::Mesh mesh =
-        scene::readMesh(there ? bunny : files::dataFolder() / "scenes" / "meshes" / "rock.obj", glm::vec3(1));
+        meshes::readMesh(there ? bunny : files::dataFolder() / "scenes" / "meshes" / "rock.obj", glm::vec3(1));
     state.SetLabel((there ? "bunny, " : "rock, ") + std::to_string(mesh.indices.size() / 3) + " triangles");
     return mesh;
 }

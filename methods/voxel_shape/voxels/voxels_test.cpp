@@ -2,10 +2,10 @@
 
 #include <random>
 
-#include "methods/shared/files/data_folder.h"
-#include "methods/shared/gpu/device.h"
-#include "methods/shared/scene/mesh_file.h"
-#include "methods/shared/test_input_error.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/gpu/device.h"
+#include "methods/kit/meshes/mesh_file.h"
+#include "methods/kit/testing/test_input_error.h"
 #include "methods/voxel_shape/voxels/slice_pass.h"
 #include "methods/voxel_shape/voxels/slice_voxels.h"
 #include "methods/voxel_shape/voxels/solid_fill.h"
@@ -22,7 +22,7 @@ gpu::Device& device() {
 }
 
 scene::Mesh builtIn(const char* file) {
-    return scene::readMesh(files::dataFolder() / "scenes" / "meshes" / file, {0.4f, 0.3f, 0.2f});
+    return meshes::readMesh(files::dataFolder() / "scenes" / "meshes" / file, {0.4f, 0.3f, 0.2f});
 }
 
 struct Overlap {

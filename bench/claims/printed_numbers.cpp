@@ -1,0 +1,63 @@
+#include "bench/claims/printed_numbers.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+#include <sstream>
+
+#include "bench/claims/claim_ledger.h"
+#include "bench/claims/result_rows.h"
+#include "bench/measure/statistics.h"
+#include "methods/kit/files/data_folder.h"
+
+namespace dustbench::bench {
+namespace {
+
+/// The sum of the columns of a run; nothing where one is empty.
+std::optional<double> sumOf(const ResultRows& rows, std::size_t row, const std::string& columns) {
+    double sum = 0;
+    std::istringstream names(columns);
+    for (std::string name; names >> name;) {
+        const auto value = rows.number(row, name);
+        if (!value) return std::nullopt;
+        sum += *value;
+    }
+    return sum;
+}
+
+}  // namespace
+
+TextRows tabulatePrinted(const files::CsvTable& published, const files::CsvTable& summary) {
+    TextRows table{{"what", "paper", "formula", "measured", "measured/formula"}, {}};
+    for (std::size_t line = 0; line < published.rows(); ++line) {
+        const std::string where = published.where(line), columns = published.cell(line, "columns");
+        const Selection of = parseSelection(published.cell(line, "of"), where + "of");
+        std::istringstream names(columns);
+        for (std::string name; names >> name;) requireColumn(where, name);
+        const std::string& suite = published.cell(line, "suite");
+        std::set<std::string> runs;
+        if (!suite.empty()) runs = runIdsOf(suite, summary);
+        const ResultRows rows(summary, suite.empty() ? nullptr : &runs);
+        std::vector<double> sums;
+        for (const std::size_t row : rows.select(of))
+            if (const auto sum = sumOf(rows, row, columns)) sums.push_back(*sum);
+        const std::string& formula = published.cell(line, "formula");
+        std::string measured, ratio;
+        if (!sums.empty()) {
+            measured = files::csvNumber(median(sums));
+            if (!formula.empty()) ratio = fmt::format("{:.3f}", median(sums) / published.number(line, "formula"));
+        }
+        table.rows.push_back(
+            {published.cell(line, "what"), published.cell(line, "published"), formula, measured, ratio});
+    }
+    return table;
+}
+
+TextRows tabulatePrinted(const std::string& paper, const files::CsvTable& summary) {
+    const std::filesystem::path file = files::dataFolder() / "papers" / paper / "numbers.csv";
+    if (!std::filesystem::exists(file)) return {};
+    return tabulatePrinted(files::CsvTable::parseFile(file), summary);
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,135 @@
+// `compare DIR_A DIR_B` as a user calls it, on folders whose run.json were written here.
+#include <gmock/gmock.h>
+
+#include "bench/cli/called_program.h"
+#include "bench/results/run_record.h"
+#include "methods/kit/files/csv.h"
+
+namespace dustbench::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CompareFolders : public Dustbench {
+ protected:
+    /// Six runs of two cells; `change` sees each record before it is written.
+    template <typename Change>
+    void write(const std::string& name, double factor, const Change& change) const {
+        for (const int particles : {100, 900})
+            for (int repetition = 1; repetition <= 6; ++repetition) {
+                bench::RunRecord record;
+                record.spec.method = "haze";
+                record.spec.parameters["particles"] = std::to_string(particles);
+                record.spec.repetition = repetition;
+                record.stateHash = "0123456789abcdef";
+                record.provenance.machine.cpu = "Cpu 1";
+                record.provenance.build.buildType = "Release";
+                change(record);
+                record.summary = {{"repetition", std::int64_t{repetition}},
+                                  {"frame_ms_median", particles * factor * (1 + 0.002 * repetition)}};
+                const fs::path folder = folder_ / name / "runs" / bench::runId(record.spec);
+                fs::create_directories(folder);
+                std::ofstream(folder / "run.json") << bench::toJson(record);
+            }
+    }
+    void write(const std::string& name, double factor) const {
+        write(name, factor, [](bench::RunRecord&) {});
+    }
+    [[nodiscard]] Called compare(const std::string& b, const std::string& more = "--fail-on-regression 5") const {
+        return call(fmt::format("compare '{0}/a/' '{0}/{1}/' {2}", folder_.string(), b, more));
+    }
+};
+
+TEST_F(CompareFolders, ExitCodesTellAllIsWellARegressionAndWhatCannotBeCompared) {
+    write("a", 1);
+    write("same", 1.001);
+    write("slower", 1.1);
+    write("elsewhere", 1, [](bench::RunRecord& record) { record.provenance.machine.cpu = "Cpu 2"; });
+    write("other", 1, [](bench::RunRecord& record) { record.stateHash = "fedcba9876543210"; });
+    write("debug", 1, [](bench::RunRecord& record) { record.provenance.build.buildType = "Debug"; });
+    write("shorter", 1, [](bench::RunRecord& record) { record.spec.frames = 9; });
+
+    const Called same = compare("same");
+    EXPECT_EQ(same.code, 0) << same.err;
+    EXPECT_THAT(same.out, AllOf(HasSubstr("frame_ms_median, all"), HasSubstr("SAME")));
+    EXPECT_EQ(same.err, "");
+    const Called slower = compare("slower");
+    EXPECT_EQ(slower.code, 5);
+    EXPECT_THAT(slower.err, HasSubstr("regression: frame_ms_median: haze particles=900 takes 1.1 ["));
+    EXPECT_EQ(compare("slower", "").code, 0);
+    EXPECT_EQ(compare("slower", "--fail-on-regression 12").code, 0);
+    for (const auto& [folder, word] : {std::pair("elsewhere", "cpu: 'Cpu 1' in A and 'Cpu 2' in B (2 cells)"),
+                                       {"other", "state_hash '0123456789abcdef' in A and 'fedcba9876543210' in B"},
+                                       {"debug", "build_type: 'Release' in A and 'Debug' in B"},
+                                       {"shorter", "differ in frames"}}) {
+        const Called called = compare(folder);
+        EXPECT_EQ(called.code, 6) << folder;
+        EXPECT_THAT(called.err, HasSubstr(word));
+        EXPECT_EQ(called.out, "");
+    }
+    EXPECT_EQ(compare("elsewhere", "--across-machines").code, 0);
+    EXPECT_THAT(compare("debug", "--across-machines").err, HasSubstr("12 of 12 runs were measured by a 'Debug' build"));
+    EXPECT_EQ(compare("other", "--across-machines").code, 6);
+}
+
+TEST_F(CompareFolders, AGateThatCouldNotCloseIsNotPassed) {
+    write("a", 1);
+    write("few", 3);
+    for (const fs::path& run : runs((folder_ / "few").string()))
+        if (run.filename().string().find("-r6-") != std::string::npos) fs::remove_all(run);
+    EXPECT_EQ(compare("few", "").code, 0);
+    const Called called = compare("few");
+    EXPECT_EQ(called.code, 6);
+    EXPECT_THAT(called.err, HasSubstr("no cell has 6 runs"));
+    // What fails now is a regression, however few runs there are.
+    write("fails", 1, [](bench::RunRecord& record) {
+        if (record.spec.repetition > 1) return;
+        record.status = bench::RunStatus::timeout;
+        record.reason = "no end after 2 s";
+    });
+    EXPECT_EQ(compare("fails").code, 5);
+    EXPECT_THAT(compare("fails").err, HasSubstr("timed out in B: no end after 2 s"));
+}
+
+TEST_F(CompareFolders, WritesACsvAndTakesFoldersAsTheyAre) {
+    write("a", 1);
+    write("b", 1.1);
+    fs::create_directories(folder_ / "b" / "runs" / ".unfinished-x");
+    const Called called = compare("b", fmt::format("--out '{}'", out()));
+    ASSERT_EQ(called.code, 0) << called.err;
+    const auto table = files::CsvTable::parseFile(fs::path(out()) / "comparison.csv");
+    ASSERT_EQ(table.rows(), 3u);
+    EXPECT_NEAR(table.number(0, "ratio"), 1.1, 1e-9);
+    EXPECT_EQ(table.cell(2, "all_cells"), "1");
+    EXPECT_TRUE(fs::exists(folder_ / "b" / "runs" / ".unfinished-x"));
+    EXPECT_FALSE(fs::exists(folder_ / "b" / "summary.csv"));
+}
+
+TEST_F(CompareFolders, BadInputIsOneLineAndExitCodeThree) {
+    write("a", 1);
+    write("cut", 1);
+    const fs::path cut = runs((folder_ / "cut").string()).front() / "run.json";
+    std::ofstream(cut) << "{\"run_id\": ";
+    for (const auto& [more, word] : {std::pair("cut/", "run.json: is no run.json"), {"nowhere/", "is no folder of"}}) {
+        const Called called = call(fmt::format("compare '{0}/a/' '{0}/{1}'", folder_.string(), more));
+        EXPECT_EQ(called.code, 3);
+        EXPECT_THAT(called.err, HasSubstr(word));
+        EXPECT_EQ(std::ranges::count(called.err, '\n'), 1) << called.err;
+    }
+    for (const auto& [more, word] : {std::pair("--frames 5", "--frames: got it for result folders"),
+                                     {"--columns frame_ms", "did you mean 'frame_ms_"},
+                                     {"--columns fps_avg,fps_avg", "'fps_avg' twice"},
+                                     {"--fail-on-regression much", "'much'"},
+                                     {"--fail-on-regression -1", "'-1'"}}) {
+        const Called called = compare("a", more);
+        EXPECT_EQ(called.code, 3) << more;
+        EXPECT_THAT(called.err, HasSubstr(word));
+    }
+    EXPECT_THAT(call("compare ./a billboard").err, HasSubstr("'billboard' beside a result folder"));
+    EXPECT_THAT(call("compare ./a ./b ./c").err, HasSubstr("got 3 result folders"));
+    EXPECT_THAT(call("compare billboard billboard:soft=true --columns fps_avg").err, HasSubstr("got it for methods"));
+}
+
+}  // namespace
+}  // namespace dustbench::cli

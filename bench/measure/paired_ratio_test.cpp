@@ -1,0 +1,203 @@
+#include "bench/measure/paired_ratio.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "methods/contract/errors.h"
+#include "methods/kit/maths/philox.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr int experiments = 2000;
+
+/// A standard normal number (Box and Muller's transform) of a simulated experiment.
+double normal(std::uint32_t stream, int experiment, std::size_t serial) {
+    const auto words = maths::randomWords(11, stream, serial, static_cast<std::uint32_t>(experiment));
+    const double u = (words[0] + 0.5) * 0x1p-32;
+    const double v = (words[1] + 0.5) * 0x1p-32;
+    return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+}
+
+struct Times {
+    std::vector<double> of, with;
+};
+
+/// `pairs` rounds of a slow machine and a fast one: each round drifts by a factor of its own, each time scatters, the
+/// ratio of a pair by `noise` as a standard deviation of its logarithm.
+Times simulate(int experiment, std::size_t pairs, double ratio, double noise, double drift = 0.3) {
+    Times times;
+    for (std::size_t i = 0; i < pairs; ++i) {
+        const double round = 20 * std::exp(drift * normal(1, experiment, i));
+        times.of.push_back(ratio * round * std::exp(noise * std::numbers::sqrt2 / 2 * normal(2, experiment, i)));
+        times.with.push_back(round * std::exp(noise * std::numbers::sqrt2 / 2 * normal(3, experiment, i)));
+    }
+    return times;
+}
+
+template <typename Holds>
+int countExperiments(std::size_t pairs, double ratio, double noise, const Holds& holds) {
+    int count = 0;
+    for (int experiment = 0; experiment < experiments; ++experiment) {
+        const Times times = simulate(experiment, pairs, ratio, noise);
+        count += holds(comparePaired(times.of, times.with)) ? 1 : 0;
+    }
+    return count;
+}
+
+TEST(PairedRatio, QuantilesAreThoseOfPublishedTables) {
+    struct Row {
+        double degrees, t95, t975, t995;
+    };
+    for (const Row& row : {Row{1, 6.314, 12.706, 63.657}, Row{2, 2.920, 4.303, 9.925}, Row{5, 2.015, 2.571, 4.032},
+                           Row{10, 1.812, 2.228, 3.169}, Row{30, 1.697, 2.042, 2.750}}) {
+        EXPECT_NEAR(studentQuantile(0.95, row.degrees), row.t95, 5e-4);
+        EXPECT_NEAR(studentQuantile(0.975, row.degrees), row.t975, 5e-4);
+        EXPECT_NEAR(studentQuantile(0.995, row.degrees), row.t995, 5e-4);
+    }
+}
+
+TEST(PairedRatio, QuantilesEqualTheClosedFormsForOneAndTwoDegrees) {
+    for (double p = 0.01; p < 1; p += 0.07) {
+        EXPECT_NEAR(studentQuantile(p, 1), std::tan(std::numbers::pi * (p - 0.5)), 1e-9);
+        EXPECT_NEAR(studentQuantile(p, 2), (2 * p - 1) / std::sqrt(2 * p * (1 - p)), 1e-9);
+    }
+}
+
+TEST(PairedRatio, EqualsTheClosedFormOfKnownLogRatios) {
+    // Logarithms 0.1 ± 0.02, three of each: mean 0.1, s² = 6·0.02²/5, s/√6 = 0.02/√5.
+    std::vector<double> of, with;
+    for (int i = 0; i < 6; ++i) {
+        with.push_back(3.0 * (i + 1));
+        of.push_back(with.back() * std::exp(i % 2 ? 0.12 : 0.08));
+    }
+    const PairedRatio result = comparePaired(of, with);
+    const double half = 2.570581835636 * 0.02 / std::sqrt(5.0);
+    EXPECT_EQ(result.pairs, 6u);
+    EXPECT_NEAR(result.ratio, std::exp(0.1), 1e-12);
+    EXPECT_NEAR(result.low, std::exp(0.1 - half), 1e-9);
+    EXPECT_NEAR(result.high, std::exp(0.1 + half), 1e-9);
+    EXPECT_EQ(result.verdict, Verdict::slower);
+}
+
+TEST(PairedRatio, TheVerdictFollowsFromIntervalAndMargin) {
+    const auto verdictOf = [](double low, double high) {
+        // Six logarithms whose interval has just these ends: mean ± h, three of each, so that s/√6 = h/√5.
+        const double mean = (std::log(low) + std::log(high)) / 2;
+        const double h = (std::log(high) - std::log(low)) / 2 * std::sqrt(5.0) / studentQuantile(0.975, 5);
+        return judgeLogRatios(std::vector{mean - h, mean + h, mean - h, mean + h, mean - h, mean + h}).verdict;
+    };
+    EXPECT_EQ(verdictOf(0.90, 0.979), Verdict::faster);
+    EXPECT_EQ(verdictOf(0.90, 0.982), Verdict::unresolved);
+    EXPECT_EQ(verdictOf(0.981, 1.019), Verdict::same);
+    EXPECT_EQ(verdictOf(1.005, 1.015), Verdict::same);
+    EXPECT_EQ(verdictOf(1.019, 1.10), Verdict::unresolved);
+    EXPECT_EQ(verdictOf(1.021, 1.10), Verdict::slower);
+    EXPECT_EQ(verdictOf(0.90, 1.10), Verdict::unresolved);
+}
+
+TEST(PairedRatio, FewerThanSixPairsResolveNothing) {
+    std::vector<double> of, with;
+    for (int i = 0; i < 5; ++i) {
+        of.push_back(1 + 0.001 * i);
+        with.push_back(2);
+        EXPECT_EQ(comparePaired(of, with).verdict, Verdict::unresolved);
+    }
+    const PairedRatio five = comparePaired(of, with);
+    EXPECT_EQ(five.pairs, 5u);
+    EXPECT_LT(five.high, 0.51);
+    of.push_back(1);
+    with.push_back(2);
+    EXPECT_EQ(comparePaired(of, with).verdict, Verdict::faster);
+
+    const PairedRatio one = comparePaired(std::vector{1.0}, std::vector{2.0});
+    EXPECT_DOUBLE_EQ(one.ratio, 0.5);
+    EXPECT_TRUE(std::isnan(one.low) && std::isnan(one.high));
+    EXPECT_TRUE(std::isnan(comparePaired({}, {}).ratio));
+}
+
+TEST(PairedRatio, ExchangingTheTwoGivesTheInverse) {
+    for (int experiment = 0; experiment < 200; ++experiment) {
+        const Times times = simulate(experiment, 6, 0.93 + 0.0007 * experiment, 0.02);
+        const PairedRatio there = comparePaired(times.of, times.with);
+        const PairedRatio back = comparePaired(times.with, times.of);
+        EXPECT_NEAR(there.ratio * back.ratio, 1, 1e-12);
+        EXPECT_NEAR(there.low * back.high, 1, 1e-12);
+        EXPECT_NEAR(there.high * back.low, 1, 1e-12);
+        const Verdict mirrored = there.verdict == Verdict::faster   ? Verdict::slower
+                                 : there.verdict == Verdict::slower ? Verdict::faster
+                                                                    : there.verdict;
+        EXPECT_EQ(back.verdict, mirrored);
+    }
+}
+
+TEST(PairedRatio, NeitherTheUnitNorADriftThatHitsBothMatters) {
+    const Times steady = simulate(3, 8, 0.9, 0.02, 0);
+    const Times drifting = simulate(3, 8, 0.9, 0.02, 1.0);
+    Times nanoseconds = steady;
+    for (std::vector<double>* times : {&nanoseconds.of, &nanoseconds.with})
+        for (double& time : *times) time *= 1e6;
+    const PairedRatio expected = comparePaired(steady.of, steady.with);
+    for (const Times& times : {drifting, nanoseconds}) {
+        const PairedRatio result = comparePaired(times.of, times.with);
+        EXPECT_NEAR(result.ratio, expected.ratio, 1e-12);
+        EXPECT_NEAR(result.low, expected.low, 1e-12);
+        EXPECT_NEAR(result.high, expected.high, 1e-12);
+    }
+}
+
+TEST(PairedRatio, TheIntervalHoldsTheTruthInNineteenOfTwenty) {
+    for (const std::size_t pairs : {std::size_t{2}, std::size_t{6}, std::size_t{12}}) {
+        const double truth = 0.8;
+        const int held = countExperiments(pairs, truth, 0.1, [truth](const PairedRatio& result) {
+            return result.low <= truth && truth <= result.high;
+        });
+        // Three standard deviations of a count of 2000 with p = 0.95 are 29.
+        EXPECT_NEAR(held, 0.95 * experiments, 29) << pairs << " pairs";
+    }
+}
+
+TEST(PairedRatio, AMethodAgainstItselfIsSeldomCalledFasterOrSlower) {
+    const auto wrong = [](const PairedRatio& result) {
+        return result.verdict == Verdict::faster || result.verdict == Verdict::slower;
+    };
+    for (const double noise : {0.002, 0.01, 0.02, 0.05})
+        EXPECT_LE(countExperiments(6, 1, noise, wrong), experiments / 40) << noise;
+    // However noisy: at most 1 of 20, and three standard deviations of the count.
+    EXPECT_LE(countExperiments(6, 1, 0.5, wrong), experiments / 20 + 29);
+}
+
+TEST(PairedRatio, SteadyTimesAreResolved) {
+    const auto is = [](Verdict verdict) {
+        return [verdict](const PairedRatio& result) { return result.verdict == verdict; };
+    };
+    EXPECT_GE(countExperiments(6, 0.9, 0.02, is(Verdict::faster)), experiments * 95 / 100);
+    EXPECT_GE(countExperiments(6, 1.1, 0.02, is(Verdict::slower)), experiments * 95 / 100);
+    EXPECT_GE(countExperiments(6, 1, 0.005, is(Verdict::same)), experiments * 95 / 100);
+    EXPECT_GE(countExperiments(6, 1, 0.1, is(Verdict::unresolved)), experiments * 95 / 100);
+}
+
+TEST(PairedRatio, RefusesTimesThatAreNoTimes) {
+    const auto messageOf = [](const std::vector<double>& of, const std::vector<double>& with) -> std::string {
+        try {
+            (void)comparePaired(of, with);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "nothing thrown";
+    };
+    EXPECT_EQ(messageOf({1, 2}, {1}), "paired times: got 2 and 1, expected equally many");
+    EXPECT_EQ(messageOf({1, 0}, {1, 1}), "paired times: got 0 in pair 1, expected a number above 0");
+    EXPECT_THAT(messageOf({1}, {-3}), testing::HasSubstr("-3"));
+    EXPECT_THAT(messageOf({std::nan("")}, {1}), testing::HasSubstr("nan"));
+    EXPECT_THAT(messageOf({1}, {std::numeric_limits<double>::infinity()}), testing::HasSubstr("inf"));
+}
+
+}  // namespace
+}  // namespace dustbench::bench

@@ -1,0 +1,91 @@
+#include "bench/reference/judge/judgement.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "methods/kit/files/csv.h"
+
+namespace dustbench::bench {
+namespace {
+
+using Metric = std::optional<double> MomentMetrics::*;
+
+struct MeanMetric {
+    MetricInfo info;
+    Metric of;
+};
+
+/// Those of which a run has the mean over its moments.
+constexpr std::array<MeanMetric, 12> means{{
+    {{"psnr_db", "peak signal-to-noise ratio against the exact picture, dB"}, &MomentMetrics::psnrDb},
+    {{"ssim", "structural similarity to the exact picture, 1: the same"}, &MomentMetrics::ssim},
+    {{"flip", "difference from the exact picture that an eye sees when the two alternate, 0: none"},
+     &MomentMetrics::flip},
+    {{"rmse_linear", "root of the mean squared difference of linear light"}, &MomentMetrics::rmseLinear},
+    {{"psnr_continuum_db", "psnr_db against 64 times as many particles, dB"}, &MomentMetrics::psnrContinuumDb},
+    {{"gaps", "share of the trail that is not covered"}, &MomentMetrics::gaps},
+    {{"components", "parts into which the trail falls"}, &MomentMetrics::components},
+    {{"components_reference", "parts into which the exact trail falls"}, &MomentMetrics::componentsReference},
+    {{"cutoff", "edges where dust meets ground and solids that are not there in truth, alpha per pixel"},
+     &MomentMetrics::cutoff},
+    {{"self_similarity", "how much all primitives look alike, 0: not at all"}, &MomentMetrics::selfSimilarity},
+    {{"quads_per_pixel", "primitives by pixels of dust"}, &MomentMetrics::quadsPerPixel},
+    {{"volume_error", "distance of the volume from the particles' own, 0: none"}, &MomentMetrics::volumeError},
+}};
+constexpr std::array<MetricInfo, 3> others{{
+    {"identical", "1: every judged picture is the exact one"},
+    {"popping", "what jumps from frame to frame and should not: mean over the last frames"},
+    {"popping_max", "the largest of these jumps"},
+}};
+
+}  // namespace
+
+std::string metricsCsv(const Judgement& judgement) {
+    std::string text = "frame,time_s";
+    for (const MeanMetric& metric : means) text.append(",").append(metric.info.column);
+    text += ",identical,popping\n";
+    const auto cell = [](const std::optional<double>& value) { return value ? files::csvNumber(*value) : ""; };
+    for (const MomentMetrics& moment : judgement.frames) {
+        text += std::to_string(moment.frame) + "," + files::csvNumber(moment.timeSeconds);
+        for (const MeanMetric& metric : means) text += "," + cell(moment.*metric.of);
+        text += moment.identical ? (*moment.identical ? ",1" : ",0") : ",";
+        text += "," + cell(moment.popping) + "\n";
+    }
+    return text;
+}
+
+std::vector<std::pair<std::string, double>> summaryOf(const Judgement& judgement) {
+    std::vector<std::pair<std::string, double>> cells;
+    for (const MeanMetric& metric : means) {
+        double sum = 0;
+        int count = 0;
+        for (const MomentMetrics& moment : judgement.frames)
+            if (const std::optional<double>& value = moment.*metric.of) {
+                sum += *value;
+                ++count;
+            }
+        if (count > 0) cells.emplace_back(metric.info.column, sum / count);
+    }
+    int moments = 0, identical = 0;
+    for (const MomentMetrics& moment : judgement.frames) {
+        moments += moment.identical ? 1 : 0;
+        identical += moment.identical.value_or(false) ? 1 : 0;
+    }
+    if (moments > 0) cells.emplace_back("identical", identical == moments ? 1 : 0);
+    if (judgement.popping) cells.emplace_back("popping", *judgement.popping);
+    if (judgement.poppingMax) cells.emplace_back("popping_max", *judgement.poppingMax);
+    return cells;
+}
+
+std::span<const MetricInfo> metricInfos() {
+    static const std::vector<MetricInfo> infos = [] {
+        std::vector<MetricInfo> list;
+        for (const MeanMetric& metric : means) list.push_back(metric.info);
+        list.insert(list.end(), others.begin(), others.end());
+        return list;
+    }();
+    return infos;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,80 @@
+#include "bench/reference/judge/judging_plan.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "bench/reference/judge/judgement.h"
+#include "methods/kit/testing/test_folder.h"
+#include "source_folder.h"
+
+namespace dustbench::bench {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Pair;
+
+TEST(JudgingPlan, TakesFiveMomentsFromTheFirstFrameToTheLast) {
+    const JudgingPlan plan;
+    EXPECT_THAT(plan.momentsOf(120), ElementsAre(0, 29, 59, 89, 119));
+    EXPECT_THAT(plan.momentsOf(5), ElementsAre(0, 1, 2, 3, 4));
+    EXPECT_THAT(plan.momentsOf(1), ElementsAre(0));
+    EXPECT_THAT(plan.momentsOf(3), ElementsAre(0, 1, 2));
+}
+
+TEST(JudgingPlan, TakesTheMomentsThatAreNamed) {
+    const JudgingPlan plan{FrameRange{2, 14, 3}, {}};
+    EXPECT_THAT(plan.momentsOf(120), ElementsAre(2, 5, 8, 11, 14));
+    EXPECT_NO_THROW(requireMomentsWithinRun(plan, 15));
+    EXPECT_THAT(inputError([&] { requireMomentsWithinRun(plan, 14); }), HasSubstr("frame 14 is beyond"));
+    EXPECT_THAT(inputError([] {
+                    requireMomentsWithinRun({FrameRange{0, 3, 1}, {}}, 100);
+                }),
+                HasSubstr("got 4 moments"));
+}
+
+TEST(JudgingPlan, PoppingIsSeenOverTheLastFramesOrNotAtAll) {
+    EXPECT_THAT(JudgingPlan::stretchOf(30), IsEmpty());
+    EXPECT_EQ(JudgingPlan::stretchOf(31).size(), 31u);
+    EXPECT_EQ(JudgingPlan::stretchOf(100).front(), 69);
+    EXPECT_EQ(JudgingPlan::stretchOf(100).back(), 99);
+}
+
+TEST(Judgement, AveragesOverTheMomentsAtWhichAMetricIsDefined) {
+    Judgement judgement;
+    judgement.frames.resize(3);
+    judgement.frames[0].psnrDb = 30;
+    judgement.frames[0].identical = false;
+    judgement.frames[1].psnrDb = 40;
+    judgement.frames[1].identical = false;
+    judgement.frames[2].identical = true;
+    judgement.frames[2].flip = 0;
+    judgement.poppingMax = 0.5;
+    EXPECT_THAT(summaryOf(judgement),
+                ElementsAre(Pair("psnr_db", 35), Pair("flip", 0), Pair("identical", 0), Pair("popping_max", 0.5)));
+    judgement.frames.erase(judgement.frames.begin(), judgement.frames.begin() + 2);
+    EXPECT_THAT(summaryOf(judgement), testing::Contains(Pair("identical", 1)));
+}
+
+TEST(Judgement, EveryMetricIsDefinedInTheDocument) {
+    std::ifstream file(std::string(DUSTBENCH_SOURCE_DIR) + "/reports/METRICS.md");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (const MetricInfo& metric : metricInfos())
+        EXPECT_THAT(text, HasSubstr("`" + std::string(metric.column) + "`")) << metric.column;
+}
+
+TEST(Judgement, LeavesCellsEmptyWhereNothingIsDefined) {
+    Judgement judgement;
+    judgement.frames.resize(1);
+    judgement.frames[0].frame = 7;
+    judgement.frames[0].timeSeconds = 0.5;
+    judgement.frames[0].popping = 0.25;
+    const std::string text = metricsCsv(judgement);
+    EXPECT_EQ(text.substr(text.find('\n') + 1), "7,0.5,,,,,,,,,,,,,,0.25\n");
+}
+
+}  // namespace
+}  // namespace dustbench::bench

@@ -1,0 +1,88 @@
+#include "bench/reference/judge/moment_metrics.h"
+
+#include "bench/export/extinction_grid.h"
+#include "bench/measure/image/cutoff.h"
+#include "bench/measure/image/flip.h"
+#include "bench/measure/image/image_check.h"
+#include "bench/measure/image/picture_error.h"
+#include "bench/measure/image/quads_per_pixel.h"
+#include "bench/measure/image/self_similarity.h"
+#include "bench/measure/image/ssim.h"
+#include "bench/measure/image/trail_gaps.h"
+#include "bench/measure/image/volume_error.h"
+
+namespace dustbench::bench {
+namespace {
+
+/// On the reference's default export grid.
+std::optional<double> volumeErrorOf(const CollectedVolume& volume, const CollectedVolume& exact) {
+    if (volume.isNothing() || exact.isNothing()) return std::nullopt;
+    const GridPlan plan = planGrid(exact.bounds(), VolumeSettings().resolution);
+    const ExtinctionGrid reference = computeGrid(exact, plan), grid = computeGrid(volume, plan);
+    return volumeError({plan.cells, reference.extinctionPerMetre}, {plan.cells, grid.extinctionPerMetre}).value;
+}
+
+/// What the pixels hold is opaque up to rounding; the metrics want it to be so exactly.
+pictures::Image overScene(const pictures::Image& layer, const pictures::Image& scene) {
+    pictures::Image image = pictures::over(layer, scene);
+    for (glm::vec4& pixel : image.pixels) pixel.a = 1;
+    return image;
+}
+
+std::optional<double> asNumber(const std::optional<int>& value) {
+    return value ? std::optional<double>(*value) : std::nullopt;
+}
+
+}  // namespace
+
+JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, const MomentFacts& facts) {
+    JudgedMoment judged;
+    judged.picture = overScene(drawn.layer, drawn.scene);
+    judged.reference = overScene(exact.layer, drawn.scene);
+    const Picture picture = preparePicture(judged.picture, "the method's picture");
+    const Picture reference = preparePicture(judged.reference, "the reference");
+    const Plane alpha = alphaOf(drawn.layer, "the method's layer");
+    const Plane alphaFree = alphaOf(drawn.layerWithoutScene, "the method's layer without the scene");
+    const Plane exactAlpha = alphaOf(exact.layer, "the reference's layer");
+    const Plane exactFree = alphaOf(exact.layerWithoutScene, "the reference's layer without the scene");
+    const Plane continuum = alphaOf(exact.continuum, "the continuum's layer");
+
+    MomentMetrics& metrics = judged.metrics;
+    const PictureError error = pictureError(reference, picture);
+    metrics.psnrDb = error.psnrDb;
+    metrics.identical = error.identical;
+    metrics.rmseLinear = error.rmseLinear;
+    metrics.ssim = ssim(reference, picture).value;
+    Measured flipped = flip(reference, picture);
+    metrics.flip = flipped.value;
+    judged.difference = std::move(flipped.map);
+    metrics.psnrContinuumDb =
+        pictureError(preparePicture(overScene(exact.continuum, drawn.scene), "the continuum"), picture).psnrDb;
+    metrics.gaps = gaps(alpha, continuum).value;
+    const TrailParts parts = components(alpha, continuum);
+    metrics.components = asNumber(parts.parts);
+    metrics.componentsReference = asNumber(parts.referenceParts);
+    metrics.cutoff = cutoff(alpha, alphaFree, exactAlpha, exactFree).value;
+    metrics.selfSimilarity =
+        selfSimilarity(alpha, exactAlpha, primitivesOnScreen(facts.volume, facts.view), facts.seed).value;
+    metrics.quadsPerPixel = quadsPerPixel(facts.primitives, exactAlpha);
+    metrics.volumeError = volumeErrorOf(facts.volume, facts.referenceVolume);
+    return judged;
+}
+
+std::optional<double> PoppingJudge::add(const DrawnMoment& drawn, const ExactMoment& exact) {
+    Kept now{preparePicture(overScene(drawn.layer, drawn.scene), "the method's picture"),
+             preparePicture(overScene(exact.layer, drawn.scene), "the reference"),
+             alphaOf(drawn.layer, "the method's layer"), alphaOf(exact.layer, "the reference's layer")};
+    std::optional<double> value;
+    if (before_) {
+        value = popping({before_->image, before_->reference, before_->alpha, before_->referenceAlpha},
+                        {now.image, now.reference, now.alpha, now.referenceAlpha})
+                    .value;
+        summary_.add(value);
+    }
+    before_ = std::move(now);
+    return value;
+}
+
+}  // namespace dustbench::bench

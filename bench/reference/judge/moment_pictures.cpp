@@ -1,0 +1,47 @@
+#include "bench/reference/judge/moment_pictures.h"
+
+#include "bench/reference/camera_rays.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/octree/cell_kernel.h"
+
+namespace dustbench::bench {
+
+ExactMoment exactMoment(const scene::View& view, const DrawnMoment& drawn, const Puffs& dust, bool withDetail,
+                        const std::optional<Puffs>& continuum) {
+    const OpaqueDistances distances = distancesFromDepth(view, drawn.sceneDepth);
+    ExactMoment exact;
+    exact.layer = renderParticles(dust, view, distances).image;
+    ReferenceOptions options;
+    if (withDetail) {
+        options.ignoreScene = true;
+        exact.layerWithoutScene = renderParticles(dust, view, distances, options).image;
+    }
+    if (continuum) {
+        options.ignoreScene = false;
+        options.opticalDepthShare = 1.0 / continuumParticles;
+        exact.continuum = renderParticles(*continuum, view, distances, options).image;
+    }
+    return exact;
+}
+
+std::vector<ScreenPrimitive> primitivesOnScreen(const CollectedVolume& volume, const scene::View& view) {
+    const CameraRays rays(view);
+    const double pixelsPerSlope = rays.pixelX(1) - rays.pixelX(0);
+    std::vector<ScreenPrimitive> primitives;
+    const auto add = [&](const glm::dvec3& centre, double radiusMetres) {
+        const glm::dvec3 place = rays.fromWorld(centre);
+        if (place.z <= view.camera.nearMetres) return;
+        primitives.push_back(
+            {rays.pixelX(place.x / place.z), rays.pixelY(place.y / place.z), radiusMetres / place.z * pixelsPerSlope});
+    };
+    for (const CollectedPuff& puff : volume.puffs())
+        add(glm::dvec3(puff.centre), static_cast<double>(puff.radiusMetres));
+    for (const CollectedOctree& octree : volume.octrees())
+        for (const OctreeVoxel& voxel : octree.voxels) {
+            const double edge = octree.cellEdgeMetres(voxel.level);
+            add(octree.minimumCorner(voxel) + 0.5 * edge, edge / static_cast<double>(octree::edgePerRadius));
+        }
+    return primitives;
+}
+
+}  // namespace dustbench::bench

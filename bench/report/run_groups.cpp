@@ -1,0 +1,241 @@
+#include "bench/report/run_groups.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <set>
+
+#include "bench/results/summary.h"
+#include "bench/suite/catalogue.h"
+#include "bench/suite/cell_results.h"
+#include "bench/suite/suite.h"
+#include "bench/suite/suite_axes.h"
+#include "methods/contract/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+using Settings = std::map<std::string, std::string, std::less<>>;
+
+/// Cells of summary.csv that say what a run was, `size` in place of width and height.
+constexpr std::array<std::string_view, 6> worldCells{"scene", "drive", "seed", "sync", "threads", "frames"};
+/// Whose growth with a load is worth a curve.
+constexpr std::array<std::string_view, 3> fittedColumns{"frame_ms_median", "build_ms_median", "sort_ms_median"};
+
+std::optional<double> numberOf(std::string_view text) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+const std::string& cellOf(const StoredRun& run, std::string_view column) {
+    static const std::string none;
+    const auto found = run.cells.find(column);
+    return found == run.cells.end() ? none : found->second;
+}
+
+/// Everything about a run that can tell two cells apart, but its method and machine.
+Settings settingsOf(const StoredRun& run) {
+    Settings settings(run.parameters.begin(), run.parameters.end());
+    // A run that did not get there has no frames of its own; it belongs to the same cell all the same.
+    for (const std::string_view column : worldCells)
+        if (column != "frames" || run.status == RunStatus::done) settings.emplace(column, cellOf(run, column));
+    if (!cellOf(run, "width").empty()) settings["size"] = cellOf(run, "width") + "x" + cellOf(run, "height");
+    return settings;
+}
+
+bool isWorld(std::string_view name) {
+    return name == "size" || std::ranges::find(worldCells, name) != worldCells.end() || isOfTheWorld(name);
+}
+
+void describe(ReportAxis& axis, const std::set<std::string>& methods) {
+    std::vector<Parameter> declared = worldParameterList();
+    for (const CatalogueItem& item : catalogue("methods"))
+        if (methods.contains(item.id)) std::ranges::copy(item.parameters, std::back_inserter(declared));
+    const auto found = std::ranges::find(declared, axis.name, &Parameter::name);
+    if (found == declared.end()) return;
+    axis.unit = found->unit;
+    axis.help = found->help;
+}
+
+/// By number where all are numbers, else by name.
+void sortValues(ReportAxis& axis) {
+    axis.numeric =
+        std::ranges::all_of(axis.values, [](const std::string& value) { return numberOf(value).has_value(); });
+    std::ranges::sort(axis.values, [&axis](const std::string& a, const std::string& b) {
+        return axis.numeric ? *numberOf(a) < *numberOf(b) : a < b;
+    });
+}
+
+/// Of the world what differs anywhere; of a method's own settings what differs among its own runs. What merely differs
+/// from method to method is how they were set up.
+std::vector<ReportAxis> axesOf(const std::vector<const StoredRun*>& runs) {
+    std::map<std::string, std::map<std::string, std::set<std::string>>> valuesByMethod;  // by name, then method
+    std::set<std::string> methods;
+    for (const StoredRun* run : runs)
+        for (const auto& [name, value] : settingsOf(*run)) {
+            valuesByMethod[name][isWorld(name) ? std::string() : cellOf(*run, "method")].insert(value);
+            methods.insert(cellOf(*run, "method"));
+        }
+    std::vector<ReportAxis> axes;
+    for (const auto& [name, byMethod] : valuesByMethod) {
+        if (std::ranges::none_of(byMethod, [](const auto& entry) { return entry.second.size() > 1; })) continue;
+        ReportAxis axis;
+        axis.name = name;
+        axis.world = isWorld(name);
+        std::set<std::string> values;
+        for (const auto& [method, some] : byMethod) values.insert(some.begin(), some.end());
+        axis.values.assign(values.begin(), values.end());
+        sortValues(axis);
+        describe(axis, methods);
+        axes.push_back(std::move(axis));
+    }
+    return axes;
+}
+
+void fitCurves(RunGroup& group) {
+    constexpr std::size_t minimumLoads = 4;
+    for (const ReportAxis& axis : group.axes) {
+        if (!axis.numeric || axis.values.size() < minimumLoads) continue;
+        std::map<std::tuple<std::string, Settings, std::size_t>, std::vector<const ReportCell*>> curves;
+        for (const ReportCell& cell : group.cells) {
+            Settings rest = cell.settings;
+            if (rest.erase(axis.name) > 0) curves[{cell.method, rest, cell.machine}].push_back(&cell);
+        }
+        for (const auto& [key, cells] : curves)
+            for (const std::string_view column : fittedColumns) {
+                std::vector<CostPoint> points;
+                for (const ReportCell* cell : cells)
+                    for (const double ms : numbersIn(cell->done, column))
+                        points.push_back({*numberOf(cell->settings.at(axis.name)), ms});
+                const CostFit fit = fitCost(points);
+                if (!fit.reason.empty()) continue;
+                const auto& [method, rest, machine] = key;
+                group.fits.push_back({axis.name, std::string(column), method, rest, machine, fit});
+            }
+    }
+}
+
+std::string labelOf(const RunGroup& group, const ReportCell& cell, bool world) {
+    std::string label;
+    for (const ReportAxis& axis : group.axes) {
+        const auto found = cell.settings.find(axis.name);
+        if (axis.world == world && found != cell.settings.end() && !found->second.empty())
+            label += fmt::format("{}{}={}", label.empty() ? "" : " ", axis.name, found->second);
+    }
+    return label;
+}
+
+/// The runs of this form of the suite that are there.
+std::vector<const StoredRun*> runsOf(const Suite& suite, int repetitions, const StoredRuns& runs) {
+    std::vector<const StoredRun*> found;
+    for (const PlannedRun& cell : suite.cells)
+        for (int repetition = 1; repetition <= repetitions; ++repetition)
+            if (const auto run = runs.find(runId(inRepetition(cell.spec, repetition))); run != runs.end())
+                found.push_back(&run->second);
+    return found;
+}
+
+}  // namespace
+
+const std::vector<std::string>& numericColumns() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> list = columnsAfterParameters();
+        std::erase_if(list,
+                      [](const std::string& name) { return name.starts_with("FILE_") || name == "metric_reference"; });
+        return list;
+    }();
+    return names;
+}
+
+std::string variantLabel(const RunGroup& group, const ReportCell& cell) {
+    const std::string own = labelOf(group, cell, false);
+    return own.empty() ? cell.method : cell.method + " " + own;
+}
+
+std::string worldLabel(const RunGroup& group, const ReportCell& cell) {
+    return labelOf(group, cell, true);
+}
+
+RunGroup makeGroup(const std::vector<const StoredRun*>& runs, const MachineOfRun& machines) {
+    RunGroup group;
+    group.axes = axesOf(runs);
+    std::map<std::tuple<std::string, Settings, std::size_t>, ReportCell> cells;
+    for (const StoredRun* run : runs) {
+        const Settings all = settingsOf(*run);
+        Settings settings;
+        for (const ReportAxis& axis : group.axes)
+            if (const auto found = all.find(axis.name); found != all.end()) settings.insert(*found);
+        const auto machine = machines.find(run->runId);
+        const std::size_t index = machine == machines.end() ? 0 : machine->second;
+        ReportCell& cell = cells[{cellOf(*run, "method"), settings, index}];
+        cell.method = cellOf(*run, "method");
+        cell.settings = settings;
+        cell.machine = index;
+        if (run->status == RunStatus::done)
+            cell.done.push_back(run);
+        else
+            ++cell.failed;
+    }
+    for (auto& [key, cell] : cells) {
+        std::ranges::sort(cell.done, {}, [](const StoredRun* run) {
+            return std::pair(numberOf(cellOf(*run, "repetition")).value_or(0), run->runId);
+        });
+        for (const std::string& column : numericColumns())
+            if (std::vector<double> values = numbersIn(cell.done, column); !values.empty())
+                cell.values[column] = medianInterval(std::move(values));
+        group.cells.push_back(std::move(cell));
+    }
+    fitCurves(group);
+    return group;
+}
+
+std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun& machines,
+                                     std::vector<std::string>& problems) {
+    int repetitions = 1;
+    for (const auto& [id, run] : runs)
+        repetitions = std::max(repetitions, static_cast<int>(numberIn(run, "repetition").value_or(1)));
+
+    std::vector<RunGroup> groups;
+    std::set<const StoredRun*> placed;
+    std::vector<std::string> faults;
+    for (const SuiteFile& file : listSuites()) {
+        for (const bool quick : {false, true}) {
+            try {
+                const Suite suite = loadSuite(file.id, quick);
+                const std::vector<const StoredRun*> found = runsOf(suite, repetitions, runs);
+                // What both forms have is shown once.
+                if (std::ranges::all_of(found, [&](const StoredRun* run) { return placed.contains(run); })) continue;
+                placed.insert(found.begin(), found.end());
+                RunGroup group = makeGroup(found, machines);
+                group.id = quick ? file.id + "-quick" : file.id;
+                group.suite = file.id;
+                group.title = suite.title.empty() ? file.id : suite.title;
+                group.summary = suite.summary;
+                group.paper = file.paper;
+                groups.push_back(std::move(group));
+            } catch (const InputError& error) {
+                faults.push_back(fmt::format("suite '{}' cannot be read: {}", file.id, error.what()));
+            }
+        }
+    }
+    std::vector<const StoredRun*> others;
+    for (const auto& [id, run] : runs)
+        if (!placed.contains(&run)) others.push_back(&run);
+    if (!others.empty()) {
+        // Their suite may be among those.
+        std::ranges::move(faults, std::back_inserter(problems));
+        RunGroup group = makeGroup(others, machines);
+        group.id = "other";
+        group.title = groups.empty() ? "Runs" : "Other runs";
+        group.summary = "Runs of no suite of the data folder.";
+        groups.push_back(std::move(group));
+    }
+    return groups;
+}
+
+}  // namespace dustbench::bench

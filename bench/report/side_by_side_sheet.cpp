@@ -1,0 +1,121 @@
+#include "bench/report/side_by_side_sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "bench/measure/image/flip.h"
+#include "bench/measure/image/heat_map.h"
+#include "methods/kit/files/csv.h"
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+namespace {
+
+struct ShownPicture {
+    pictures::Image picture;
+    std::optional<Plane> difference;  ///< from the exact picture; none: there is none for this run
+    std::string caption;
+};
+
+struct Moment {
+    std::string frame, timeSeconds;
+    pictures::Image reference;
+    std::vector<ShownPicture> pictures;  ///< one a run
+};
+
+std::string captionOf(const files::CsvTable& metrics, std::size_t row) {
+    if (metrics.cell(row, "identical") == "1") return "identical";
+    return fmt::format("PSNR {:.1f} dB  SSIM {:.3f}  FLIP {:.3f}", metrics.number(row, "psnr_db"),
+                       metrics.number(row, "ssim"), metrics.number(row, "flip"));
+}
+
+pictures::Image readPicture(const ResultsFolder& results, const SheetRun& run, const std::string& frame,
+                            const char* what) {
+    return pictures::readImage(results.runFolder(run.runId) / "images" /
+                               fmt::format("f{:06}{}.exr", std::stoll(frame), what));
+}
+
+files::CsvTable metricsOf(const ResultsFolder& results, const SheetRun& run) {
+    return files::CsvTable::parseFile(results.runFolder(run.runId) / "metrics.csv");
+}
+
+/// The rows of metrics.csv that stand for pictures; others are of the popping stretch alone.
+std::vector<std::size_t> rowsWithPicture(const files::CsvTable& metrics) {
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < metrics.rows(); ++row)
+        if (!metrics.cell(row, "identical").empty()) rows.push_back(row);
+    return rows;
+}
+
+std::vector<Moment> readReferences(const ResultsFolder& results, const SheetRun& run) {
+    const files::CsvTable metrics = metricsOf(results, run);
+    std::vector<Moment> moments;
+    for (const std::size_t row : rowsWithPicture(metrics)) {
+        const std::string& frame = metrics.cell(row, "frame");
+        moments.push_back({frame,
+                           fmt::format("{:.2f}", metrics.number(row, "time_s")),
+                           readPicture(results, run, frame, "_reference"),
+                           {}});
+    }
+    return moments;
+}
+
+void addJudged(const ResultsFolder& results, const SheetRun& run, std::vector<Moment>& moments) {
+    const files::CsvTable metrics = metricsOf(results, run);
+    std::size_t number = 0;
+    for (const std::size_t row : rowsWithPicture(metrics)) {
+        Moment& moment = moments.at(number++);
+        pictures::Image picture = readPicture(results, run, metrics.cell(row, "frame"), "");
+        Plane difference =
+            flip(preparePicture(moment.reference, "the reference"), preparePicture(picture, run.label)).map;
+        moment.pictures.push_back({std::move(picture), std::move(difference), captionOf(metrics, row)});
+    }
+}
+
+void addAsItIs(const ResultsFolder& results, const SheetRun& run, std::vector<Moment>& moments) {
+    for (Moment& moment : moments)
+        moment.pictures.push_back(
+            {readPicture(results, run, moment.frame, ""), std::nullopt, "its own simulation:  no exact picture"});
+}
+
+/// The maximum difference of all, rounded up to a tenth.
+float scaleOf(const std::vector<Moment>& moments) {
+    float maximum = 0;
+    for (const Moment& moment : moments)
+        for (const ShownPicture& picture : moment.pictures)
+            if (picture.difference) maximum = std::max(maximum, *std::ranges::max_element(picture.difference->values));
+    return std::max(0.1f, std::ceil(maximum * 10) / 10);
+}
+
+}  // namespace
+
+ContactSheet sideBySideSheet(const ResultsFolder& results, std::span<const SheetRun> runs, const std::string& title) {
+    const auto firstJudged = std::ranges::find_if(runs, &SheetRun::judged);
+    if (firstJudged == runs.end()) throw std::invalid_argument("contact sheet: no run is judged");
+    std::vector<Moment> moments = readReferences(results, *firstJudged);
+    for (const SheetRun& run : runs) run.judged ? addJudged(results, run, moments) : addAsItIs(results, run, moments);
+    ContactSheet sheet;
+    sheet.title = title;
+    sheet.scale = {0, scaleOf(moments), "FLIP"};
+    sheet.columns.emplace_back("exact");
+    for (const SheetRun& run : runs) sheet.columns.push_back(run.label);
+    for (const SheetRun& run : runs)
+        if (run.judged) sheet.columns.push_back("difference of " + run.label);
+    for (const Moment& moment : moments) {
+        sheet.rows.push_back(fmt::format("frame {}, {} s", moment.frame, moment.timeSeconds));
+        auto& cells = sheet.cells.emplace_back();
+        cells.push_back(SheetCell{moment.reference, ""});
+        for (const ShownPicture& picture : moment.pictures)
+            cells.push_back(SheetCell{picture.picture, picture.caption});
+        for (const ShownPicture& picture : moment.pictures)
+            if (picture.difference)
+                cells.push_back(SheetCell{heatMap(*picture.difference, 0, sheet.scale->maximum), ""});
+    }
+    return sheet;
+}
+
+}  // namespace dustbench::bench

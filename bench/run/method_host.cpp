@@ -1,0 +1,120 @@
+#include "bench/run/method_host.h"
+
+#include <algorithm>
+
+#include "methods/kit/draw/read_back.h"
+
+namespace dustbench::bench {
+namespace {
+
+double asNumber(const FactValue& value) {
+    return std::visit([](const auto number) { return static_cast<double>(number); }, value);
+}
+
+Value asCell(const FactValue& value) {
+    return std::visit([](const auto number) { return Value(number); }, value);
+}
+
+}  // namespace
+
+MethodHost::MethodHost(const World& world, gpu::Device& device, const MethodInfo& info,
+                       const ParameterValues& parameters, int width, int height)
+    : world_(world),
+      device_(device),
+      info_(info),
+      width_(width),
+      height_(height),
+      ofFrame_(info.facts, FactOver::maximumOfFrames),
+      maxima_(info.facts.size()) {
+    const gpu::LedgerScope booked(device_, ledger_);
+    method_ = info.create(parameters);
+    scene_ = std::make_unique<draw::OpaqueScene>(world.scene(), device, width, height);
+    layer_ = std::make_unique<gpu::Layer>(device, scene_->depth());
+    composite_ = std::make_unique<draw::Composite>(device, width, height);
+    method_->prepare(world.scene(), world.setup(), device);
+}
+
+Frame MethodHost::see(std::int64_t index, const StageClock& clock) {
+    view_ = world_.view(width_, height_);
+    return {index, stepSeconds, world_.state(), world_.dust(), view_, clock};
+}
+
+void MethodHost::update(const Frame& frame) {
+    const gpu::LedgerScope booked(device_, ledger_);
+    method_->update(frame);
+}
+
+void MethodHost::draw(const Frame& frame) {
+    const gpu::LedgerScope booked(device_, ledger_);
+    {
+        const auto timing = frame.clock.measure(Stage::scene);
+        scene_->draw(frame.state, frame.view);
+    }
+    const auto timing = frame.clock.measure(Stage::draw);
+    {
+        const auto detail = frame.clock.measureDetail("layer");
+        layer_->clear();
+        method_->draw(frame, *layer_);
+    }
+    const auto detail = frame.clock.measureDetail("composite");
+    composite_->draw(scene_->colour(), layer_->colour());
+}
+
+pictures::Image MethodHost::layer() const {
+    return draw::readBack(layer_->colour());
+}
+
+pictures::Image MethodHost::result() const {
+    return draw::readBack(composite_->result());
+}
+
+pictures::Image MethodHost::picture() const {
+    return pictures::over(layer(), draw::readBack(scene_->colour()));
+}
+
+DrawnMoment MethodHost::drawn(const Frame& frame, bool withDetail) {
+    draw(frame);
+    DrawnMoment moment;
+    moment.scene = draw::readBack(scene_->colour());
+    moment.layer = layer();
+    moment.sceneDepth = draw::readBackDepth(scene_->depth());
+    if (!withDetail) return moment;
+    const gpu::LedgerScope booked(device_, ledger_);
+    if (noScene_.width() == 0)
+        noScene_ = gpu::Texture::make2D(device_, "no scene", gpu::Format::depth32F, width_, height_);
+    gpu::Framebuffer(device_, "no scene", nullptr, &noScene_).clearDepth();
+    gpu::Layer free(device_, noScene_);
+    free.clear();
+    method_->draw(frame, free);
+    moment.layerWithoutScene = draw::readBack(free.colour());
+    return moment;
+}
+
+void MethodHost::keepFacts(const Frame& frame) {
+    ofFrame_.clear();
+    method_->report(frame, ofFrame_);
+    for (std::size_t i = 0; i < maxima_.size(); ++i)
+        if (const auto value = ofFrame_.value(info_.facts[i].name);
+            value && (!maxima_[i] || asNumber(*value) > asNumber(*maxima_[i])))
+            maxima_[i] = value;
+}
+
+Columns MethodHost::facts(const Frame& lastFrame) {
+    Facts atEnd(info_.facts, FactOver::lastFrame);
+    method_->report(lastFrame, atEnd);
+    Columns columns;
+    for (std::size_t i = 0; i < maxima_.size(); ++i) {
+        const FactInfo& fact = info_.facts[i];
+        const auto value = fact.over == FactOver::lastFrame ? atEnd.value(fact.name) : maxima_[i];
+        if (value) columns.emplace_back(fact.name, asCell(*value));
+    }
+    return columns;
+}
+
+std::int64_t MethodHost::cpuBytes() const {
+    std::size_t bytes = 0;
+    for (const MemoryUse& use : method_->memory()) bytes += use.cpuBytes;
+    return static_cast<std::int64_t>(bytes);
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,45 @@
+// What a suite's `[[compare]]` and `[[fit]]` tables ask for: the times of one method against those of another, and
+// times against a load.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/results/run_spec.h"
+#include "methods/kit/files/toml_reader.h"
+
+namespace dustbench::bench {
+
+/// The cells of one method, or those of them that have these parameters: `octree_search layout=morton`.
+struct ComparedSide {
+    std::string method;
+    ParameterTexts pinned;  ///< in canonical form
+    std::string label;
+};
+
+struct PlannedComparison {
+    ComparedSide of, with;
+    std::vector<std::string> columns;  ///< of summary.csv
+    std::string where;                 ///< `file:line: `, for messages
+};
+
+/// The `[[compare]]` tables, none where the key is missing or an empty array. `methods` are those of the suite. Throws
+/// InputError with file and line.
+[[nodiscard]] std::vector<PlannedComparison> readComparisons(files::TomlReader& suite,
+                                                             const std::vector<std::string>& methods);
+
+struct PlannedFit {
+    std::vector<std::string> columns;  ///< of summary.csv
+    std::string against;               ///< the parameter that is the load
+    std::string where;                 ///< `file:line: `, for messages
+};
+
+/// The `[[fit]]` tables, none where the key is missing or an empty array. Throws InputError with file and line.
+[[nodiscard]] std::vector<PlannedFit> readFits(files::TomlReader& suite);
+
+/// The columns of summary.csv that can be compared: times, and rates as the time a frame takes.
+[[nodiscard]] std::vector<std::string> comparableColumns();
+/// A rate is the inverse of a time.
+[[nodiscard]] bool isRate(std::string_view column);
+
+}  // namespace dustbench::bench

@@ -1,0 +1,123 @@
+#include "bench/suite/regression/folder_cells.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "methods/contract/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+std::optional<double> asNumber(const std::string& text) {
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(text.data(), end, number);
+    if (text.empty() || error != std::errc() || at != end) return std::nullopt;
+    return number;
+}
+
+/// Numbers come before texts, or the two would have no order.
+bool valueLess(const std::string& a, const std::string& b) {
+    const auto x = asNumber(a), y = asNumber(b);
+    if (x && y && *x != *y) return *x < *y;
+    if (x.has_value() != y.has_value()) return x.has_value();
+    return a < b;
+}
+
+bool identityLess(const CellIdentity& a, const CellIdentity& b) {
+    return std::ranges::lexicographical_compare(a, b, [](const auto& x, const auto& y) {
+        return x.first != y.first ? x.first < y.first : valueLess(x.second, y.second);
+    });
+}
+
+void add(CellRuns& runs, const StoredRun& run) {
+    switch (run.status) {
+        case RunStatus::done:
+            runs.done.push_back(&run);
+            break;
+        case RunStatus::skipped:
+            runs.skipped.push_back(&run);
+            break;
+        case RunStatus::failed:
+        case RunStatus::timeout:
+            runs.failed.push_back(&run);
+            break;
+    }
+}
+
+}  // namespace
+
+std::string FolderCell::valueOf(const std::string& name) const {
+    const auto found = std::ranges::find(identity, name, &CellIdentity::value_type::first);
+    return found == identity.end() ? std::string() : found->second;
+}
+
+CellIdentity identityOf(const StoredRun& run) {
+    const auto key = run.provenance.find("key");
+    if (key == run.provenance.end() || key->second.empty())
+        throw InputError(fmt::format("run '{}': has no provenance.key, which says what was measured", run.runId));
+    static const std::set<std::string> leftOut{"repetition", "metrics", "metric_reference"};
+    CellIdentity identity;
+    std::istringstream lines(key->second);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t equals = line.find('=');
+        if (equals == std::string::npos)
+            throw InputError(
+                fmt::format("run '{}': its provenance.key has the line '{}', expected name=value", run.runId, line));
+        if (std::string name = line.substr(0, equals); !leftOut.contains(name))
+            identity.emplace_back(std::move(name), line.substr(equals + 1));
+    }
+    return identity;
+}
+
+std::vector<FolderCell> cellsOf(const ResultsSide& a, const ResultsSide& b) {
+    std::map<CellIdentity, FolderCell, decltype(&identityLess)> cells(&identityLess);
+    for (const auto& [side, runs] : {std::pair(&a, &FolderCell::a), std::pair(&b, &FolderCell::b)})
+        for (const auto& [id, run] : side->runs) {
+            CellIdentity identity = identityOf(run);
+            FolderCell& cell = cells[identity];
+            cell.identity = std::move(identity);
+            add(cell.*runs, run);
+        }
+    std::vector<FolderCell> list;
+    for (auto& [identity, cell] : cells) list.push_back(std::move(cell));
+    return list;
+}
+
+std::vector<std::string> tellingNames(const std::vector<FolderCell>& cells) {
+    std::vector<std::string> order;
+    std::map<std::string, std::map<std::string, std::set<std::string>>> valuesByMethod;  // of each name
+    std::map<std::string, std::size_t> cellsByMethod;
+    std::map<std::string, std::map<std::string, std::size_t>> holders;
+    for (const FolderCell& cell : cells) {
+        const std::string method = cell.valueOf("method");
+        ++cellsByMethod[method];
+        for (const auto& [name, value] : cell.identity) {
+            if (!valuesByMethod.contains(name)) order.push_back(name);
+            valuesByMethod[name][method].insert(value);
+            ++holders[name][method];
+        }
+    }
+    std::erase_if(order, [&](const std::string& name) {
+        return std::ranges::all_of(valuesByMethod[name], [&](const auto& entry) {
+            return entry.second.size() == 1 && holders[name][entry.first] == cellsByMethod[entry.first];
+        });
+    });
+    return order;
+}
+
+std::string labelOf(const FolderCell& cell, const std::vector<std::string>& tellingNames) {
+    std::string label = cell.valueOf("method");
+    for (const std::string& name : tellingNames)
+        if (const std::string value = cell.valueOf(name); !value.empty())
+            label += fmt::format(" {}={}", name.starts_with("p.") ? name.substr(2) : name, value);
+    return label;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,198 @@
+#include "bench/suite/regression/folder_comparison.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+#include "bench/suite/regression/regression_table.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
+#include "source_folder.h"
+
+namespace dustbench::bench {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+StoredRun runOf(const std::string& method, int particles, int repetition, double ms) {
+    StoredRun run;
+    run.runId = fmt::format("{}-{}-r{}", method, particles, repetition);
+    run.cells = {{"frame_ms_median", fmt::format("{}", ms)},
+                 {"fps_avg", fmt::format("{}", 1000 / ms)},
+                 {"repetition", fmt::format("{}", repetition)}};
+    run.stateHash = fmt::format("state of {}", particles);
+    run.inputs = {{"scenes/plain.toml", "01"}};
+    run.provenance = {
+        {"cpu", "Cpu 1"},
+        {"build_type", "Release"},
+        {"key", fmt::format("method={}\nscene=plain\ndrive=\np.particles={}\n{}frames=9\nrepetition={}\n{}", method,
+                            particles, method == "haze" ? "p.thin=on\n" : "", repetition,
+                            repetition == 1 ? "metrics=\nmetric_reference=exact\n" : "")}};
+    return run;
+}
+
+/// Two methods with two numbers of particles; `factor` times as slow as usual, by 1 % more or less.
+StoredRuns session(double factor, int repetitions = 6) {
+    StoredRuns runs;
+    for (const char* method : {"haze", "fog"})
+        for (const int particles : {1000, 200})
+            for (int k = 1; k <= repetitions; ++k) {
+                const StoredRun run = runOf(method, particles, k, particles * factor * (k % 2 ? 1.01 : 0.99));
+                runs[run.runId] = run;
+            }
+    return runs;
+}
+
+FolderComparison compare(StoredRuns a, StoredRuns b, bool acrossMachines = false,
+                         const std::vector<std::string>& columns = {"frame_ms_median"}) {
+    return compareFolders({"a/", std::move(a)}, {"b/", std::move(b)}, columns, acrossMachines);
+}
+
+StoredRuns with(StoredRuns runs, const std::string& id, const std::function<void(StoredRun&)>& change) {
+    change(runs.at(id));
+    return runs;
+}
+
+TEST(FolderComparison, FindsTheRatioOfEveryCellAndOfAllTogether) {
+    // The sides must outlive the result, which points into them.
+    const ResultsSide a{"a/", session(1)}, b{"b/", session(1.1)};
+    const FolderComparison result = compareFolders(a, b, {"frame_ms_median", "fps_avg"}, false);
+    EXPECT_THAT(result.obstacles, IsEmpty());
+    EXPECT_THAT(result.remarks, IsEmpty());
+    EXPECT_THAT(result.axes, ElementsAre("p.particles"));
+    ASSERT_EQ(result.judged.size(), 10u);
+    // ±1 % in turn: s² = 6·h²/5 of the logarithms, with h half their distance.
+    const double h = std::log(1.01 / 0.99) / 2;
+    const double half = studentQuantile(0.975, 10) * std::sqrt(2 * h * h / 5);
+    for (const JudgedCell& judged : result.judged) {
+        EXPECT_NEAR(judged.result.ratio, 1.1, 1e-4) << judged.column;
+        EXPECT_NEAR(std::log(judged.result.high / judged.result.low), 2 * half, 1e-4);
+        EXPECT_EQ(judged.result.verdict, Verdict::slower);
+        EXPECT_EQ(judged.result.ofCount, 6u);
+        EXPECT_TRUE(isSlowerBy(judged, 5));
+        EXPECT_FALSE(isSlowerBy(judged, 10));
+    }
+    EXPECT_EQ(labelOf(*result.judged[0].cell, result.axes), "fog particles=200");
+    EXPECT_EQ(labelOf(*result.judged[1].cell, result.axes), "fog particles=1000");
+    EXPECT_EQ(result.judged[4].cell, nullptr);
+}
+
+TEST(FolderComparison, AllTogetherCountsWhatARoundHasInCommonOnce) {
+    // Every round of A is slower or faster as a whole: four cells say no more about it than one does.
+    StoredRuns a = session(1), b = session(1);
+    for (StoredRuns* runs : {&a, &b})
+        for (auto& [id, run] : *runs) {
+            const double drift = std::stoi(run.cells.at("repetition")) % 3 == 0 ? 1.3 : 0.9;
+            run.cells["frame_ms_median"] = fmt::format("{}", drift * std::stod(run.cells["frame_ms_median"]));
+        }
+    const FolderComparison result = compare(a, b);
+    const auto width = [](const JudgedCell& judged) { return std::log(judged.result.high / judged.result.low); };
+    EXPECT_NEAR(width(result.judged[4]), width(result.judged[0]), 1e-6);
+    EXPECT_EQ(result.judged[4].result.verdict, Verdict::unresolved);
+}
+
+TEST(FolderComparison, TooFewRunsResolveNothingAndAreNoRegression) {
+    const FolderComparison result = compare(session(1), session(3, 5));
+    for (const JudgedCell& judged : result.judged) {
+        EXPECT_EQ(judged.result.verdict, Verdict::unresolved);
+        EXPECT_FALSE(isSlowerBy(judged, 5));
+        EXPECT_THAT(judged.reason, HasSubstr("6 and 5"));
+    }
+}
+
+TEST(FolderComparison, OtherMachinesAreAnObstacleUnlessAllowed) {
+    StoredRuns other = session(1);
+    for (auto& [id, run] : other) run.provenance["cpu"] = "Cpu 2";
+    EXPECT_THAT(compare(session(1), other).obstacles, ElementsAre("cpu: 'Cpu 1' in A and 'Cpu 2' in B (4 cells)"));
+    EXPECT_THAT(compare(session(1), other).judged, IsEmpty());
+    const FolderComparison allowed = compare(session(1), other, true);
+    EXPECT_THAT(allowed.obstacles, IsEmpty());
+    EXPECT_THAT(allowed.remarks, Contains(HasSubstr("'Cpu 2' in B")));
+    EXPECT_EQ(allowed.judged.size(), 5u);
+    // One run of another machine, and in the same folder.
+    const auto mixed = with(session(1), "haze-200-r4", [](StoredRun& run) { run.provenance["build_type"] = "Debug"; });
+    EXPECT_THAT(compare(mixed, session(1)).obstacles,
+                ElementsAre("build_type: 'Release' in A and 'Debug' in A (1 cell)"));
+}
+
+TEST(FolderComparison, OtherWorkIsAnObstacleAlways) {
+    const auto other = with(session(1), "fog-200-r3", [](StoredRun& run) { run.stateHash = "another"; });
+    EXPECT_THAT(compare(session(1), other, true).obstacles,
+                ElementsAre(AllOf(HasSubstr("fog particles=200: different work"), HasSubstr("'another' in B"))));
+    const auto inputs = with(session(1), "fog-200-r3", [](StoredRun& run) { run.inputs[0].sha256 = "02"; });
+    EXPECT_THAT(compare(inputs, session(1), true).obstacles, ElementsAre(HasSubstr("scenes/plain.toml")));
+}
+
+TEST(FolderComparison, SaysWhatTheNearestDiffersInWhereNothingIsInBoth) {
+    StoredRuns other = session(1);
+    for (auto& [id, run] : other) run.provenance["key"] += "volumes=1\n";
+    EXPECT_THAT(compare(session(1), other).obstacles,
+                ElementsAre(AllOf(HasSubstr("4 cells of 24 runs in A"), HasSubstr("differ in volumes"))));
+    EXPECT_THAT(compare(session(1), {}).obstacles, ElementsAre(HasSubstr("0 cells of 0 runs in B")));
+}
+
+TEST(FolderComparison, NothingIsSilent) {
+    StoredRuns a = session(1), b = session(1);
+    for (int k = 1; k <= 6; ++k) a.erase(fmt::format("fog-200-r{}", k));
+    for (int k = 5; k <= 6; ++k) {
+        StoredRun& run = b.at(fmt::format("haze-200-r{}", k));
+        run.status = k == 5 ? RunStatus::failed : RunStatus::timeout;
+        run.reason = "too long";
+        run.provenance.erase("cpu");  // a run that failed may not know
+    }
+    b.at("haze-1000-r1").warnings = {"busy"};
+    for (auto& [id, run] : b)
+        if (run.status == RunStatus::done) run.provenance["compiler"] = "GNU 13";
+    const FolderComparison result = compare(a, b);
+    EXPECT_THAT(result.obstacles, IsEmpty());
+    EXPECT_THAT(result.remarks, Contains("fog particles=200: only in B, 6 runs"));
+    EXPECT_THAT(result.remarks, Contains("haze particles=200: 2 of 6 runs failed in B: too long"));
+    EXPECT_THAT(result.remarks, Contains("B: 1 of 22 runs carry warnings, the first: busy"));
+    EXPECT_THAT(result.remarks, Contains("compiler: '' in A and 'GNU 13' in B (3 cells)"));
+    EXPECT_EQ(result.broken.size(), 1u);
+}
+
+TEST(FolderComparison, TheCsvHasARowForEveryCellWhateverBecameOfIt) {
+    const ResultsSide a{"a/", session(1)};
+    ResultsSide b{"b/", session(1.2)};
+    for (int k = 1; k <= 6; ++k) b.runs.erase(fmt::format("haze-200-r{}", k));
+    const FolderComparison result = compareFolders(a, b, {"frame_ms_median"}, false);
+    const auto table = files::CsvTable::parseText(comparisonCsv(result, 5), "comparison.csv");
+    ASSERT_EQ(table.rows(), 5u);
+    EXPECT_EQ(table.cell(0, "method"), "fog");
+    EXPECT_EQ(table.number(0, "p.particles"), 200);
+    EXPECT_NEAR(table.number(0, "ratio"), 1.2, 1e-4);
+    EXPECT_EQ(table.cell(0, "regression"), "1");
+    EXPECT_EQ(table.cell(3, "all_cells"), "1");
+    EXPECT_EQ(table.cell(4, "reason"), "not done in B");
+    EXPECT_EQ(table.number(4, "runs_a"), 6);
+    EXPECT_EQ(table.cell(4, "ratio"), "");
+}
+
+TEST(FolderComparison, EveryColumnOfTheCsvIsDescribed) {
+    std::ifstream file(std::string(DUSTBENCH_SOURCE_DIR) + "/reports/SCHEMA.md");
+    std::string page{std::istreambuf_iterator<char>(file), {}};
+    page = page.substr(page.find("## Two folders"));
+    std::vector<std::string> names = comparisonColumnsBefore();
+    for (std::string& name : comparisonColumnsAfter()) names.push_back(std::move(name));
+    for (const auto& [name, value] : identityOf(runOf("haze", 1, 1, 1))) names.push_back(name);
+    for (const std::string& name : names)
+        EXPECT_THAT(page, HasSubstr("`" + (name.starts_with("p.") ? "p.<name>" : name) + "`"));
+}
+
+TEST(FolderComparison, RefusesARunThatDoesNotSayWhatItWas) {
+    const auto broken = with(session(1), "fog-200-r3", [](StoredRun& run) { run.provenance.erase("key"); });
+    EXPECT_THROW((void)compare(broken, session(1)), InputError);
+}
+
+}  // namespace
+}  // namespace dustbench::bench

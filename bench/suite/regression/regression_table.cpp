@@ -1,0 +1,112 @@
+#include "bench/suite/regression/regression_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "methods/kit/files/csv.h"
+
+namespace dustbench::bench {
+namespace {
+
+std::string verdictText(const JudgedCell& judged) {
+    return std::string(verdictName(judged.result.verdict)) + (judged.reason.empty() ? "" : ": " + judged.reason);
+}
+
+std::string withoutPrefix(const std::string& name) {
+    return name.starts_with("p.") ? name.substr(2) : name;
+}
+
+/// Every name of any cell, each where it first comes up; parameters after each other, sorted.
+std::vector<std::string> identityColumns(const std::vector<FolderCell>& cells) {
+    std::vector<std::string> names, parameters;
+    for (const FolderCell& cell : cells)
+        for (const auto& [name, value] : cell.identity) {
+            std::vector<std::string>& list = name.starts_with("p.") ? parameters : names;
+            if (std::ranges::find(list, name) == list.end()) list.push_back(name);
+        }
+    std::ranges::sort(parameters);
+    names.insert(names.end(), parameters.begin(), parameters.end());
+    return names;
+}
+
+}  // namespace
+
+TextRows tabulate(const FolderComparison& comparison) {
+    TextRows table;
+    table.header = {"column", "method"};
+    for (const std::string& axis : comparison.axes) table.header.push_back(withoutPrefix(axis));
+    for (const char* name : {"A ms", "B ms", "ratio", "low", "high", "A runs", "B runs", "verdict"})
+        table.header.emplace_back(name);
+    for (const JudgedCell& judged : comparison.judged) {
+        std::vector<std::string> row{judged.column + (judged.cell ? "" : ", all"),
+                                     judged.cell ? judged.cell->valueOf("method") : ""};
+        for (const std::string& axis : comparison.axes) row.push_back(judged.cell ? judged.cell->valueOf(axis) : "");
+        for (const double value : {judged.aMs, judged.bMs, judged.result.ratio, judged.result.low, judged.result.high})
+            row.push_back(fourDigits(value));
+        row.push_back(fmt::format("{}", judged.result.withCount));
+        row.push_back(fmt::format("{}", judged.result.ofCount));
+        row.push_back(verdictText(judged));
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+std::vector<std::string> comparisonColumnsBefore() {
+    return {"column", "all_cells"};
+}
+
+std::vector<std::string> comparisonColumnsAfter() {
+    return {"a_ms",   "b_ms",     "ratio",    "low",     "high",   "runs_a",
+            "runs_b", "failed_a", "failed_b", "verdict", "reason", "regression"};
+}
+
+std::string comparisonCsv(const FolderComparison& comparison, std::optional<double> percent) {
+    const std::vector<std::string> identity = identityColumns(comparison.cells);
+    std::string text;
+    const auto addRow = [&text](const std::vector<std::string>& cells) {
+        for (const std::string& cell : cells) text.append(files::csvCell(cell)).append(1, ',');
+        text.back() = '\n';
+    };
+    std::vector<std::string> header = comparisonColumnsBefore();
+    header.insert(header.end(), identity.begin(), identity.end());
+    for (const std::string& name : comparisonColumnsAfter()) header.push_back(name);
+    addRow(header);
+
+    const auto identityCells = [&](const FolderCell* cell, std::vector<std::string>& row) {
+        for (const std::string& name : identity) row.push_back(cell ? cell->valueOf(name) : "");
+    };
+    for (const JudgedCell& judged : comparison.judged) {
+        std::vector<std::string> row{judged.column, judged.cell ? "0" : "1"};
+        identityCells(judged.cell, row);
+        const UnpairedRatio& result = judged.result;
+        for (const double value : {judged.aMs, judged.bMs, result.ratio, result.low, result.high})
+            row.push_back(files::csvNumber(value));
+        for (const std::size_t count : {result.withCount, result.ofCount}) row.push_back(fmt::format("{}", count));
+        for (const auto side : {&FolderCell::a, &FolderCell::b})
+            row.push_back(judged.cell ? fmt::format("{}", (judged.cell->*side).failed.size()) : "");
+        row.emplace_back(verdictName(result.verdict));
+        row.push_back(judged.reason);
+        row.emplace_back(percent ? (isSlowerBy(judged, *percent) ? "1" : "0") : "");
+        addRow(row);
+    }
+    for (const FolderCell& cell : comparison.cells) {
+        if (!cell.a.done.empty() && !cell.b.done.empty()) continue;
+        std::vector<std::string> row{"", "0"};
+        identityCells(&cell, row);
+        row.resize(row.size() + 5);
+        for (const auto side : {&FolderCell::a, &FolderCell::b})
+            row.push_back(fmt::format("{}", (cell.*side).done.size()));
+        for (const auto side : {&FolderCell::a, &FolderCell::b})
+            row.push_back(fmt::format("{}", (cell.*side).failed.size()));
+        row.emplace_back("");
+        row.push_back(
+            fmt::format("not done in {}", cell.a.done.empty() ? (cell.b.done.empty() ? "either" : "A") : "B"));
+        const bool broken = std::ranges::find(comparison.broken, &cell) != comparison.broken.end();
+        row.emplace_back(percent ? (broken ? "1" : "0") : "");
+        addRow(row);
+    }
+    return text;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,207 @@
+#include "bench/suite/suite_verdicts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "bench/results/measured_on.h"
+#include "bench/suite/suite_axes.h"
+#include "methods/contract/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+std::vector<const PlannedRun*> selectedCells(const Suite& suite, const ComparedSide& side) {
+    std::vector<const PlannedRun*> cells;
+    for (const PlannedRun& cell : suite.cells)
+        if (cell.spec.method == side.method && std::ranges::all_of(side.pinned, [&](const auto& entry) {
+                return cell.spec.parameters.at(entry.first) == entry.second;
+            }))
+            cells.push_back(&cell);
+    return cells;
+}
+
+bool has(const std::vector<Axis>& axes, const std::string& name) {
+    return std::ranges::find(axes, name, &Axis::name) != axes.end();
+}
+
+std::string ratioText(double ratio) {
+    return std::isfinite(ratio) && ratio < 0.1 ? fmt::format("{:.3g}", ratio) : fourDigits(ratio);
+}
+
+/// The pair's ln(of / with), or nothing where a run is missing or has no time above 0.
+std::optional<double> logRatio(const CellPair& pair, int repetition, const std::string& column,
+                               const StoredRuns& runs) {
+    const StoredRun* of = doneRun(*pair.of, repetition, runs);
+    const StoredRun* with = doneRun(*pair.with, repetition, runs);
+    if (!of || !with) return std::nullopt;
+    const auto a = numberIn(*of, column), b = numberIn(*with, column);
+    if (!a || !b || !(*a > 0) || !(*b > 0)) return std::nullopt;
+    const double difference = std::log(*a) - std::log(*b);
+    return isRate(column) ? -difference : difference;
+}
+
+/// Where both runs are done on different machines: in what they differ. Else empty.
+std::string otherMachine(const CellPair& pair, int repetition, const StoredRuns& runs) {
+    const StoredRun* of = doneRun(*pair.of, repetition, runs);
+    const StoredRun* with = doneRun(*pair.with, repetition, runs);
+    if (!of || !with) return {};
+    const auto found = differences(*of, *with, machineFields());
+    if (found.empty()) return {};
+    return fmt::format("pairs of different machines were left out ({}: '{}' and '{}')", found.front().field,
+                       found.front().first, found.front().second);
+}
+
+CellVerdict judged(std::vector<std::string> at, const std::vector<double>& logRatios, Order order,
+                   const std::string& leftOut) {
+    CellVerdict verdict{std::move(at), judgeLogRatios(logRatios), ""};
+    if (logRatios.empty())
+        verdict.reason = "no paired runs with a time above 0";
+    else if (logRatios.size() < minimumPairs)
+        verdict.reason = fmt::format("{} paired {}, {} are needed", logRatios.size(),
+                                     logRatios.size() == 1 ? "run" : "runs", minimumPairs);
+    if (order == Order::batch) {
+        verdict.result.verdict = Verdict::unresolved;
+        verdict.reason = "the runs were not interleaved";
+    }
+    if (!leftOut.empty()) verdict.reason += (verdict.reason.empty() ? "" : "; ") + leftOut;
+    return verdict;
+}
+
+ColumnVerdict judgeColumn(const Suite& suite, const MatchedCells& matched, const std::string& column,
+                          const StoredRuns& runs) {
+    ColumnVerdict verdict{column, {}, {}};
+    const auto rounds = static_cast<std::size_t>(suite.repetitions);
+    std::vector<double> sums(rounds, 0);
+    std::vector<std::size_t> counts(rounds, 0);
+    std::size_t measured = 0;
+    std::string leftOutOfAny;
+    for (const CellPair& pair : matched.pairs) {
+        std::vector<double> logRatios;
+        std::string leftOut;
+        for (std::size_t round = 0; round < rounds; ++round) {
+            const int repetition = static_cast<int>(round) + 1;
+            if (std::string why = otherMachine(pair, repetition, runs); !why.empty()) {
+                leftOut = leftOutOfAny = std::move(why);
+            } else if (const auto x = logRatio(pair, repetition, column, runs)) {
+                logRatios.push_back(*x);
+                sums[round] += *x;
+                ++counts[round];
+            }
+        }
+        if (!logRatios.empty()) ++measured;
+        verdict.cells.push_back(judged(pair.at, logRatios, suite.order, leftOut));
+    }
+    std::vector<double> means;
+    for (std::size_t round = 0; round < rounds; ++round)
+        if (measured > 0 && counts[round] == measured) means.push_back(sums[round] / static_cast<double>(measured));
+    verdict.overall = judged(std::vector<std::string>(matched.axes.size()), means, suite.order, leftOutOfAny);
+    return verdict;
+}
+
+std::string conclusion(const ComparisonResult& comparison, const ColumnVerdict& column) {
+    const PairedRatio& result = column.overall.result;
+    std::string text = fmt::format("{}: {} ", column.column, comparison.of);
+    if (result.pairs == 0)
+        text += fmt::format("against {}", comparison.with);
+    else if (result.pairs == 1)
+        text += fmt::format("takes {} of the time of {}", ratioText(result.ratio), comparison.with);
+    else
+        text += fmt::format("takes {} [{}, {}] of the time of {}", ratioText(result.ratio), ratioText(result.low),
+                            ratioText(result.high), comparison.with);
+    text += fmt::format(": {}", verdictName(result.verdict));
+    if (result.verdict == Verdict::same) text += fmt::format(" within {:g} %", sameMargin * 100);
+    return text + (column.overall.reason.empty() ? "" : ": " + column.overall.reason);
+}
+
+}  // namespace
+
+MatchedCells matchCells(const Suite& suite, const PlannedComparison& comparison) {
+    const auto ofCells = selectedCells(suite, comparison.of);
+    const auto withCells = selectedCells(suite, comparison.with);
+    for (const auto& [side, cells] : {std::pair{&comparison.of, &ofCells}, std::pair{&comparison.with, &withCells}})
+        if (cells->empty())
+            throw InputError(
+                fmt::format("{}compare: got '{}', but no run of the suite is that", comparison.where, side->label));
+    const auto ofSettings = methodAxes(ofCells), withSettings = methodAxes(withCells);
+    const auto pinned = [&](const std::string& name) {
+        return comparison.of.pinned.contains(name) || comparison.with.pinned.contains(name);
+    };
+    const auto showTheSame = [&](const RunSpec& a, const RunSpec& b) {
+        return a.scene == b.scene && a.drive == b.drive && a.size.width == b.size.width &&
+               a.size.height == b.size.height && std::ranges::all_of(a.parameters, [&](const auto& entry) {
+                   const std::string& name = entry.first;
+                   if (pinned(name)) return true;
+                   if (!isOfTheWorld(name) && !(has(ofSettings, name) && has(withSettings, name))) return true;
+                   return b.parameters.at(name) == entry.second;
+               });
+    };
+
+    MatchedCells matched;
+    for (const PlannedRun* of : ofCells)
+        for (const PlannedRun* with : withCells)
+            if (of != with && showTheSame(of->spec, with->spec)) matched.pairs.push_back({of, with, {}});
+    if (matched.pairs.empty())
+        throw InputError(fmt::format("{}compare: got '{}' and '{}', which have no two different runs in the same world",
+                                     comparison.where, comparison.of.label, comparison.with.label));
+
+    // What a side does not vary is the same in all its cells, so an axis is told from the side that varies it.
+    const auto addAxes = [&](const std::vector<Axis>& axes, const PlannedRun* CellPair::*side) {
+        for (const Axis& axis : axes) {
+            const auto valueOf = [&](const CellPair& pair) { return axis.of((pair.*side)->spec); };
+            const bool same = std::ranges::all_of(
+                matched.pairs, [&](const CellPair& pair) { return valueOf(pair) == valueOf(matched.pairs.front()); });
+            if (same || std::ranges::find(matched.axes, axis.name) != matched.axes.end()) continue;
+            matched.axes.push_back(axis.name);
+            for (CellPair& pair : matched.pairs) pair.at.push_back(valueOf(pair));
+        }
+    };
+    addAxes(worldAxes(ofCells), &CellPair::of);
+    addAxes(worldAxes(withCells), &CellPair::with);
+    addAxes(ofSettings, &CellPair::of);
+    addAxes(withSettings, &CellPair::with);
+    return matched;
+}
+
+std::vector<ComparisonResult> suiteVerdicts(const Suite& suite, const StoredRuns& runs) {
+    std::vector<ComparisonResult> results;
+    for (const PlannedComparison& comparison : suite.comparisons) {
+        const MatchedCells matched = matchCells(suite, comparison);
+        ComparisonResult result{comparison.of.label, comparison.with.label, matched.axes, {}};
+        for (const std::string& column : comparison.columns)
+            result.columns.push_back(judgeColumn(suite, matched, column, runs));
+        results.push_back(std::move(result));
+    }
+    return results;
+}
+
+TextRows tabulate(const ComparisonResult& comparison) {
+    TextRows table;
+    table.header.emplace_back("column");
+    table.header.insert(table.header.end(), comparison.axes.begin(), comparison.axes.end());
+    for (const char* name : {"ratio", "low", "high", "pairs", "verdict"}) table.header.emplace_back(name);
+    const auto addRow = [&table](const std::string& column, const CellVerdict& cell) {
+        std::vector<std::string> row{column};
+        row.insert(row.end(), cell.at.begin(), cell.at.end());
+        for (const double value : {cell.result.ratio, cell.result.low, cell.result.high})
+            row.push_back(ratioText(value));
+        row.push_back(fmt::format("{}", cell.result.pairs));
+        row.push_back(std::string(verdictName(cell.result.verdict)) + (cell.reason.empty() ? "" : ": " + cell.reason));
+        table.rows.push_back(std::move(row));
+    };
+    for (const ColumnVerdict& column : comparison.columns) {
+        for (const CellVerdict& cell : column.cells) addRow(column.column, cell);
+        if (column.cells.size() > 1) addRow(column.column + ", all", column.overall);
+    }
+    return table;
+}
+
+std::vector<std::string> conclusions(const ComparisonResult& comparison) {
+    std::vector<std::string> sentences;
+    for (const ColumnVerdict& column : comparison.columns) sentences.push_back(conclusion(comparison, column));
+    return sentences;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,62 @@
+// The verdicts that a suite's `[[compare]]` tables ask for, from its stored runs.
+//
+// Cells are paired that show their methods the same world: scene, drive, size and the world's parameters are equal, and
+// so are the methods' own parameters where the suite varies them on both sides. Parameters that a side names
+// (`octree_search layout=morton`) are left out of this. Repetition k of the one is paired with repetition k of the
+// other; both ran in the same round, which is why a suite in batches resolves nothing. Two runs of different machines
+// (merged folders can have such) are no pair.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/measure/paired_ratio.h"
+#include "bench/suite/cell_results.h"
+#include "bench/suite/suite.h"
+#include "bench/suite/suite_table.h"
+
+namespace dustbench::bench {
+
+struct CellPair {
+    const PlannedRun* of = nullptr;
+    const PlannedRun* with = nullptr;
+    std::vector<std::string> at;  ///< a value for each axis
+};
+
+struct MatchedCells {
+    std::vector<std::string> axes;  ///< what differs between the pairs
+    std::vector<CellPair> pairs;
+};
+
+/// Points into the suite. Throws InputError where no two cells can be compared.
+[[nodiscard]] MatchedCells matchCells(const Suite& suite, const PlannedComparison& comparison);
+
+struct CellVerdict {
+    std::vector<std::string> at;  ///< a value for each axis; all empty for all cells together
+    PairedRatio result;
+    std::string reason;  ///< why too little is there for a verdict, or what was left out; else empty
+};
+
+/// One column of summary.csv. All together: each round gives one ratio, the geometric mean over the pairs of cells, and
+/// a round counts where all pairs of cells that were measured at all have their times.
+struct ColumnVerdict {
+    std::string column;
+    std::vector<CellVerdict> cells;
+    CellVerdict overall;
+};
+
+struct ComparisonResult {
+    std::string of, with;
+    std::vector<std::string> axes;
+    std::vector<ColumnVerdict> columns;
+};
+
+[[nodiscard]] std::vector<ComparisonResult> suiteVerdicts(const Suite& suite, const StoredRuns& runs);
+
+/// A row for each column and pair of cells: ratio, interval, pairs and verdict; then `build_ms_median, all`.
+[[nodiscard]] TextRows tabulate(const ComparisonResult& comparison);
+
+/// A line for each column, on all together: `build_ms_median: A takes 0.84 [0.81, 0.87] of the time of B: FASTER`.
+[[nodiscard]] std::vector<std::string> conclusions(const ComparisonResult& comparison);
+
+}  // namespace dustbench::bench

@@ -1,0 +1,212 @@
+#include "methods/contract/parameters.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "methods/contract/errors.h"
+
+namespace dustbench {
+namespace {
+
+/// The shortest text that reads back as the same number.
+std::string numberText(double value) {
+    char buffer[32];
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+    return {buffer, end};
+}
+
+template <typename Number>
+std::optional<Number> parseNumber(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+/// `128x64x64`, each within the range.
+std::optional<std::array<int, 3>> parseCells(const Parameter& parameter, std::string_view text) {
+    std::array<int, 3> cells{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t end = axis < 2 ? text.find('x') : text.size();
+        if (end == std::string_view::npos) return std::nullopt;
+        const auto value = parseNumber<int>(text.substr(0, end));
+        if (!value || *value < parameter.minimum || *value > parameter.maximum) return std::nullopt;
+        cells[axis] = *value;
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return cells;
+}
+
+/// The canonical text of a value, or nothing where the declaration does not allow it.
+std::optional<std::string> canonicalText(const Parameter& parameter, std::string_view text) {
+    switch (parameter.type) {
+        case ParameterType::integer: {
+            const auto value = parseNumber<std::int64_t>(text);
+            if (!value || static_cast<double>(*value) < parameter.minimum ||
+                static_cast<double>(*value) > parameter.maximum)
+                return std::nullopt;
+            return std::to_string(*value);
+        }
+        case ParameterType::real: {
+            const auto value = parseNumber<double>(text);
+            if (!value || !std::isfinite(*value) || *value < parameter.minimum || *value > parameter.maximum)
+                return std::nullopt;
+            return numberText(*value == 0 ? 0 : *value);
+        }
+        case ParameterType::boolean:
+            if (text == "on" || text == "true" || text == "1") return "on";
+            if (text == "off" || text == "false" || text == "0") return "off";
+            return std::nullopt;
+        case ParameterType::choice:
+            if (std::ranges::find(parameter.choices, text) != parameter.choices.end()) return std::string(text);
+            return std::nullopt;
+        case ParameterType::cells: {
+            const auto value = parseCells(parameter, text);
+            if (!value) return std::nullopt;
+            return std::to_string((*value)[0]) + "x" + std::to_string((*value)[1]) + "x" + std::to_string((*value)[2]);
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::string Parameter::allowed() const {
+    switch (type) {
+        case ParameterType::integer:
+            return "integer " + std::to_string(static_cast<std::int64_t>(minimum)) + ".." +
+                   std::to_string(static_cast<std::int64_t>(maximum));
+        case ParameterType::real:
+            return "number " + numberText(minimum) + ".." + numberText(maximum);
+        case ParameterType::boolean:
+            return "on|off";
+        case ParameterType::cells:
+            return "a grid such as " + initial + ", " + numberText(minimum) + ".." + numberText(maximum) +
+                   " cells along each edge";
+        case ParameterType::choice:
+            break;
+    }
+    std::string text;
+    for (const std::string& option : choices) text += (text.empty() ? "" : "|") + option;
+    return text;
+}
+
+ParameterSet& ParameterSet::add(Parameter parameter) {
+    if (find(parameter.name)) throw std::logic_error("parameter '" + parameter.name + "' is declared twice");
+    const auto canonical = canonicalText(parameter, parameter.initial);
+    if (!canonical)
+        throw std::logic_error("parameter '" + parameter.name + "': default '" + parameter.initial +
+                               "' is not allowed: " + parameter.allowed());
+    parameter.initial = *canonical;
+    parameters_.push_back(std::move(parameter));
+    return *this;
+}
+
+ParameterSet& ParameterSet::integer(std::string name, std::int64_t initial, std::int64_t minimum, std::int64_t maximum,
+                                    std::string unit, std::string help) {
+    return add({std::move(name),
+                ParameterType::integer,
+                std::to_string(initial),
+                static_cast<double>(minimum),
+                static_cast<double>(maximum),
+                {},
+                std::move(unit),
+                std::move(help)});
+}
+
+ParameterSet& ParameterSet::real(std::string name, double initial, double minimum, double maximum, std::string unit,
+                                 std::string help) {
+    return add({std::move(name),
+                ParameterType::real,
+                numberText(initial),
+                minimum,
+                maximum,
+                {},
+                std::move(unit),
+                std::move(help)});
+}
+
+ParameterSet& ParameterSet::boolean(std::string name, bool initial, std::string help) {
+    return add({std::move(name), ParameterType::boolean, initial ? "on" : "off", 0, 1, {}, "", std::move(help)});
+}
+
+ParameterSet& ParameterSet::choice(std::string name, std::string initial, std::vector<std::string> choices,
+                                   std::string help) {
+    return add(
+        {std::move(name), ParameterType::choice, std::move(initial), 0, 0, std::move(choices), "", std::move(help)});
+}
+
+ParameterSet& ParameterSet::cells(std::string name, std::string initial, std::int64_t minimum, std::int64_t maximum,
+                                  std::string help) {
+    return add({std::move(name),
+                ParameterType::cells,
+                std::move(initial),
+                static_cast<double>(minimum),
+                static_cast<double>(maximum),
+                {},
+                "",
+                std::move(help)});
+}
+
+const Parameter* ParameterSet::find(std::string_view name) const {
+    const auto found = std::ranges::find(parameters_, name, &Parameter::name);
+    return found == parameters_.end() ? nullptr : &*found;
+}
+
+ParameterValues::ParameterValues(const ParameterSet& declared) : declared_(declared) {
+    for (const Parameter& parameter : declared.all()) values_[parameter.name] = parameter.initial;
+}
+
+void ParameterValues::set(std::string_view name, std::string_view text) {
+    const Parameter* parameter = declared_.find(name);
+    if (!parameter) {
+        std::vector<std::string> known;
+        for (const Parameter& each : declared_.all()) known.push_back(each.name);
+        throw unknownName("parameter", name, known);
+    }
+    const auto canonical = canonicalText(*parameter, text);
+    if (!canonical)
+        throw InputError("parameter " + std::string(name) + ": got '" + std::string(text) + "', allowed: " +
+                         parameter->allowed() + (parameter->unit.empty() ? "" : " " + parameter->unit));
+    values_.find(name)->second = *canonical;
+}
+
+const std::string& ParameterValues::value(std::string_view name, ParameterType type) const {
+    const Parameter* parameter = declared_.find(name);
+    if (!parameter || parameter->type != type)
+        throw std::logic_error("parameter '" + std::string(name) + "' is not declared with this type");
+    return values_.find(name)->second;
+}
+
+std::int64_t ParameterValues::integer(std::string_view name) const {
+    return *parseNumber<std::int64_t>(value(name, ParameterType::integer));
+}
+
+double ParameterValues::real(std::string_view name) const {
+    return *parseNumber<double>(value(name, ParameterType::real));
+}
+
+bool ParameterValues::boolean(std::string_view name) const {
+    return value(name, ParameterType::boolean) == "on";
+}
+
+const std::string& ParameterValues::choice(std::string_view name) const {
+    return value(name, ParameterType::choice);
+}
+
+std::array<int, 3> ParameterValues::cells(std::string_view name) const {
+    return *parseCells(*declared_.find(name), value(name, ParameterType::cells));
+}
+
+const std::string& ParameterValues::choiceOf(std::string_view name, const std::vector<std::string>& words) const {
+    const std::string& word = choice(name);
+    if (declared_.find(name)->choices != words)
+        throw std::logic_error("parameter '" + std::string(name) + "' is not declared with these choices");
+    return word;
+}
+
+}  // namespace dustbench

@@ -1,0 +1,96 @@
+#include "methods/contract/parameters.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "methods/contract/errors.h"
+
+namespace dustbench {
+namespace {
+
+enum class Order { none, radix, quicksort };
+constexpr Choices<Order> orders{{"quicksort", Order::quicksort}, {"radix", Order::radix}, {"none", Order::none}};
+
+ParameterSet sample() {
+    ParameterSet set;
+    set.integer("depth", 7, 4, 12, "levels", "depth of the tree")
+        .real("share", 0.5, 0, 1, "", "a share")
+        .boolean("soft", false, "soft edges")
+        .choice("sort", Order::radix, orders, "order of drawing")
+        .cells("grid", "128x64x64", 4, 512, "cells along x, y and z");
+    return set;
+}
+
+std::string errorOf(ParameterValues& values, std::string_view name, std::string_view text) {
+    try {
+        values.set(name, text);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(Parameters, StartAtTheirDefaults) {
+    const ParameterValues values(sample());
+    EXPECT_EQ(values.integer("depth"), 7);
+    EXPECT_EQ(values.real("share"), 0.5);
+    EXPECT_FALSE(values.boolean("soft"));
+    EXPECT_EQ(values.choice("sort", orders), Order::radix);
+}
+
+TEST(Parameters, ReadAChoiceByItsWordWhateverTheOrderOfTheEnumerators) {
+    ParameterValues values(sample());
+    EXPECT_EQ(values.declared().find("sort")->choices, (std::vector<std::string>{"quicksort", "radix", "none"}));
+    for (const auto& [word, order] : orders.all()) {
+        values.set("sort", word);
+        EXPECT_EQ(values.choice("sort"), word);
+        EXPECT_EQ(values.choice("sort", orders), order);
+    }
+}
+
+TEST(Parameters, RefuseToReadAChoiceByAnotherTable) {
+    static constexpr Choices<Order> others{{"radix", Order::radix}, {"none", Order::none}};
+    EXPECT_THROW((void)ParameterValues(sample()).choice("sort", others), std::logic_error);
+    EXPECT_THROW((void)ParameterValues(sample()).choice("depth", orders), std::logic_error);
+}
+
+TEST(Parameters, HaveOneCanonicalTextForEqualValues) {
+    ParameterValues a(sample()), b(sample());
+    a.set("share", "0.250");
+    b.set("share", "+.25");
+    a.set("grid", "032x8x+16");
+    b.set("grid", "32x8x16");
+    EXPECT_EQ(a.cells("grid"), (std::array{32, 8, 16}));
+    a.set("soft", "true");
+    b.set("soft", "on");
+    EXPECT_EQ(a.canonical(), b.canonical());
+}
+
+TEST(Parameters, SayWhatWasGotAndWhatIsAllowed) {
+    ParameterValues values(sample());
+    EXPECT_EQ(errorOf(values, "depth", "13"), "parameter depth: got '13', allowed: integer 4..12 levels");
+    EXPECT_EQ(errorOf(values, "depth", "7.5"), "parameter depth: got '7.5', allowed: integer 4..12 levels");
+    EXPECT_EQ(errorOf(values, "share", "nan"), "parameter share: got 'nan', allowed: number 0..1");
+    EXPECT_EQ(errorOf(values, "sort", "bubble"), "parameter sort: got 'bubble', allowed: quicksort|radix|none");
+    for (const char* text : {"128x64", "128x64x64x64", "3x64x64", "ax64x64", "", "xx", "128X64X64", "128x64x64x"})
+        EXPECT_EQ(errorOf(values, "grid", text), "parameter grid: got '" + std::string(text) +
+                                                     "', allowed: a grid such as 128x64x64, 4..512 cells along each "
+                                                     "edge");
+    EXPECT_EQ(errorOf(values, "dept", "5"),
+              "unknown parameter 'dept' (did you mean 'depth'?); known: depth, share, soft, sort, grid");
+}
+
+TEST(Parameters, KeepTheirValueWhenABadOneIsRefused) {
+    ParameterValues values(sample());
+    (void)errorOf(values, "depth", "99");
+    EXPECT_EQ(values.integer("depth"), 7);
+}
+
+TEST(Parameters, RefuseToBeDeclaredTwiceOrWithABadDefault) {
+    ParameterSet set = sample();
+    EXPECT_THROW(set.real("depth", 1, 0, 2, "", ""), std::logic_error);
+    EXPECT_THROW(set.real("new", 3, 0, 2, "", ""), std::logic_error);
+}
+
+}  // namespace
+}  // namespace dustbench

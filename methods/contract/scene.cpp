@@ -1,0 +1,55 @@
+#include "methods/contract/scene.h"
+
+#include <cmath>
+
+namespace dustbench::scene {
+
+glm::vec3 dustColour(const Scene& scene) {
+    // Light that meets the cloud is scattered with albedo ϖ, equally to all sides (phase 1/4π). A white surface facing
+    // the sun reads `sun`, so one scattering shows ϖ·sun/4; the sky comes from everywhere and shows ϖ·ambient. Half of
+    // the scattered light leaves the cloud, the other half is scattered again: Σ ϖⁿ (½)ⁿ⁻¹ = ϖ / (1 − ϖ/2).
+    const glm::vec3 albedo = scene.dustAlbedo;
+    const glm::vec3 incoming = scene.lights.ambient + scene.lights.sun / 4.0f;
+    return albedo / (1.0f - albedo / 2.0f) * incoming;
+}
+
+namespace {
+
+/// Wheel axes as columns: rolling direction, up, and the axle to the right; turned about the axle by the rolled angle.
+glm::mat4 wheelToWorld(const WheelState& wheel, const glm::dvec3& bodyUp, bool rightSide) {
+    const glm::dvec3 axle = glm::normalize(glm::cross(wheel.forward, bodyUp));
+    const glm::dvec3 up = glm::cross(axle, wheel.forward);
+    // Rolling forwards carries the top of the wheel forwards: a negative turn about the axle (+Z).
+    const double angle = std::remainder(wheel.spinAngle, 2 * 3.14159265358979323846);
+    const double cosine = std::cos(angle);
+    const double sine = std::sin(angle);
+    // The mesh's outer face looks to +Z: on the left it is turned half round the vertical, and so spins the other way.
+    const double side = rightSide ? 1 : -1;
+    glm::dmat4 matrix(1);
+    matrix[0] = glm::dvec4(side * (cosine * wheel.forward - sine * up), 0);
+    matrix[1] = glm::dvec4(sine * wheel.forward + cosine * up, 0);
+    matrix[2] = glm::dvec4(side * axle, 0);
+    matrix[3] = glm::dvec4(wheel.hub, 1);
+    return glm::mat4(matrix);
+}
+
+}  // namespace
+
+VehiclePoses vehiclePoses(const VehicleModel& model, const VehicleState& state) {
+    // Yaw rate of the bicycle: v tan δ / wheelbase, about the body's up.
+    const double yawRate = state.speed * std::tan(state.steerAngle) / model.parameters.wheelbaseMetres;
+    VehiclePoses poses;
+    poses.body.toWorld = glm::mat4(state.toWorld());
+    poses.body.velocity = glm::vec3(state.forward() * state.speed);
+    poses.body.angularVelocity = glm::vec3(state.up * yawRate);
+    for (std::size_t i = 0; i < poses.wheels.size(); ++i) {
+        const WheelState& wheel = state.wheels[i];
+        const glm::dvec3 axle = glm::normalize(glm::cross(wheel.forward, state.up));
+        poses.wheels[i].toWorld = wheelToWorld(wheel, state.up, i == frontRight || i == rearRight);
+        poses.wheels[i].velocity = glm::vec3(wheel.velocity);
+        poses.wheels[i].angularVelocity = glm::vec3(state.up * yawRate - axle * wheel.spinRate);
+    }
+    return poses;
+}
+
+}  // namespace dustbench::scene

@@ -1,0 +1,60 @@
+// A scene: what is there (Scene, fixed for a run) and how it stands at one moment (SceneState).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "methods/contract/solid.h"
+#include "methods/contract/terrain.h"
+#include "methods/contract/vehicle.h"
+#include "methods/contract/view.h"
+
+namespace dustbench::scene {
+
+/// Sun, sky and air. Colours are linear RGB; a white surface facing a sun of 1 reads 1.
+struct Lights {
+    glm::vec3 toSun{-0.933013f, 0.258819f, -0.25f};  ///< unit vector towards the sun: 15° up, 165° from +X to −Z
+    glm::vec3 sun{1.0f, 0.93f, 0.80f};
+    glm::vec3 ambient{0.40f, 0.42f, 0.48f};  ///< from the sky, the same from all sides
+    glm::vec3 skyZenith{0.16f, 0.33f, 0.68f};
+    glm::vec3 skyHorizon{0.74f, 0.80f, 0.86f};
+    float hazePerMetre = 0.0015f;  ///< extinction of the clear air towards the horizon's colour
+};
+
+struct VehicleModel {
+    VehicleParameters parameters;
+    Solid body;
+    Solid wheel;  ///< axis along +Z, centred on its hub; the outer face looks to +Z (the right side)
+};
+
+struct Scene {
+    std::string id;
+    Terrain terrain;
+    Lights lights;
+    glm::vec3 wind{0};                  ///< m/s, world
+    std::vector<Solid> solids;          ///< besides the vehicle
+    std::vector<SolidPose> solidPoses;  ///< of `solids`
+    std::optional<VehicleModel> vehicle;
+    glm::vec3 dustAlbedo{0.64f, 0.54f, 0.42f};
+};
+
+struct SceneState {
+    double timeSeconds = 0;
+    VehicleState vehicle;
+};
+
+/// The colour a cloud of dust shows: its albedo lit by sky and sun as a cloud is, from all sides (linear RGB).
+[[nodiscard]] glm::vec3 dustColour(const Scene& scene);
+
+/// World poses of the vehicle's body and of its four wheels (order of `Wheel`).
+struct VehiclePoses {
+    SolidPose body;
+    std::array<SolidPose, 4> wheels;
+};
+[[nodiscard]] DUSTBENCH_API VehiclePoses vehiclePoses(const VehicleModel& model, const VehicleState& state);
+
+}  // namespace dustbench::scene

@@ -1,0 +1,47 @@
+#include <gtest/gtest.h>
+
+#include "methods/grid_fluid/obstacles_experiment.h"
+#include "methods/grid_fluid/sight_experiment.h"
+#include "methods/kit/draw/test_canvas.h"
+
+namespace dustbench::grid_fluid {
+namespace {
+
+TEST(ObstacleExperiment, TellsAnObstacleFromNoneAndFromOneThatSwallowsTheStream) {
+    const obstacles::ObstacleReport holds = obstacles::measureObstacleLeakage({});
+    EXPECT_LT(holds.swallowed, 0.02);
+    EXPECT_EQ(holds.smokeInside, 0);
+    obstacles::ObstacleSettings settings;
+    settings.isSolid = false;
+    EXPECT_GT(obstacles::measureObstacleLeakage(settings).smokeInside, 0.5);
+    // Without a pressure nothing turns the stream aside.
+    settings = {flow::PressureMethod::jacobi, 0};
+    EXPECT_GT(obstacles::measureObstacleLeakage(settings).swallowed, 0.3);
+}
+
+/// As the harness lends it, but without worlds: this experiment asks for none.
+class Context final : public ExperimentContext {
+ public:
+    [[nodiscard]] std::uint64_t seed() const override { return 1; }
+    [[nodiscard]] gpu::Device& device() override { return draw::TestCanvas::device(); }
+    [[nodiscard]] std::unique_ptr<ExperimentWorld> world(const std::string&, const std::map<std::string, std::string>&,
+                                                         int, int) override {
+        ADD_FAILURE() << "a world was asked for";
+        return nullptr;
+    }
+};
+
+TEST(SightExperiment, FindsWhatIsDrawnWrong) {
+    Context context;
+    std::map<std::string, double> errors;
+    for (const Finding& finding : sight::describe().run(context)) errors[finding.quantity] = finding.value;
+    ASSERT_EQ(errors.size(), 6u);
+    for (const auto& [name, error] : errors) EXPECT_LT(error, 1e-4) << name;
+    // A ray that ends at an alpha of a half leaves the other half out.
+    raycast::RaycastSettings settings;
+    settings.stopAlpha = 0.5;
+    EXPECT_GT(sight::maximumSightError(context.device(), settings, {{{0, 0, 9}, {0, 0, -1}, {}}}), 0.1);
+}
+
+}  // namespace
+}  // namespace dustbench::grid_fluid

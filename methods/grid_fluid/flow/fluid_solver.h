@@ -1,0 +1,73 @@
+// Smoke, fire and dust as a flow in a box: one step of the whole system.
+//
+// A step carries everything along, adds sources and forces, and makes the flow free of divergence.
+// Units: SI. Frame: world. Owns all fields; memory is on the ledger. Threads: one caller; its loops use the current
+// arena, and no result depends on how many threads there are. Source: Crane2007, 30.2; Senger2009, 4.1. Departs: see
+// reports/decisions/0006-fluid-grid.md.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "methods/grid_fluid/flow/advection.h"
+#include "methods/grid_fluid/flow/box_ghosts.h"
+#include "methods/grid_fluid/flow/projection.h"
+#include "methods/grid_fluid/flow/solid_cells.h"
+#include "methods/grid_fluid/flow/solver.h"
+
+namespace dustbench::grid_fluid::flow {
+
+class FluidSolver final : public Solver {
+ public:
+    /// Throws InputError where the box or the settings make no sense, or the machine has not enough memory.
+    FluidSolver(const FluidSettings& settings, MemoryLedger& ledger);
+
+    void setSolids(const SolidMask& mask) override;
+    StepReport step(double stepSeconds, std::span<const FluidSource> sources,
+                    const StageClock& clock = StageClock()) override;
+    void scroll(glm::ivec3 cells) override;
+
+    [[nodiscard]] const FluidBox& box() const override { return settings_.box; }
+    [[nodiscard]] std::int64_t steps() const override { return steps_; }
+    [[nodiscard]] std::uint64_t stateHash() const override;
+    void gather(Lane lane, std::span<float> to) const override;
+    [[nodiscard]] std::vector<float> pressuresM2PerS2() const override;
+    [[nodiscard]] bool onGpu() const override { return false; }
+    void gather(Lane lane, const gpu::Texture& to) const override;
+    [[nodiscard]] MemoryReport gpuMemory() const override { return {}; }
+
+    [[nodiscard]] const CellLayout& layout() const { return layout_; }
+    [[nodiscard]] const CellField& cells() const { return cells_; }
+    /// To set the state by hand.
+    [[nodiscard]] CellField& changeCells() {
+        speedsKnown_ = false;
+        return cells_;
+    }
+    [[nodiscard]] const SolidCells& solids() const { return solids_; }
+
+ private:
+    void addSources(std::span<const FluidSource> sources, float stepSeconds);
+    void diffuseVelocity(float stepSeconds);
+    void advect(float stepSeconds);
+    PressureResult project(float stepSeconds);
+    void findMaximumSpeeds();
+    [[nodiscard]] std::size_t floatsToLend() const;
+    [[nodiscard]] std::span<float> borrowed() { return {spare_.data(), spare_.floats()}; }
+    void fill(GhostUse use);
+
+    FluidSettings settings_;
+    CellLayout layout_;
+    PressureSolver pressure_;
+    CellField cells_, spare_;  ///< `spare_`: the state before; between, memory for forces and pressure
+    SolidCells solids_;
+    Advection advection_;
+    Projection projection_;
+    glm::vec3 maximumSpeeds_{0};
+    bool speedsKnown_ = false;
+    double covered_ = 0;  ///< density that solids covered since the last step
+    std::int64_t steps_ = 0;
+    double lastStepSeconds_ = 0;
+};
+
+}  // namespace dustbench::grid_fluid::flow

@@ -1,0 +1,155 @@
+// Advection and forces against slow, clear versions of themselves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "methods/grid_fluid/flow/forces.h"
+#include "methods/grid_fluid/flow/kernels_test_world.h"
+#include "methods/grid_fluid/flow/plain_advection.h"
+
+namespace dustbench::grid_fluid::flow {
+namespace {
+
+TEST(Advection, EqualsThePlainOne) {
+    for (const float speed : {0.4f, 1.7f, 9.0f})
+        for (const AdvectionRule rule : {AdvectionRule{AdvectionScheme::semiLagrangian, Limit::none},
+                                         AdvectionRule{AdvectionScheme::macCormack, Limit::clamp},
+                                         AdvectionRule{AdvectionScheme::macCormack, Limit::revert},
+                                         AdvectionRule{AdvectionScheme::macCormack, Limit::none}}) {
+            World world({13, 9, 27});
+            world.fillRandom(speed);
+            world.setRandomSolids(0.1);
+            Advection advection(world.layout, world.ledger.account("window"));
+            advection.advect(world.from, world.to, world.solids.conductance(), rule, 0.9f, std::max(speed, 1.0f));
+            const std::vector<PlainRecord> plain =
+                plainAdvection(world.from, world.layout, world.solids.conductance(), rule, 0.9,
+                               static_cast<double>(std::max(speed, 1.0f)));
+            // A place on the border between two cells may fall to either side, where the extrema jump.
+            int different = 0;
+            for (int k = 0; k < 27; ++k)
+                for (int j = 0; j < 9; ++j)
+                    for (int i = 0; i < 13; ++i)
+                        for (std::size_t lane = 0; lane < lanes; ++lane) {
+                            const std::size_t at = world.layout.at(i, j, k);
+                            const double error =
+                                std::fabs(static_cast<double>(world.to.cell(at)[lane]) - plain[at][lane]);
+                            if (error > 2e-5 * std::max(1.0, static_cast<double>(speed * speed))) ++different;
+                        }
+            EXPECT_LE(different, 6) << "speed " << speed << " limit " << static_cast<int>(rule.limit);
+        }
+}
+
+TEST(Forces, CurlOfARigidRotationIsTwiceItsSpeed) {
+    World world({10, 8, 6});
+    for (int k = -1; k <= 6; ++k)
+        for (int j = -1; j <= 8; ++j)
+            for (int i = -1; i <= 10; ++i) {
+                const glm::vec3 v = glm::cross(glm::vec3(0.5f, -1, 2), 0.25f * glm::vec3(i, j, k));
+                for (int axis = 0; axis < 3; ++axis) world.from.cell(world.layout.at(i, j, k))[axis] = v[axis];
+            }
+    std::vector<float> curl(forceFloats(world.layout));
+    gatherCurl(world.from, world.layout, world.solids.conductance(), 0.25f, curl);
+    const std::size_t count = curl.size() / 4;
+    for (std::size_t c = 0; c < count; ++c) {
+        EXPECT_NEAR(curl[c], 1, 1e-5);
+        EXPECT_NEAR(curl[count + c], -2, 1e-5);
+        EXPECT_NEAR(curl[2 * count + c], 4, 1e-5);
+        EXPECT_NEAR(curl[3 * count + c], std::sqrt(21.0f), 1e-5);
+    }
+}
+
+TEST(Forces, ConfinementTurnsAroundAVortexRing) {
+    // A vortex along z: the force pushes along N × ω, which feeds the rotation where |ω| falls off outwards.
+    World world({16, 16, 4}, closed);
+    const auto swirl = [](int i, int j) {
+        const glm::vec2 d(static_cast<float>(i) - 7.5f, static_cast<float>(j) - 7.5f);
+        return glm::vec2(-d.y, d.x) * std::exp(-glm::dot(d, d) / 8);
+    };
+    for (int k = -1; k <= 4; ++k)
+        for (int j = -1; j <= 16; ++j)
+            for (int i = -1; i <= 16; ++i) {
+                world.from.cell(world.layout.at(i, j, k))[0] = swirl(i, j).x;
+                world.from.cell(world.layout.at(i, j, k))[1] = swirl(i, j).y;
+            }
+    std::vector<float> borrowed(forceFloats(world.layout));
+    ForceSettings forces;
+    forces.confinementPerSecond = 0.5f;
+    applyForces(world.from, world.layout, world.solids.conductance(), forces, 1, 0.1f, borrowed);
+    double fed = 0;
+    for (int j = 0; j < 16; ++j)
+        for (int i = 0; i < 16; ++i) {
+            const float* after = world.from.cell(world.layout.at(i, j, 1));
+            fed += static_cast<double>(glm::dot(glm::vec2(after[0], after[1]) - swirl(i, j), swirl(i, j)));
+            // |f| = ε·h·|N × ω| ≤ ε·h·|ω|, and |ω| ≤ 2 here.
+            EXPECT_LE(glm::length(glm::vec2(after[0], after[1]) - swirl(i, j)), 0.5f * 2 * 0.1f + 1e-6f);
+        }
+    EXPECT_GT(fed, 0.1);
+}
+
+/// Forces of one cell in double precision, as their equations say; `before` is the state that they act on.
+PlainRecord slowForces(const World& world, const CellField& before, glm::ivec3 at, const ForceSettings& settings,
+                       double h, double dt) {
+    const CellLayout& layout = world.layout;
+    const auto clampedTo = [&](glm::ivec3 cell) {
+        return glm::clamp(cell, glm::ivec3(0), glm::ivec3(layout.nx, layout.ny, layout.nz) - 1);
+    };
+    const auto curl = [&](glm::ivec3 cell) {
+        if (world.solids.conductance()[layout.at(cell.x, cell.y, cell.z)] != 1) return glm::dvec3(0);
+        const auto slope = [&](int component, int along) {
+            glm::ivec3 ahead = cell, back = cell;
+            ++ahead[along], --back[along];
+            const auto u = [&](glm::ivec3 c) {
+                return static_cast<double>(before.cell(layout.at(c.x, c.y, c.z))[component]);
+            };
+            return (u(ahead) - u(back)) / (2 * h);
+        };
+        return glm::dvec3(slope(2, 1) - slope(1, 2), slope(0, 2) - slope(2, 0), slope(1, 0) - slope(0, 1));
+    };
+    glm::dvec3 towards;  // the way in which |ω| grows
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::ivec3 ahead = at, back = at;
+        ++ahead[axis], --back[axis];
+        towards[axis] = glm::length(curl(clampedTo(ahead))) - glm::length(curl(clampedTo(back)));
+    }
+    const double epsilon = static_cast<double>(settings.confinementPerSecond);
+    const glm::dvec3 force = epsilon * h * glm::cross(glm::normalize(towards), curl(at));
+    const float* old = before.cell(layout.at(at.x, at.y, at.z));
+    PlainRecord now;
+    for (std::size_t lane = 0; lane < lanes; ++lane) now[lane] = static_cast<double>(old[lane]);
+    for (std::size_t axis = 0; axis < 3; ++axis) now[axis] += dt * force[static_cast<int>(axis)];
+    now[velocityY] += dt * (static_cast<double>(settings.buoyancyPerKelvin) * now[temperature] -
+                            static_cast<double>(settings.weightPerDensity) * now[density]);
+    now[density] *= std::exp(-static_cast<double>(settings.densityDecayPerSecond) * dt);
+    now[temperature] *= std::exp(-static_cast<double>(settings.coolingPerSecond) * dt);
+    now[reaction] = std::max(0.0, now[reaction] - static_cast<double>(settings.reactionLossPerSecond) * dt);
+    return now;
+}
+
+TEST(Forces, EqualTheSlowVersion) {
+    const ForceSettings settings{0.1f, 0.2f, 0.5f, 0.3f, 0.4f, 0.6f, 0};
+    for (const double share : {0.0, 0.02, 0.3}) {
+        World world({53, 7, 5});
+        world.fillRandom(1);
+        world.setRandomSolids(share);
+        const CellField before = world.from;
+        std::vector<float> borrowed(forceFloats(world.layout));
+        applyForces(world.from, world.layout, world.solids.conductance(), settings, 0.5f, 0.1f, borrowed);
+        for (int k = 0; k < world.layout.nz; ++k)
+            for (int j = 0; j < world.layout.ny; ++j)
+                for (int i = 0; i < world.layout.nx; ++i) {
+                    const std::size_t at = world.layout.at(i, j, k);
+                    const bool fluid = world.solids.conductance()[at] == 1;
+                    const PlainRecord slow = slowForces(world, before, {i, j, k}, settings, 0.5, 0.1);
+                    for (std::size_t lane = 0; lane < lanes; ++lane)
+                        EXPECT_NEAR(static_cast<double>(world.from.cell(at)[lane]),
+                                    fluid ? slow[lane] : static_cast<double>(before.cell(at)[lane]), 2e-5)
+                            << i << ' ' << j << ' ' << k << " lane " << lane << " share " << share;
+                }
+    }
+}
+
+}  // namespace
+}  // namespace dustbench::grid_fluid::flow

@@ -1,0 +1,68 @@
+// What the kernels of the fluid do with all lanes at once, beside lanes/lanes.h. Private to them.
+#pragma once
+
+#ifdef __FMA__
+#include <immintrin.h>
+#endif
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "methods/kit/lanes/lanes.h"
+
+namespace dustbench::grid_fluid::flow {
+
+using lanes::atLeast;
+using lanes::atMost;
+using lanes::everywhere;
+using lanes::Float16;
+using lanes::Float4;
+using lanes::Float8;
+using lanes::Int16;
+using lanes::load;
+using lanes::store;
+
+/// Whether one instruction works on a Float16.
+#ifdef __AVX512F__
+inline constexpr bool sixteenAtOnce = true;
+#else
+inline constexpr bool sixteenAtOnce = false;
+#endif
+
+/// Sixteen bytes as whole numbers.
+[[gnu::always_inline]] inline Int16 widened(const std::uint8_t* bytes) {
+    Int16 numbers;
+#ifdef __AVX512F__
+    const __m512i wide = _mm512_maskz_cvtepu8_epi32(0xffff, _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes)));
+    std::memcpy(&numbers, &wide, sizeof numbers);
+#else
+    for (int i = 0; i < 16; ++i) numbers[i] = bytes[i];
+#endif
+    return numbers;
+}
+
+/// a·b + c, lane by lane, rounded once: where there is no instruction for it the same comes more slowly, so that no
+/// build has other results.
+template <typename Vector>
+[[gnu::always_inline]] inline Vector fused(const Vector& a, const Vector& b, const Vector& c) {
+#ifdef __AVX512F__
+    if constexpr (sizeof(Vector) == 64) return _mm512_fmadd_ps(a, b, c);
+#endif
+#ifdef __FMA__
+    if constexpr (sizeof(Vector) == 32) return _mm256_fmadd_ps(a, b, c);
+    if constexpr (sizeof(Vector) == 16) return _mm_fmadd_ps(a, b, c);
+#endif
+    Vector result;
+    for (std::size_t i = 0; i < sizeof(Vector) / sizeof(float); ++i) result[i] = std::fma(a[i], b[i], c[i]);
+    return result;
+}
+
+/// a + share·(b − a), lane by lane.
+template <typename Vector>
+[[gnu::always_inline]] inline Vector mix(const Vector& a, const Vector& b, float share) {
+    return fused(everywhere<Vector>(share), b - a, a);
+}
+
+}  // namespace dustbench::grid_fluid::flow

@@ -1,0 +1,27 @@
+// Advection as its equations say it, in whole fields and double precision: what Advection is held against.
+//
+//     x₋ = x − Δt·u(x − ½Δt·u(x))        where the air of a cell comes from
+//     φ̂(x) = φ(x₋)                        the first guess, all there is to the semi-Lagrangian scheme
+//     x₊ = x₋ + 2Δt·u(x)                  the path ahead, mirrored
+//     φ(x) ← φ̂(x) + ½(φ(x) − φ̂(x₊))      corrected, within the extrema of the eight cells around x₋
+//
+// Units: cells, metres per second. Source: Stam1999, 2.2; Selle2008, Eq. 4 and 3.2. Departs: as Advection does.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "methods/grid_fluid/flow/advection.h"
+
+namespace dustbench::grid_fluid::flow {
+
+using PlainRecord = std::array<double, lanes>;
+
+/// The records of all padded cells after `cellsPerSpeed` = Δt/h, those that are no fluid as they were. Parameters as in
+/// Advection::advect.
+[[nodiscard]] std::vector<PlainRecord> plainAdvection(const CellField& from, const CellLayout& layout,
+                                                      const std::uint8_t* fluid, AdvectionRule rule,
+                                                      double cellsPerSpeed, double maximumSpeedZ);
+
+}  // namespace dustbench::grid_fluid::flow

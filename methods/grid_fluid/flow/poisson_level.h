@@ -1,0 +1,83 @@
+// One grid of the pressure's hierarchy: Σ w·(pₙ − p) = f over the six faces of each cell, and its smoother.
+//
+// The finest grid's weights follow from the cells (1 between cells of fluid, 2 at an open side, 0 at solids and walls),
+// so a byte for their sum is all that it keeps; p is 0 in solids and ghosts. Coarser ones hold a weight for each face.
+// Units: h²·∇²q = h·∇·u in metres per second, see projection.h. Threads: rows in blocks.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "methods/grid_fluid/flow/cell_field.h"
+#include "methods/grid_fluid/flow/split_rows.h"
+
+namespace dustbench::grid_fluid::flow {
+
+class PoissonLevel {
+ public:
+    PoissonLevel(glm::ivec3 cells, bool finest, Arena& arena);
+
+    /// The finest grid, from SolidCells::conductance.
+    void build(const CellLayout& cells, const std::uint8_t* conductance);
+    /// A coarser one: a face conducts what the finer faces in it do, over the distance of its centres.
+    void buildFrom(const PoissonLevel& finer);
+
+    void clearPressure();
+    /// What is done in one pass through memory, in this order.
+    struct Pass {
+        /// The pressure is zero before, whatever is in memory; at least one sweep follows.
+        bool fromZero = false;
+        /// Its solution (fillNatural) is added, interpolated and overcorrected, to the black cells. The red ones follow
+        /// with the next sweep.
+        const PoissonLevel* correction = nullptr;
+        /// Gauss-Seidel sweeps: red cells, then black ones, which step so many times as far (relaxation.h).
+        std::span<const float> relaxations;
+        /// The sums of the residuals over each coarse cell become its right side. Those of red cells alone: black ones
+        /// have none after a sweep that is not relaxed.
+        PoissonLevel* restriction = nullptr;
+    };
+    /// Max |f − Ap| where there is a restriction.
+    float smooth(const Pass& pass);
+    /// One Jacobi sweep, from `pressure` to `other`.
+    void jacobi(const SplitField& other);
+    /// Max |f − Ap| over all cells.
+    [[nodiscard]] float residual() const;
+    /// Brings `pressure` into the order of cells, ghosts mirrored at walls and sign-reversed at open sides.
+    void fillNatural(const std::uint8_t (&openSides)[6]);
+
+    /// Of a coarser grid: the weight of the face to the next cell along an axis; −1 along it is before the first.
+    [[nodiscard]] float face(int axis, int i, int j, int k) const { return faces_[axis].cell(layout, i, j, k); }
+
+    SplitLayout layout;
+    bool finest;
+    SplitField pressure, rightSide;
+
+ private:
+    /// Place 0 is for the ghost before the first cell.
+    using FaceRow = std::array<float, 4100>;
+    /// Adds the weights of the faces behind the cells of a row; along x also that before the first.
+    void readFaces(int axis, int j, int k, FaceRow& row) const;
+    /// A row's pressure before a sweep: that of its memory, zero for it and its neighbours, or zero for itself alone.
+    enum class Guess { memory, zero, ownZero };
+    template <Guess guess, bool relaxed>
+    void sweepRow(int colour, int j, int k, const SplitField& target, const SplitField& source,
+                  float relaxation = 1) const;
+    void sweepRed(bool fromZero, int k);
+    void sweepBlack(bool fromZero, float relaxation, int k);
+    void clearGhosts();
+    void addToBlack(const PoissonLevel& coarse, int k);
+    /// Into the coarse slab of which fine slab `k` is the last; max |f − Ap| over the red cells of its slabs.
+    float restrictTo(PoissonLevel& coarse, int k) const;
+    template <bool keep>
+    float rowResidual(int colour, int j, int k, float* out) const;
+
+    SplitField faces_[3]{};     ///< coarse: weight of the face to the next cell along x, y, z
+    SplitField sum_{};          ///< coarse: of the six weights
+    std::uint8_t* bytes_[2]{};  ///< finest: of the six weights
+    const std::uint8_t* conductance_ = nullptr;
+    CellLayout cells_;
+    float* natural_ = nullptr;
+};
+
+}  // namespace dustbench::grid_fluid::flow

@@ -1,0 +1,165 @@
+#include "methods/grid_fluid/flow/pressure_solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "methods/grid_fluid/flow/relaxation.h"
+
+namespace dustbench::grid_fluid::flow {
+namespace {
+
+constexpr std::size_t fewCells = 64;  ///< so many are solved exactly
+
+/// The sweeps after one cycle, and those before the next.
+constexpr std::array relaxationsBetween = [] {
+    std::array<float, relaxationsAfter.size() + relaxationsBefore.size()> both{};
+    std::ranges::copy(relaxationsBefore, std::ranges::copy(relaxationsAfter, both.begin()).out);
+    return both;
+}();
+
+}  // namespace
+
+PressureSolver::PressureSolver(const CellLayout& layout, const Sides& sides) : layout_(layout) {
+    for (std::size_t side = 0; side < 6; ++side) openSides_[side] = sides[side] == Side::open ? 1 : 0;
+    Arena counting;
+    layOut(counting);
+    floatsNeeded_ = counting.used();
+}
+
+void PressureSolver::layOut(Arena& arena) {
+    levels_.clear();
+    glm::ivec3 cells(layout_.nx, layout_.ny, layout_.nz);
+    levels_.push_back(std::make_unique<PoissonLevel>(cells, true, arena));
+    other_ = arena.takeField(levels_.front()->layout);
+    do {
+        cells = (cells + 1) / 2;
+        levels_.push_back(std::make_unique<PoissonLevel>(cells, false, arena));
+    } while (levels_.back()->layout.cells() > fewCells);
+}
+
+void PressureSolver::build(std::span<float> memory, const std::uint8_t* conductance) {
+    Arena arena(memory);
+    layOut(arena);
+    levels_.front()->build(layout_, conductance);
+    for (std::size_t level = 1; level < levels_.size(); ++level) levels_[level]->buildFrom(*levels_[level - 1]);
+    factorCoarsest();
+    closed_ = closedRegions(layout_, conductance);
+}
+
+void PressureSolver::factorCoarsest() {
+    const PoissonLevel& level = *levels_.back();
+    const SplitLayout& at = level.layout;
+    const std::size_t n = at.cells();
+    std::vector<double> matrix(n * n, 0.0);
+    const auto number = [&](int i, int j, int k) {
+        return (static_cast<std::size_t>(k) * static_cast<std::size_t>(at.ny) + static_cast<std::size_t>(j)) *
+                   static_cast<std::size_t>(at.nx) +
+               static_cast<std::size_t>(i);
+    };
+    for (int k = 0; k < at.nz; ++k)
+        for (int j = 0; j < at.ny; ++j)
+            for (int i = 0; i < at.nx; ++i) {
+                const std::size_t own = number(i, j, k);
+                // In double, so that where nothing flows out it is a sum of the others but for 1e-16 of it.
+                const auto weight = [&](int axis, int x, int y, int z) {
+                    return static_cast<double>(level.face(axis, x, y, z));
+                };
+                matrix[own * n + own] = weight(0, i, j, k) + weight(0, i - 1, j, k) + weight(1, i, j, k) +
+                                        weight(1, i, j - 1, k) + weight(2, i, j, k) + weight(2, i, j, k - 1);
+                const auto couple = [&](int axis, std::size_t other) {
+                    matrix[own * n + other] = matrix[other * n + own] = -weight(axis, i, j, k);
+                };
+                if (i + 1 < at.nx) couple(0, number(i + 1, j, k));
+                if (j + 1 < at.ny) couple(1, number(i, j + 1, k));
+                if (k + 1 < at.nz) couple(2, number(i, j, k + 1));
+            }
+    coarsest_.factor(std::move(matrix), n);
+}
+
+void PressureSolver::solveCoarsest() {
+    PoissonLevel& level = *levels_.back();
+    const SplitLayout& at = level.layout;
+    std::vector<double> x;
+    x.reserve(at.cells());
+    for (int k = 0; k < at.nz; ++k)
+        for (int j = 0; j < at.ny; ++j)
+            for (int i = 0; i < at.nx; ++i) x.push_back(-static_cast<double>(level.rightSide.cell(at, i, j, k)));
+    coarsest_.solve(x);
+    level.clearPressure();
+    auto value = x.begin();
+    for (int k = 0; k < at.nz; ++k)
+        for (int j = 0; j < at.ny; ++j)
+            for (int i = 0; i < at.nx; ++i) level.pressure.cell(at, i, j, k) = static_cast<float>(*value++);
+}
+
+void PressureSolver::cycle(std::size_t number) {
+    PoissonLevel& level = *levels_[number];
+    if (number + 1 == levels_.size()) {
+        solveCoarsest();
+    } else {
+        PoissonLevel& coarse = *levels_[number + 1];
+        level.smooth({.fromZero = true, .relaxations = relaxationsBefore, .restriction = &coarse});
+        cycle(number + 1);
+        level.smooth({.correction = &coarse, .relaxations = relaxationsAfter});
+    }
+    level.fillNatural(openSides_);
+}
+
+float PressureSolver::balanceClosedRegions() {
+    PoissonLevel& level = finest();
+    float maximum = 0;
+    for (const std::vector<Run>& region : closed_) {
+        double sum = 0;
+        std::int64_t cells = 0;
+        for (const Run& run : region) {
+            for (int i = run.i; i < run.end; ++i)
+                sum += static_cast<double>(level.rightSide.cell(level.layout, i, run.j, run.k));
+            cells += run.end - run.i;
+        }
+        const auto mean = static_cast<float>(sum / static_cast<double>(cells));
+        maximum = std::max(maximum, std::fabs(mean));
+        for (const Run& run : region)
+            for (int i = run.i; i < run.end; ++i) level.rightSide.cell(level.layout, i, run.j, run.k) -= mean;
+    }
+    return maximum;
+}
+
+PressureResult PressureSolver::sweepJacobi(const PressureRule& rule) {
+    PoissonLevel& level = finest();
+    level.clearPressure();
+    std::fill_n(other_.colour[0], level.layout.size(), 0.0f);
+    std::fill_n(other_.colour[1], level.layout.size(), 0.0f);
+    for (int sweep = 0; sweep < rule.jacobiSweeps; ++sweep) {
+        level.jacobi(other_);
+        std::swap(level.pressure, other_);
+    }
+    PressureResult result;
+    result.cycles = rule.jacobiSweeps;
+    result.residual = level.residual();
+    return result;
+}
+
+PressureResult PressureSolver::solve(const PressureRule& rule) {
+    PoissonLevel& level = finest();
+    const float unremovable = closed_.empty() ? 0 : balanceClosedRegions();
+    PressureResult result;
+    if (rule.method == PressureMethod::jacobi) {
+        result = sweepJacobi(rule);
+    } else {
+        // The sweeps after one cycle are those before the next: the residual that is restricted tells when to end.
+        PoissonLevel& coarse = *levels_[1];
+        result.residual = level.smooth({.fromZero = true, .relaxations = relaxationsBefore, .restriction = &coarse});
+        while (!(result.residual <= rule.tolerance) && result.cycles < rule.maximumCycles) {
+            cycle(1);
+            result.residual =
+                level.smooth({.correction = &coarse, .relaxations = relaxationsBetween, .restriction = &coarse});
+            ++result.cycles;
+        }
+    }
+    result.unremovable = unremovable;
+    return result;
+}
+
+}  // namespace dustbench::grid_fluid::flow

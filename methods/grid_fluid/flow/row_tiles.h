@@ -1,0 +1,29 @@
+// Rows in tiles: what lies beside a row in y and in z is still in the cache when its neighbours come to it. Private to
+// the kernels.
+//
+// Threads: tiles in parallel.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "methods/grid_fluid/flow/cell_field.h"
+#include "methods/kit/parallel/for_each_block.h"
+
+namespace dustbench::grid_fluid::flow {
+
+/// `row(j, k, scratch)` for every row of a box; a tile's rows share one `Scratch`, which begins as `Scratch{}`.
+template <typename Scratch, typename Row>
+void forRowsInTiles(const CellLayout& layout, const Row& row) {
+    constexpr int side = 16;  // of rows 256 cells long, three slabs of a tile are a third of a megabyte
+    const int tilesJ = (layout.ny + side - 1) / side, tilesK = (layout.nz + side - 1) / side;
+    const auto tiles = static_cast<std::size_t>(tilesJ) * static_cast<std::size_t>(tilesK);
+    parallel::forEachBlock(tiles, 1, [&](std::size_t tile, std::size_t) {
+        const int firstJ = static_cast<int>(tile) % tilesJ * side, firstK = static_cast<int>(tile) / tilesJ * side;
+        Scratch scratch{};
+        for (int k = firstK; k < std::min(firstK + side, layout.nz); ++k)
+            for (int j = firstJ; j < std::min(firstJ + side, layout.ny); ++j) row(j, k, scratch);
+    });
+}
+
+}  // namespace dustbench::grid_fluid::flow

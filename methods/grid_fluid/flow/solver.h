@@ -1,0 +1,53 @@
+// What solves a fluid, step by step: the same for the CPU and for the GPU.
+//
+// Units: SI. Frame: world.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "methods/contract/stage_clock.h"
+#include "methods/grid_fluid/flow/cell_field.h"
+#include "methods/grid_fluid/flow/fluid_settings.h"
+#include "methods/grid_fluid/flow/fluid_source.h"
+#include "methods/grid_fluid/flow/solid_mask.h"
+#include "methods/kit/memory/memory_ledger.h"
+
+namespace dustbench::gpu {
+class Texture;
+}
+
+namespace dustbench::grid_fluid::flow {
+
+class Solver {
+ public:
+    virtual ~Solver() = default;
+
+    /// From the next step on. The mask covers the box where it stands now.
+    virtual void setSolids(const SolidMask& mask) = 0;
+    /// Advances by a step. Throws SimulationError with step, field and cell where a number gets lost.
+    virtual StepReport step(double stepSeconds, std::span<const FluidSource> sources, const StageClock& clock) = 0;
+    /// Moves the box by whole cells; what is in them stays where it is in the world. The solids must be set anew.
+    virtual void scroll(glm::ivec3 cells) = 0;
+
+    [[nodiscard]] virtual const FluidBox& box() const = 0;
+    [[nodiscard]] virtual std::int64_t steps() const = 0;
+    /// Of all records, ghosts aside (hashOf).
+    [[nodiscard]] virtual std::uint64_t stateHash() const = 0;
+
+    /// One of the numbers that cells hold, x fastest, without ghosts.
+    virtual void gather(Lane lane, std::span<float> to) const = 0;
+    /// Kinematic pressure p/ρ of the last step in m²/s², 0 in solids, in the same order.
+    [[nodiscard]] virtual std::vector<float> pressuresM2PerS2() const = 0;
+
+    /// Whether the state lies on the GPU.
+    [[nodiscard]] virtual bool onGpu() const = 0;
+    /// One of the numbers that cells hold into an R32F texture of the box's cells; only `onGpu()`.
+    virtual void gather(Lane lane, const gpu::Texture& to) const = 0;
+    /// What lies on the GPU; the rest is on the ledger.
+    [[nodiscard]] virtual MemoryReport gpuMemory() const = 0;
+};
+
+}  // namespace dustbench::grid_fluid::flow

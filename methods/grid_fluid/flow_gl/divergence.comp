@@ -1,0 +1,13 @@
+// h times the divergence of each cell of fluid, over its faces, as flow::gatherDivergence has it.
+layout(std430, binding = 4) restrict writeonly buffer RightSide { float rightSide[]; };
+
+void main() {
+    ivec3 c = ivec3(gl_GlobalInvocationID);
+    if (!inside(c)) return;
+    int cell = at(c);
+    float sum = 0.0;
+    if (isFluid(cell))
+        for (int axis = 0; axis < 3; ++axis)
+            sum += faceSpeed(cell, stepAlong(axis), axis) - faceSpeed(cell, -stepAlong(axis), axis);
+    rightSide[place(c)] = sum;
+}

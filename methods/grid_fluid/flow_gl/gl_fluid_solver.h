@@ -1,0 +1,79 @@
+// Smoke, fire and dust as a flow in a box, on the GPU: the same step as flow::FluidSolver, within what floats differ
+// by.
+//
+// The state stays on the GPU; a step reads a few numbers back, once. Results are the same from run to run on one
+// machine: sums go over fixed blocks. Units: SI. Frame: world. Owns all fields. Threads: the OpenGL thread's.
+// Source: Crane2007, 30.2; Senger2009, 4.1. Departs: see reports/decisions/0007-fluid-on-the-gpu.md.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "methods/grid_fluid/flow/solver.h"
+#include "methods/grid_fluid/flow_gl/advection_on_gpu.h"
+#include "methods/grid_fluid/flow_gl/density_on_gpu.h"
+#include "methods/grid_fluid/flow_gl/forces_on_gpu.h"
+#include "methods/grid_fluid/flow_gl/ghosts_on_gpu.h"
+#include "methods/grid_fluid/flow_gl/pressure_on_gpu.h"
+#include "methods/grid_fluid/flow_gl/solids_on_gpu.h"
+#include "methods/grid_fluid/flow_gl/sources_on_gpu.h"
+#include "methods/kit/gpu/texture.h"
+
+namespace dustbench::grid_fluid::flow_gl {
+
+class GlFluidSolver final : public flow::Solver {
+ public:
+    /// Throws InputError where the box or the settings make no sense, or OpenGL takes no buffers of that size.
+    GlFluidSolver(const flow::FluidSettings& settings, gpu::Device& device, MemoryLedger& ledger);
+
+    void setSolids(const flow::SolidMask& mask) override;
+    flow::StepReport step(double stepSeconds, std::span<const flow::FluidSource> sources,
+                          const StageClock& clock = StageClock()) override;
+    void scroll(glm::ivec3 cells) override;
+
+    [[nodiscard]] const flow::FluidBox& box() const override { return settings_.box; }
+    [[nodiscard]] std::int64_t steps() const override { return steps_; }
+    /// Waits for the GPU, as all that reads back.
+    [[nodiscard]] std::uint64_t stateHash() const override;
+    void gather(flow::Lane lane, std::span<float> to) const override;
+    [[nodiscard]] std::vector<float> pressuresM2PerS2() const override;
+    [[nodiscard]] bool onGpu() const override { return true; }
+    void gather(flow::Lane lane, const gpu::Texture& to) const override;
+    [[nodiscard]] MemoryReport gpuMemory() const override;
+
+    [[nodiscard]] const flow::CellLayout& layout() const { return layout_; }
+    /// To set the state by hand.
+    void writeCells(const flow::CellField& cells);
+    /// All that cells hold; ghosts as the last kernel left them (waits for the GPU).
+    void readCells(flow::CellField& cells) const;
+
+ private:
+    void advect(float stepSeconds);
+    void diffuseVelocity(float stepSeconds);
+    void project(float stepSeconds);
+    void move(const glm::ivec3& by);
+    void findMaximum();
+    void requireNumbers();
+
+    flow::FluidSettings settings_;
+    flow::CellLayout layout_;
+    MemoryLedger& ledger_;
+    CellsOnGpu cells_, spare_, guess_;  ///< `spare_`: what comes next; `guess_`: first guesses, and the curl
+    StepReportOnGpu report_;
+    SolidsOnGpu solids_;
+    GhostsOnGpu ghosts_;
+    AdvectionOnGpu advection_;
+    std::optional<DensityOnGpu> density_;
+    SourcesOnGpu sources_;
+    ForcesOnGpu forces_;
+    PressureOnGpu pressure_;
+    Kernel divergence_, gradient_, maximum_, scroll_;
+    mutable Kernel gather_, gatherTexture_;  ///< they change nothing here but their own uniforms
+    bool operatorKnown_ = false, speedsKnown_ = false, stateUnseen_ = false;
+    std::int64_t steps_ = 0;
+    double lastStepSeconds_ = 0;
+};
+
+}  // namespace dustbench::grid_fluid::flow_gl

@@ -1,0 +1,316 @@
+// The solver on the GPU against that on the CPU, and against itself.
+#include "methods/grid_fluid/flow_gl/gl_fluid_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "methods/grid_fluid/flow/fluid_solver.h"
+#include "methods/kit/testing/test_input_error.h"
+
+namespace dustbench::grid_fluid::flow_gl {
+namespace {
+
+using flow::CellField;
+using flow::CellLayout;
+
+gpu::Device& device() {
+    static gpu::Device one;
+    return one;
+}
+
+/// A box with a source, random flow in it and a ball that moves and turns, for either solver.
+struct Flow {
+    explicit Flow(glm::ivec3 cells = {24, 20, 16}) {
+        settings.box = {cells, 0.1, {0, 0, 0}};
+        settings.forces.buoyancyPerKelvin = 0.5f;
+        settings.forces.weightPerDensity = 0.1f;
+        settings.divergencePerStep = 1e-5f;
+        flow::FluidSource source;
+        source.centreMetres = {0.71, 0.33, 0.92};
+        source.radiusMetres = 0.2;
+        source.densityPerSecond = 4;
+        source.kelvinPerSecond = 40;
+        source.reaction = 1;
+        source.velocityMetresPerSecond = {1, 2, 0};
+        source.velocityPerSecond = 3;
+        sources = {source, source};
+        sources[1].centreMetres.x = 1.5;
+        sources[1].densityPerSecond = 0;
+        sources[1].amountM3PerSecond = 0.2f;
+    }
+    /// Velocities up to `speed` and all else between 0 and 1, smooth enough to be a flow.
+    [[nodiscard]] CellField randomState(MemoryLedger& ledger, float speed) const {
+        const CellLayout layout(settings.box.cells);
+        CellField state(layout, ledger.account("state"));
+        std::mt19937 random(11);
+        std::uniform_real_distribution<float> value(-1, 1);
+        std::array<std::array<float, 4>, flow::lanes> waves;
+        for (auto& wave : waves)
+            for (float& number : wave) number = value(random);
+        for (int k = 0; k < layout.nz; ++k)
+            for (int j = 0; j < layout.ny; ++j)
+                for (int i = 0; i < layout.nx; ++i)
+                    for (std::size_t lane = 0; lane < flow::lanes; ++lane) {
+                        const auto& w = waves[lane];
+                        const float wave =
+                            std::sin(0.7f * (w[0] * static_cast<float>(i) + w[1] * static_cast<float>(j) +
+                                             w[2] * static_cast<float>(k)) +
+                                     6 * w[3]) +
+                            0.1f * value(random);
+                        state.cell(layout.at(i, j, k))[lane] = lane < 3 ? speed * wave : std::max(0.0f, 0.5f * wave);
+                    }
+        return state;
+    }
+    [[nodiscard]] flow::SolidMask ball(float x) {
+        const glm::vec3 centre(x, 9.3f, 7.8f);
+        body.clear();
+        for (int k = 0; k < settings.box.cells.z; ++k)
+            for (int j = 0; j < settings.box.cells.y; ++j)
+                for (int i = 0; i < settings.box.cells.x; ++i)
+                    body.push_back(glm::distance(glm::vec3(i, j, k) + 0.5f, centre) < 3.2f ? 2 : 0);
+        motions = {{}, {{0.5f, 0, 0}, {0, 0.2f, 0}, centre}};
+        return {body, motions};
+    }
+
+    flow::FluidSettings settings;
+    std::vector<flow::FluidSource> sources;
+    std::vector<std::uint8_t> body;
+    std::vector<flow::BodyMotion> motions;
+};
+
+template <typename Cell>
+void forCells(const CellLayout& layout, const Cell& cell) {
+    for (int k = 0; k < layout.nz; ++k)
+        for (int j = 0; j < layout.ny; ++j)
+            for (int i = 0; i < layout.nx; ++i) cell(i, j, k, layout.at(i, j, k));
+}
+
+/// The maximum difference of each number that cells hold, by the maximum value of its kind; velocities together.
+struct Difference {
+    double velocity = 0, density = 0, temperature = 0, reaction = 0, mean = 0;
+};
+
+Difference between(const CellField& one, const CellField& other, const CellLayout& layout) {
+    std::array<double, flow::lanes> maximum{}, off{};
+    Difference result;
+    double sum = 0;
+    forCells(layout, [&](int, int, int, std::size_t at) {
+        for (std::size_t lane = 0; lane < flow::lanes; ++lane) {
+            const auto a = static_cast<double>(one.cell(at)[lane]), b = static_cast<double>(other.cell(at)[lane]);
+            const std::size_t kind = lane < 3 ? 0 : lane;
+            maximum[kind] = std::max(maximum[kind], std::fabs(a));
+            off[kind] = std::max(off[kind], std::fabs(a - b));
+            if (lane == flow::density) sum += std::fabs(a - b);
+        }
+    });
+    const auto share = [&](std::size_t kind) { return maximum[kind] > 0 ? off[kind] / maximum[kind] : off[kind]; };
+    result.velocity = share(0);
+    result.density = share(flow::density);
+    result.temperature = share(flow::temperature);
+    result.reaction = share(flow::reaction);
+    result.mean = sum / maximum[flow::density] / static_cast<double>(layout.rows()) / layout.nx;
+    return result;
+}
+
+/// The same steps by both solvers.
+struct Pair {
+    Pair(Flow& flow, bool withBall, int steps = 3) {
+        flow::FluidSolver cpu(flow.settings, ledger);
+        GlFluidSolver gl(flow.settings, device(), ledger);
+        const CellField initial = flow.randomState(ledger, 2);
+        cpu.changeCells() = initial;
+        gl.writeCells(initial);
+        for (int step = 0; step < steps; ++step) {
+            if (withBall) {
+                const flow::SolidMask mask = flow.ball(9.1f + 0.4f * static_cast<float>(step));
+                cpu.setSolids(mask);
+                gl.setSolids(mask);
+            }
+            onCpu = cpu.step(0.03, flow.sources);
+            onGpu = gl.step(0.03, flow.sources);
+        }
+        CellField result(cpu.layout(), ledger.account("result"));
+        gl.readCells(result);
+        difference = between(cpu.cells(), result, cpu.layout());
+        const std::vector<float> ofCpu = cpu.pressuresM2PerS2(), ofGl = gl.pressuresM2PerS2();
+        EXPECT_EQ(ofCpu.size(), ofGl.size());
+        double maximum = 0;
+        for (std::size_t cell = 0; cell < ofCpu.size(); ++cell) {
+            const auto p = static_cast<double>(ofCpu[cell]);
+            pressure = std::max(pressure, std::fabs(p - static_cast<double>(ofGl[cell])));
+            maximum = std::max(maximum, std::fabs(p));
+        }
+        pressure /= maximum;
+    }
+    void expectTheSame() const {
+        EXPECT_LE(difference.velocity, 1e-5);
+        EXPECT_LE(difference.density, 1e-5);
+        EXPECT_LE(difference.temperature, 1e-5);
+        EXPECT_LE(difference.reaction, 1e-5);
+        EXPECT_LE(pressure, 3e-4);
+        EXPECT_NEAR(onGpu.cellsPerStep, onCpu.cellsPerStep, 1e-4);
+        EXPECT_NEAR(onGpu.pressure.unremovable, onCpu.pressure.unremovable, 1e-5);
+    }
+    MemoryLedger ledger;
+    flow::StepReport onCpu, onGpu;
+    Difference difference;
+    double pressure = 0;
+};
+
+TEST(GlFluidSolver, StepsAsTheCpuDoesOverAFloor) {
+    Flow flow;
+    flow.settings.advection.scheme = flow::AdvectionScheme::semiLagrangian;
+    const Pair pair(flow, false);
+    pair.expectTheSame();
+    EXPECT_LE(pair.onGpu.divergencePerStep, 1e-5f);
+}
+
+TEST(GlFluidSolver, StepsAsTheCpuDoesWithWindAllForcesAndARoughBall) {
+    Flow flow;
+    flow.settings.windMetresPerSecond = {2, 0, -1};
+    flow.settings.sides = flow::withWind(flow::openOverFloor, flow.settings.windMetresPerSecond);
+    flow.settings.noSlip = true;
+    flow.settings.advection.limit = flow::Limit::clamp;
+    flow.settings.forces = {.buoyancyPerKelvin = 0.5f,
+                            .weightPerDensity = 0.2f,
+                            .confinementPerSecond = 2,
+                            .densityDecayPerSecond = 0.5f,
+                            .coolingPerSecond = 1,
+                            .reactionLossPerSecond = 0.7f,
+                            .viscosityM2PerSecond = 0.1f};
+    const Pair pair(flow, true);
+    pair.expectTheSame();
+    EXPECT_LE(pair.onGpu.divergencePerStep, 1e-5f);
+}
+
+TEST(GlFluidSolver, StepsAsTheCpuDoesWithTheDensityKeptAndASmoothBall) {
+    Flow flow;
+    flow.settings.keepsDensity = true;
+    flow.settings.advection.limit = flow::Limit::revert;
+    const Pair pair(flow, true);
+    // Where a corrected value is about as large as its limit, either may be taken: few cells, and not far apart.
+    EXPECT_LE(pair.difference.mean, 1e-6);
+    EXPECT_LE(pair.difference.density, 0.05);
+    EXPECT_LE(pair.difference.velocity, 0.05);
+    EXPECT_LE(pair.onGpu.divergencePerStep, 1e-5f);
+}
+
+TEST(GlFluidSolver, StepsAsTheCpuDoesInAClosedBoxOfOddSize) {
+    Flow flow({23, 19, 17});
+    flow.settings.sides = flow::closed;
+    flow.settings.advection.limit = flow::Limit::none;
+    const Pair pair(flow, true);
+    pair.expectTheSame();
+    EXPECT_GT(pair.onGpu.pressure.unremovable, 0);  // a ball that changes its cells is a piston now and then
+    EXPECT_LE(pair.onGpu.divergencePerStep, 2e-5f);
+}
+
+TEST(GlFluidSolver, SweepsAsTheCpuDoes) {
+    Flow flow;
+    flow.settings.pressure = flow::PressureMethod::jacobi;
+    flow.settings.jacobiSweeps = 21;
+    const Pair pair(flow, true, 2);
+    pair.expectTheSame();
+    EXPECT_EQ(pair.onGpu.pressure.cycles, 21);
+    EXPECT_NEAR(pair.onGpu.pressure.residual, pair.onCpu.pressure.residual, 1e-4f * pair.onCpu.pressure.residual);
+}
+
+TEST(GlFluidSolver, ConvergesAroundRandomSolids) {
+    for (const double share : {0.05, 0.3}) {
+        Flow flow;
+        flow.settings.divergencePerStep = 1e-4f;
+        MemoryLedger ledger;
+        GlFluidSolver gl(flow.settings, device(), ledger);
+        std::mt19937 random(3);
+        std::bernoulli_distribution chance(share);
+        for (std::size_t c = 0; c < flow.settings.box.cellCount(); ++c) flow.body.push_back(chance(random) ? 1 : 0);
+        gl.setSolids({flow.body, {}});
+        for (int step = 0; step < 2; ++step) {
+            const flow::StepReport report = gl.step(0.03, flow.sources);
+            EXPECT_LE(report.divergencePerStep, 1e-4f) << share;
+            EXPECT_LE(report.pressure.cycles, 12) << share;
+        }
+    }
+}
+
+TEST(GlFluidSolver, IsTheSameAgainAndScrollsByWholeCells) {
+    Flow flow;
+    MemoryLedger ledger;
+    const auto run = [&](GlFluidSolver& gl) {
+        for (int step = 0; step < 4; ++step) gl.step(0.03, flow.sources);
+    };
+    GlFluidSolver one(flow.settings, device(), ledger), other(flow.settings, device(), ledger);
+    run(one);
+    run(other);
+    EXPECT_EQ(one.stateHash(), other.stateHash());
+    EXPECT_EQ(one.steps(), 4);
+
+    CellField before(one.layout(), ledger.account("before")), after(one.layout(), ledger.account("after"));
+    one.readCells(before);
+    one.scroll({3, 0, -2});
+    one.readCells(after);
+    EXPECT_NEAR(one.box().originMetres.x, 0.3, 1e-12);
+    EXPECT_NEAR(one.box().originMetres.z, -0.2, 1e-12);
+    forCells(one.layout(), [&](int i, int j, int k, std::size_t at) {
+        const bool had = i + 3 < 24 && k - 2 >= 0;
+        for (std::size_t lane = 0; lane < flow::lanes; ++lane)
+            EXPECT_EQ(after.cell(at)[lane], had ? before.cell(one.layout().at(i + 3, j, k - 2))[lane] : 0.0f);
+    });
+    EXPECT_EQ(one.pressuresM2PerS2(), std::vector<float>(24 * 20 * 16, 0.0f));
+    one.step(0.03, flow.sources);
+}
+
+TEST(GlFluidSolver, RefusesBadInputInOneLine) {
+    Flow flow({8, 8, 8});
+    MemoryLedger ledger;
+    const auto refusal = [&](const auto& change) {
+        flow::FluidSettings settings = flow.settings;
+        change(settings);
+        return inputError([&] { const GlFluidSolver solver(settings, device(), ledger); });
+    };
+    EXPECT_NE(refusal([](flow::FluidSettings& s) { s.box.spacingMetres = 0; }).find("spacing: got 0.0"),
+              std::string::npos);
+    const std::string large = refusal([](flow::FluidSettings& s) { s.box.cells = {4096, 4096, 4096}; });
+    EXPECT_NE(large.find("4096x4096x4096 cells, 1101123027072 bytes in one buffer of OpenGL"), std::string::npos)
+        << large;
+
+    GlFluidSolver solver(flow.settings, device(), ledger);
+    const std::vector<std::uint8_t> full(512, 1);
+    EXPECT_NE(inputError([&] { solver.setSolids({full, {}}); }).find("filled"), std::string::npos);
+    EXPECT_NE(inputError([&] { solver.step(-1, {}); }).find("step"), std::string::npos);
+    flow.sources[0].radiusMetres = 0;
+    EXPECT_NE(inputError([&] { solver.step(0.1, flow.sources); }).find("radius"), std::string::npos);
+}
+
+TEST(GlFluidSolver, StopsWhereANumberIsLost) {
+    Flow flow({8, 8, 8});
+    flow.settings.forces.buoyancyPerKelvin = 100;
+    MemoryLedger ledger;
+    GlFluidSolver solver(flow.settings, device(), ledger);
+    solver.step(0.1, {});
+    const auto lost = [&] {
+        try {
+            solver.step(0.1, {});
+        } catch (const std::runtime_error& error) {
+            return std::string(error.what());
+        }
+        return std::string("nothing");
+    };
+    CellField state(solver.layout(), ledger.account("state"));
+    solver.readCells(state);
+    state.cell(solver.layout().at(3, 2, 5))[flow::temperature] = std::numeric_limits<float>::quiet_NaN();
+    solver.writeCells(state);
+    EXPECT_EQ(lost(), "fluid: after step 1 the temperature of cell 3, 2, 5 is not a number");
+
+    // One that the step itself loses.
+    state.cell(solver.layout().at(3, 2, 5))[flow::temperature] = 3e38f;
+    solver.writeCells(state);
+    EXPECT_EQ(lost().substr(0, 25), "fluid: after step 2 the v");
+}
+
+}  // namespace
+}  // namespace dustbench::grid_fluid::flow_gl

@@ -1,0 +1,25 @@
+// The residuals of the red cells, summed over each coarse cell, become the coarse right side. After a sweep the black
+// cells have none.
+layout(std430, binding = 5) restrict writeonly buffer CoarseRightSide { float coarseRightSide[]; };
+uniform ivec3 coarse;
+
+void main() {
+    ivec3 to = ivec3(gl_GlobalInvocationID);
+    float sum = 0.0, maximum = 0.0;
+    bool exists = all(lessThan(to, coarse));
+    if (exists) {
+        for (int n = 0; n < 4; ++n) {
+            ivec3 c = 2 * to + ivec3(0, n & 1, n >> 1);
+            c.x += c.x + c.y + c.z & 1;
+            if (!inside(c)) continue;
+            float r = residual(c);
+            sum += r;
+            // Not max(), which may pass over what is not a number.
+            maximum = abs(r) <= maximum ? maximum : abs(r);
+        }
+        coarseRightSide[placeIn(to, coarse)] = sum;
+    }
+#ifdef FINEST
+    tell(maximum);
+#endif
+}

@@ -1,0 +1,14 @@
+// What flows in: balls with a soft edge, as flow::SourceReach has them.
+struct Source {
+    ivec4 first, last;            // cells that it reaches
+    ivec4 middle;                 // a cell near the centre; w: 1 where `amount` says how much in all
+    vec4 offset;                  // from there to the centre; w: one over the radius
+    vec4 velocity;                // w: share of it that the air takes on
+    float density, kelvin, reaction, amount;  // at the centre; of `amount`: of all cells together
+};
+layout(std430, binding = 3) restrict readonly buffer Sources { Source sources[]; };
+
+float strengthAt(ivec3 c, int s) {
+    vec3 d = (vec3(c - sources[s].middle.xyz) - sources[s].offset.xyz) * sources[s].offset.w;
+    return exp(-0.5 * dot(d, d));
+}

@@ -1,0 +1,52 @@
+// What the host has to know after a step, in one small buffer: read once, when all that goes before is queued.
+//
+// Values are floats that are not negative, as bits: their order is that of the values, so that the maximum is found by
+// atomicMax, the same whoever comes first. Owns the buffer. Threads: the OpenGL thread's.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "methods/kit/gpu/buffer.h"
+
+namespace dustbench::grid_fluid::flow_gl {
+
+class StepReportOnGpu {
+ public:
+    static constexpr std::uint32_t binding = 7;
+    static constexpr int lanes = 6;
+    static constexpr int unremovable = lanes, firstResidual = lanes + 1;
+
+    StepReportOnGpu(gpu::Device& device, int residuals)
+        : values_(static_cast<std::size_t>(firstResidual + residuals)),
+          buffer_(device, "fluid report", values_.size() * sizeof(std::uint32_t)) {}
+
+    /// The maximum magnitudes of what cells hold begin with those of the wind.
+    void restartMaximum(const glm::vec3& wind) {
+        std::uint32_t initial[lanes]{};
+        for (int axis = 0; axis < 3; ++axis) initial[axis] = std::bit_cast<std::uint32_t>(std::abs(wind[axis]));
+        buffer_.write(std::span<const std::uint32_t>(initial));
+    }
+    /// All values: maximum magnitudes are lost too.
+    void restart() { buffer_.clear(); }
+    void bind() const { buffer_.bindStorage(binding); }
+    /// Waits for the GPU.
+    void read() { buffer_.read(std::span<std::uint32_t>(values_)); }
+
+    [[nodiscard]] float at(int slot) const { return std::bit_cast<float>(values_[static_cast<std::size_t>(slot)]); }
+    [[nodiscard]] bool anyNumberLost() const {
+        for (int lane = 0; lane < lanes; ++lane)
+            if (!(at(lane) <= std::numeric_limits<float>::max())) return true;
+        return false;
+    }
+
+ private:
+    std::vector<std::uint32_t> values_;
+    gpu::Buffer buffer_;
+};
+
+}  // namespace dustbench::grid_fluid::flow_gl

@@ -1,0 +1,39 @@
+// Whether solids hide a volume and a camera within it sees it as they should: the ray caster against the exact picture
+// of a homogeneous box (claim R32).
+//
+// Units: metres. Threads: that of the device. Source: Senger2009, 4.2.2 and 4.3.1.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "methods/contract/experiment.h"
+#include "methods/kit/gpu/device.h"
+#include "methods/kit/raycast/raycast_settings.h"
+
+namespace dustbench::grid_fluid::sight {
+
+/// A camera on a box of 6 by 3.5 by 4.5 m around the origin, and an opaque ball.
+struct Sight {
+    struct Ball {
+        glm::dvec3 centre{0};
+        double radius = 1;
+    };
+    glm::dvec3 eye{0}, along{0, 0, -1};
+    std::optional<Ball> ball;
+};
+
+/// The maximum |α − (1 − e^(−σl))| of all pixels; l: what of a pixel's ray lies within the box, from the eye to the
+/// ball.
+[[nodiscard]] double maximumSightError(gpu::Device& device, const raycast::RaycastSettings& settings,
+                                       const std::vector<Sight>& sights);
+
+/// The experiment `sight`, with OpenGL's march (`_gl`) and the CPU's (`_cpu`), rays never ending early:
+///     free_…      the camera outside, nothing in its way
+///     solid_…     a ball before the box, within it, half within it, behind it
+///     inside_…    the camera within the box, so near to it that the near plane cuts its front, and with a ball
+/// Throws InputError where there is no OpenGL.
+[[nodiscard]] ExperimentInfo describe();
+
+}  // namespace dustbench::grid_fluid::sight

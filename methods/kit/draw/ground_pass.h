@@ -1,0 +1,62 @@
+// Draws the ground: lattice, textures, the worn track on level ground, and the places where shadows may fall.
+//
+// Units: metres. Owns: its buffers, textures and programs. The moment's uniform block is bound by whoever calls.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "methods/contract/scene.h"
+#include "methods/kit/draw/ground_lattice.h"
+#include "methods/kit/gpu/buffer.h"
+#include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/program.h"
+#include "methods/kit/gpu/texture.h"
+#include "methods/kit/gpu/vertex_array.h"
+
+namespace dustbench::draw {
+
+class GroundPass {
+ public:
+    /// `device` and `scene` must outlive the pass.
+    GroundPass(gpu::Device& device, const scene::Scene& scene);
+
+    /// Colour and depth of the ground as seen from `eye`. Shadows are looked up within `shaded` alone: there the ground
+    /// is drawn a second time, which is cheaper than asking for shadows everywhere.
+    void draw(const glm::dvec3& eye, const glm::mat4& eyeToClip, std::span<const GroundRectangle> shaded);
+
+    /// Mean albedo of the ground.
+    [[nodiscard]] static glm::vec3 albedo(const scene::Scene& scene);
+
+ private:
+    void place(gpu::Program& program, const glm::dvec3& eye, bool withTrack);
+    void drawTrack();
+    void drawShadedRectangles(std::span<const GroundRectangle> shaded);
+    void drawShadedTriangles(std::span<const GroundRectangle> shaded);
+
+    gpu::Device& device_;
+    const scene::Scene& scene_;
+    bool hasTrack_;
+    GroundLattice lattice_;
+    gpu::Texture detail_;
+    gpu::Texture patches_;
+    gpu::Program plain_;
+    gpu::Program track_;
+    gpu::Program shaded_;
+
+    gpu::Buffer vertices_;
+    gpu::Buffer visible_;
+    gpu::Buffer shadedIndices_;
+    gpu::Buffer rectangles_;
+    gpu::Buffer trackVertices_;
+    gpu::VertexArray latticeLayout_;
+    gpu::VertexArray shadedLayout_;
+    gpu::VertexArray rectangleLayout_;
+    gpu::VertexArray trackLayout_;
+    std::vector<std::uint32_t> indices_;
+    std::vector<GroundVertex> corners_;
+};
+
+}  // namespace dustbench::draw

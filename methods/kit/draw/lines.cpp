@@ -1,0 +1,36 @@
+#include "methods/kit/draw/lines.h"
+
+#include <map>
+#include <string>
+
+#include "draw_shaders.h"
+
+namespace dustbench::draw {
+namespace {
+
+std::map<std::string, std::string> definitions(const LineStyle& style) {
+    if (style.additive) return {{"ADDITIVE", ""}};
+    return {};
+}
+
+}  // namespace
+
+Lines::Lines(gpu::Device& device, const LineStyle& style)
+    : InstanceBatch(device, {"lines",
+                             draw_shaders::lines_vert,
+                             draw_shaders::lines_frag,
+                             {},
+                             2,
+                             1,
+                             definitions(style),
+                             gpu::Primitives::lines}),
+      style_(style) {}
+
+void Lines::draw(const scene::View& view, const gpu::Layer& layer) {
+    if (count() == 0) return;
+    gpu::Program& program = this->program(view);
+    program.set("seconds", style_.seconds);
+    drawWithinScene(program, view, layer);
+}
+
+}  // namespace dustbench::draw

@@ -1,0 +1,34 @@
+// Particles as lines one pixel wide, from where each is back along its velocity, all in one draw call.
+//
+// Units: m, m/s, s. Frame: world. Colours: linear RGB. Owns: the instances, on the GPU. Threads: the OpenGL thread's.
+// Source: JuckelBeckhaus2007, 4.4.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "methods/contract/view.h"
+#include "methods/kit/draw/instance_batch.h"
+#include "methods/kit/gpu/layer.h"
+
+namespace dustbench::draw {
+
+struct LineStyle {
+    float seconds = 1.0f / 60;  ///< whose way a line shows
+    bool additive = false;      ///< as BillboardStyle has it
+};
+
+class DUSTBENCH_API Lines : public InstanceBatch {
+ public:
+    Lines(gpu::Device& device, const LineStyle& style);
+
+    /// x y z velocity (3) opacity red green blue
+    [[nodiscard]] static InstanceLayout layout() { return {10, true}; }
+
+    /// Draws what was mapped last, as often as wanted.
+    void draw(const scene::View& view, const gpu::Layer& layer);
+
+ private:
+    LineStyle style_;
+};
+
+}  // namespace dustbench::draw

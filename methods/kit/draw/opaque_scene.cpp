@@ -1,0 +1,288 @@
+#include "methods/kit/draw/opaque_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "draw_shaders.h"
+#include "methods/kit/draw/ground_pass.h"
+#include "methods/kit/draw/opaque_moment.h"
+#include "methods/kit/draw/shadow_footprint.h"
+#include "methods/kit/draw/shadow_map.h"
+#include "methods/kit/draw/solid_mesh.h"
+#include "methods/kit/gpu/draw_call.h"
+#include "methods/kit/gpu/framebuffer.h"
+
+namespace dustbench::draw {
+namespace {
+
+constexpr int vehicleShadowTexels = 512;  // 12 mm each; twice as many cost 3 ms more on two cores of llvmpipe
+// Solids stand still: their map is drawn anew only when the eye has gone a step, and then holds for metres around.
+constexpr int solidShadowTexels = 2048;
+constexpr double solidShadowReachMetres = 80;
+constexpr double solidShadowStepMetres = 32;
+constexpr double solidMarginMetres = 0.3;    // a few of the map's texels
+constexpr double vehicleMarginMetres = 0.8;  // the darkening beside the vehicle reaches 0.7 m
+constexpr float bodyGloss = 1;
+constexpr float wheelGloss = 0.1f;
+constexpr float solidGloss = 0.1f;
+
+std::map<std::string, std::string> casters(const scene::Scene& scene) {
+    std::map<std::string, std::string> result;
+    if (scene.vehicle) result.emplace("VEHICLE", "1");
+    if (!scene.solids.empty()) result.emplace("SOLIDS", "1");
+    return result;
+}
+
+glm::mat4 moved(glm::mat4 matrix, const glm::dvec3& by) {
+    matrix[3] = glm::vec4(glm::vec3(glm::dvec3(matrix[3]) + by), 1);
+    return matrix;
+}
+
+/// The same vehicle in a world whose origin is `origin`: what follows in floats is then precise.
+scene::VehicleState relativeTo(scene::VehicleState vehicle, const glm::dvec3& origin) {
+    vehicle.position -= origin;
+    for (scene::WheelState& wheel : vehicle.wheels) {
+        wheel.hub -= origin;
+        wheel.contact -= origin;
+    }
+    return vehicle;
+}
+
+struct PlacedSolid {
+    std::shared_ptr<const SolidMesh> mesh;  ///< one for all solids of the same shape
+    glm::mat4 toWorld;
+    glm::dvec3 centre;
+    double radiusMetres;
+
+    [[nodiscard]] bool touches(const glm::dvec3& place, double reachMetres) const {
+        return glm::distance(place, centre) - radiusMetres < reachMetres;
+    }
+};
+
+/// Whether a sphere reaches into the view: inside is where −w ≤ x ≤ w, −w ≤ y ≤ w and w ≥ 0.
+bool mayBeSeen(const glm::mat4& eyeToClip, const glm::vec3& centre, float radius) {
+    const glm::mat4 rows = glm::transpose(eyeToClip);
+    for (const glm::vec4& plane : {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3]})
+        if (glm::dot(plane, glm::vec4(centre, 1)) < -radius * glm::length(glm::vec3(plane))) return false;
+    return true;
+}
+
+glm::vec4 with(const glm::vec3& colour, float fourth = 0) {
+    return {colour, fourth};
+}
+
+}  // namespace
+
+struct OpaqueScene::State {
+    State(const scene::Scene& shown, gpu::Device& device, int width, int height);
+
+    void aimVehicleShadow(const glm::dvec3& eye, const scene::VehiclePoses& poses);
+    void aimSolidShadow(const glm::dvec3& eye);
+    void findFootprints(const glm::dvec3& eye, const scene::VehiclePoses& poses);
+    void describe(const scene::View& view, const scene::VehicleState& vehicle);
+    void drawSolids(const glm::dvec3& eye);
+    void drawVehicle(const scene::VehiclePoses& poses);
+
+    const scene::Scene& scene;
+    gpu::Texture colour;
+    gpu::Texture depth;
+    gpu::Framebuffer target;
+
+    GroundPass ground;
+    std::vector<PlacedSolid> solids;
+    std::optional<SolidMesh> body;
+    std::optional<SolidMesh> wheel;
+    std::optional<ShadowMap> vehicleShadow;
+    std::optional<ShadowMap> solidShadow;
+
+    gpu::Program casterProgram;
+    gpu::Program solidProgram;
+    gpu::Program skyProgram;
+    gpu::VertexArray noVertices;
+    gpu::Buffer momentBlock;
+    OpaqueMoment now;
+    std::vector<GroundRectangle> solidFootprints;
+    std::optional<glm::dvec3> solidShadowCentre;
+    std::vector<GroundRectangle> footprints;
+};
+
+OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& device, int width, int height)
+    : scene(shown),
+      colour(gpu::Texture::make2D(device, "scene colour", gpu::Format::rgba16F, width, height)),
+      depth(gpu::Texture::make2D(device, "scene depth", gpu::Format::depth32F, width, height)),
+      target(device, "scene", &colour, &depth),
+      ground(device, shown),
+      casterProgram(device, "shadow caster", {draw_shaders::opaque_caster_vert, draw_shaders::opaque_caster_frag}),
+      solidProgram(device, "solid",
+                   {draw_shaders::opaque_moment_glsl, draw_shaders::opaque_shadow_glsl, draw_shaders::opaque_solid_vert,
+                    draw_shaders::opaque_solid_frag},
+                   casters(shown)),
+      skyProgram(device, "sky",
+                 {draw_shaders::opaque_moment_glsl, draw_shaders::opaque_sky_vert, draw_shaders::opaque_sky_frag}),
+      noVertices(device),
+      momentBlock(device, "scene moment", sizeof(OpaqueMoment)) {
+    if (scene.solidPoses.size() != scene.solids.size())
+        throw std::invalid_argument("OpaqueScene: every solid needs its pose");
+    const glm::vec3 toSun = scene.lights.toSun;
+    if (scene.vehicle) {
+        body.emplace(device, scene.vehicle->body);
+        wheel.emplace(device, scene.vehicle->wheel);
+        // The wheels reach a little beyond the body, below and ahead.
+        const double reach = static_cast<double>(body->radiusMetres()) + 2 * static_cast<double>(wheel->radiusMetres());
+        vehicleShadow.emplace(device, "vehicle shadow", vehicleShadowTexels, reach, toSun);
+    }
+    std::map<const scene::Mesh*, std::shared_ptr<const SolidMesh>> shapes;
+    for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+        std::shared_ptr<const SolidMesh>& shape = shapes[scene.solids[i].mesh.get()];
+        if (!shape) shape = std::make_shared<const SolidMesh>(device, scene.solids[i]);
+        const SolidMesh& mesh = *shape;
+        const glm::mat4& toWorld = scene.solidPoses[i].toWorld;
+        const glm::dvec3 centre(toWorld * glm::vec4(mesh.centre(), 1));
+        const double radius = static_cast<double>(mesh.radiusMetres() * glm::length(glm::vec3(toWorld[0])));
+        const std::vector<GroundRectangle> pieces =
+            shadowFootprints(*scene.solids[i].mesh, toWorld, toSun, scene.terrain, solidMarginMetres);
+        solidFootprints.insert(solidFootprints.end(), pieces.begin(), pieces.end());
+        solids.push_back({shape, toWorld, centre, radius});
+    }
+    joinOverlapping(solidFootprints);
+    if (!solids.empty()) solidShadow.emplace(device, "solid shadow", solidShadowTexels, solidShadowReachMetres, toSun);
+}
+
+void OpaqueScene::State::aimSolidShadow(const glm::dvec3& eye) {
+    glm::dvec3 centre = glm::floor(eye / solidShadowStepMetres + 0.5) * solidShadowStepMetres;
+    centre.y = 0;
+    if (solidShadowCentre == centre) return;
+    solidShadowCentre = centre;
+    solidShadow->aim(centre);
+    solidShadow->bindAndClear();
+    const glm::mat4 toLight = solidShadow->eyeToLight(centre);
+    for (const PlacedSolid& solid : solids) {
+        if (!solid.touches(centre, solidShadowReachMetres)) continue;
+        casterProgram.set("toLight", toLight * moved(solid.toWorld, -centre));
+        solid.mesh->draw(casterProgram, {.depthTest = true, .depthWrite = true});
+    }
+}
+
+void OpaqueScene::State::aimVehicleShadow(const glm::dvec3& eye, const scene::VehiclePoses& poses) {
+    vehicleShadow->aim(eye + glm::dvec3(poses.body.toWorld * glm::vec4(body->centre(), 1)));
+    const glm::mat4 toLight = vehicleShadow->eyeToLight(eye);
+    const gpu::DrawState state{.depthTest = true, .depthWrite = true};
+    vehicleShadow->bindAndClear();
+    casterProgram.set("toLight", toLight * poses.body.toWorld);
+    body->draw(casterProgram, state);
+    for (const scene::SolidPose& pose : poses.wheels) {
+        casterProgram.set("toLight", toLight * pose.toWorld);
+        wheel->draw(casterProgram, state);
+    }
+}
+
+void OpaqueScene::State::findFootprints(const glm::dvec3& eye, const scene::VehiclePoses& poses) {
+    footprints.clear();
+    const glm::dvec2 below(eye.x, eye.z);
+    for (const GroundRectangle& footprint : solidFootprints) {
+        const glm::dvec2 nearest = glm::clamp(below, footprint.minimum, footprint.maximum);
+        if (glm::distance(nearest, below) < solidShadowReachMetres) footprints.push_back(footprint);
+    }
+    if (!body) return;
+    glm::dmat4 toWorld(poses.body.toWorld);
+    toWorld[3] += glm::dvec4(eye, 0);
+    footprints.push_back(shadowFootprint(body->minimum(), body->maximum(), toWorld, scene.lights.toSun, scene.terrain,
+                                         vehicleMarginMetres));
+}
+
+void OpaqueScene::State::describe(const scene::View& view, const scene::VehicleState& vehicle) {
+    const glm::dvec3& eye = view.camera.eye;
+    scene::View centred = view;
+    centred.camera.eye = glm::dvec3(0);
+    centred.camera.target -= eye;
+    const scene::Lights& lights = scene.lights;
+    now.eyeToClip = centred.worldToClip();
+    now.clipToEye = glm::mat4(glm::inverse(glm::dmat4(now.eyeToClip)));
+    now.toSun = with(glm::normalize(lights.toSun));
+    now.sun = with(lights.sun);
+    now.ambient = with(lights.ambient);
+    now.groundLight = with(GroundPass::albedo(scene) * (lights.sun * std::max(lights.toSun.y, 0.0f) + lights.ambient));
+    now.skyZenith = with(lights.skyZenith);
+    now.skyHorizon = with(lights.skyHorizon, lights.hazePerMetre);
+    if (body) {
+        now.eyeToVehicleShadow = vehicleShadow->eyeToTexture(eye);
+        now.shadowTexels.x = static_cast<float>(vehicleShadow->texelMetres());
+        now.eyeToVehicle = glm::mat4(glm::inverse(relativeTo(vehicle, eye).toWorld()));
+        now.underside = {body->centre().x, body->centre().z, (body->maximum().x - body->minimum().x) / 2 - 0.3f,
+                         (body->maximum().z - body->minimum().z) / 2 - 0.2f};
+    }
+    if (solidShadow) {
+        now.eyeToSolidShadow = solidShadow->eyeToTexture(eye);
+        now.shadowTexels.y = static_cast<float>(solidShadow->texelMetres());
+    }
+    std::memcpy(momentBlock.mapForWriting(sizeof now), &now, sizeof now);
+    momentBlock.unmap();
+    momentBlock.bindUniform(0);
+}
+
+void OpaqueScene::State::drawSolids(const glm::dvec3& eye) {
+    solidProgram.set("gloss", solidGloss);
+    for (const PlacedSolid& solid : solids) {
+        if (!mayBeSeen(now.eyeToClip, glm::vec3(solid.centre - eye), static_cast<float>(solid.radiusMetres))) continue;
+        solidProgram.set("toEye", moved(solid.toWorld, -eye));
+        solid.mesh->draw(solidProgram, {.depthTest = true, .depthWrite = true});
+    }
+}
+
+void OpaqueScene::State::drawVehicle(const scene::VehiclePoses& poses) {
+    const gpu::DrawState state{.depthTest = true, .depthWrite = true, .cullBackFaces = true};
+    solidProgram.set("gloss", bodyGloss);
+    solidProgram.set("toEye", poses.body.toWorld);
+    body->draw(solidProgram, state);
+    solidProgram.set("gloss", wheelGloss);
+    for (const scene::SolidPose& pose : poses.wheels) {
+        solidProgram.set("toEye", pose.toWorld);
+        wheel->draw(solidProgram, state);
+    }
+}
+
+OpaqueScene::OpaqueScene(const scene::Scene& scene, gpu::Device& device, int width, int height)
+    : state_(std::make_unique<State>(scene, device, width, height)) {}
+
+OpaqueScene::~OpaqueScene() = default;
+
+void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view) {
+    if (view.width != colour().width() || view.height != colour().height())
+        throw std::invalid_argument("OpaqueScene: the view's size is not the one given at construction");
+    State& own = *state_;
+    const glm::dvec3& eye = view.camera.eye;
+    scene::VehiclePoses poses;
+    if (own.body) {
+        poses = scene::vehiclePoses(*own.scene.vehicle, relativeTo(state.vehicle, eye));
+        own.aimVehicleShadow(eye, poses);
+    }
+    if (own.solidShadow) own.aimSolidShadow(eye);
+    own.describe(view, state.vehicle);
+    own.findFootprints(eye, poses);
+
+    own.target.bind();
+    own.target.clearDepth();  // ground and sky leave no pixel out: colour needs no clearing
+    if (own.vehicleShadow) own.vehicleShadow->depth().bind(2);
+    if (own.solidShadow) own.solidShadow->depth().bind(3);
+    own.ground.draw(eye, own.now.eyeToClip, own.footprints);
+    own.drawSolids(eye);
+    if (own.body) own.drawVehicle(poses);
+    // Last: where something stands, the depth test spares the sky its shader.
+    gpu::draw(own.skyProgram, own.noVertices, {.depthTest = true}, gpu::Primitives::triangles, 3);
+}
+
+const gpu::Texture& OpaqueScene::colour() const {
+    return state_->colour;
+}
+
+const gpu::Texture& OpaqueScene::depth() const {
+    return state_->depth;
+}
+
+}  // namespace dustbench::draw

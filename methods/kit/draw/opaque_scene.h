@@ -1,0 +1,32 @@
+// Draws what is solid: sky and sun, textured ground, solids, the vehicle with its wheels, and their shadow.
+//
+// Units: linear colour, scene metres. Depth: reversed, 32-bit float. Owns: its colour and depth targets.
+#pragma once
+
+#include <memory>
+
+#include "methods/contract/scene.h"
+#include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/texture.h"
+
+namespace dustbench::draw {
+
+class DUSTBENCH_API OpaqueScene {
+ public:
+    OpaqueScene(const scene::Scene& scene, gpu::Device& device, int width, int height);
+    ~OpaqueScene();
+    OpaqueScene(const OpaqueScene&) = delete;
+    OpaqueScene& operator=(const OpaqueScene&) = delete;
+
+    /// Draws the moment into colour() and depth(). `view` has the size given at construction.
+    void draw(const scene::SceneState& state, const scene::View& view);
+
+    [[nodiscard]] const gpu::Texture& colour() const;  ///< RGBA16F, linear, alpha 1
+    [[nodiscard]] const gpu::Texture& depth() const;   ///< Depth32F
+
+ private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace dustbench::draw

@@ -1,0 +1,38 @@
+// A solid's triangles on the GPU.
+//
+// Units: metres. Frame: the object's own. Owns: its buffers.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "methods/contract/solid.h"
+#include "methods/kit/gpu/buffer.h"
+#include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/draw_call.h"
+#include "methods/kit/gpu/vertex_array.h"
+
+namespace dustbench::draw {
+
+class DUSTBENCH_API SolidMesh {
+ public:
+    SolidMesh(gpu::Device& device, const scene::Solid& solid);
+
+    void draw(const gpu::Program& program, const gpu::DrawState& state) const;
+
+    [[nodiscard]] const glm::vec3& minimum() const { return minimum_; }
+    [[nodiscard]] const glm::vec3& maximum() const { return maximum_; }
+    [[nodiscard]] glm::vec3 centre() const { return (minimum_ + maximum_) / 2.0f; }
+    /// Of the sphere about centre() that holds every vertex.
+    [[nodiscard]] float radiusMetres() const { return radius_; }
+
+ private:
+    gpu::Buffer vertices_;
+    gpu::Buffer indices_;
+    gpu::VertexArray layout_;
+    int indexCount_ = 0;
+    glm::vec3 minimum_{0};
+    glm::vec3 maximum_{0};
+    float radius_ = 0;
+};
+
+}  // namespace dustbench::draw

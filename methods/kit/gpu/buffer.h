@@ -1,0 +1,62 @@
+// A block of GPU memory.
+//
+// Owns: the OpenGL buffer; its bytes are on the device's ledger under `label`.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "methods/kit/gpu/booking.h"
+#include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/name.h"
+
+namespace dustbench::gpu {
+
+class DUSTBENCH_API Buffer {
+ public:
+    /// An empty buffer of no bytes; assign one before use.
+    Buffer() = default;
+    /// Contents are undefined until written.
+    Buffer(Device& device, std::string_view label, std::size_t bytes);
+
+    template <typename T>
+    Buffer(Device& device, std::string_view label, std::span<const T> data) : Buffer(device, label, data.size_bytes()) {
+        write(data);
+    }
+
+    /// Replaces the first `data.size()` elements. Throws std::out_of_range where they do not fit.
+    template <typename T>
+    void write(std::span<const T> data) {
+        writeBytes(data.data(), data.size_bytes());
+    }
+    /// Reads the first `data.size()` elements back (waits for the GPU).
+    template <typename T>
+    void read(std::span<T> data) const {
+        readBytes(data.data(), data.size_bytes());
+    }
+
+    /// All bytes become 0.
+    void clear();
+
+    /// Hands out `bytes` of memory to fill; the old contents are given up, so nothing waits for draws still queued.
+    /// The memory is write-only and valid until `unmap`.
+    [[nodiscard]] void* mapForWriting(std::size_t bytes);
+    void unmap();
+
+    void bindStorage(std::uint32_t binding) const;
+    void bindUniform(std::uint32_t binding) const;
+
+    [[nodiscard]] std::size_t bytes() const { return booking_.bytes(); }
+    [[nodiscard]] const Name& name() const { return name_; }
+
+ private:
+    void writeBytes(const void* data, std::size_t bytes);
+    void readBytes(void* data, std::size_t bytes) const;
+
+    Name name_;
+    Booking booking_;
+};
+
+}  // namespace dustbench::gpu

@@ -1,0 +1,58 @@
+#include "methods/kit/gpu/draw_call.h"
+
+#include <epoxy/gl.h>
+
+#include "methods/kit/gpu/debug_output.h"
+
+namespace dustbench::gpu {
+namespace {
+
+void enable(GLenum capability, bool on) {
+    on ? glEnable(capability) : glDisable(capability);
+}
+
+GLenum modeOf(Primitives primitives) {
+    switch (primitives) {
+        case Primitives::triangles:
+            return GL_TRIANGLES;
+        case Primitives::triangleStrip:
+            return GL_TRIANGLE_STRIP;
+        case Primitives::points:
+            return GL_POINTS;
+        case Primitives::lines:
+            return GL_LINES;
+    }
+    return GL_TRIANGLES;
+}
+
+void prepare(const Program& program, const VertexArray& vertices, const DrawState& state) {
+    enable(GL_DEPTH_TEST, state.depthTest || state.depthWrite);
+    glDepthFunc(state.depthTest ? GL_GEQUAL : GL_ALWAYS);
+    glDepthMask(state.depthWrite ? GL_TRUE : GL_FALSE);
+    enable(GL_CULL_FACE, state.cullBackFaces);
+    enable(GL_BLEND, state.blend != Blend::none);
+    if (state.blend == Blend::premultiplied) glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    if (state.blend == Blend::additive) glBlendFunc(GL_ONE, GL_ONE);
+    program.use();
+    vertices.bind();
+}
+
+}  // namespace
+
+void draw(const Program& program, const VertexArray& vertices, const DrawState& state, Primitives primitives,
+          int vertexCount, int instances) {
+    if (vertexCount <= 0 || instances <= 0) return;
+    prepare(program, vertices, state);
+    glDrawArraysInstanced(modeOf(primitives), 0, vertexCount, instances);
+    throwOnDebugOutput("draw");
+}
+
+void drawIndexed(const Program& program, const VertexArray& vertices, const DrawState& state, Primitives primitives,
+                 int indexCount, int instances) {
+    if (indexCount <= 0 || instances <= 0) return;
+    prepare(program, vertices, state);
+    glDrawElementsInstanced(modeOf(primitives), indexCount, GL_UNSIGNED_INT, nullptr, instances);
+    throwOnDebugOutput("indexed draw");
+}
+
+}  // namespace dustbench::gpu

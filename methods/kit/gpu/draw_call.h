@@ -1,0 +1,29 @@
+// Fixed-function state and draw calls. Every draw says all of its state, so none can leak from one pass into the next.
+#pragma once
+
+#include "methods/kit/gpu/program.h"
+#include "methods/kit/gpu/vertex_array.h"
+
+namespace dustbench::gpu {
+
+enum class Blend {
+    none,
+    premultiplied,  ///< C = Cs + (1 − αs)·Cd, the same for α
+    additive,       ///< C = Cs + Cd
+};
+
+struct DrawState {
+    bool depthTest = false;  ///< passes where nearer or equal (reversed depth)
+    bool depthWrite = false;
+    Blend blend = Blend::none;
+    bool cullBackFaces = false;
+};
+
+enum class Primitives { triangles, triangleStrip, points, lines };
+
+void draw(const Program& program, const VertexArray& vertices, const DrawState& state, Primitives primitives,
+          int vertexCount, int instances = 1);
+void drawIndexed(const Program& program, const VertexArray& vertices, const DrawState& state, Primitives primitives,
+                 int indexCount, int instances = 1);
+
+}  // namespace dustbench::gpu

@@ -1,0 +1,47 @@
+#include "methods/kit/gpu/framebuffer.h"
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <stdexcept>
+#include <string>
+
+#include "methods/kit/gpu/debug_output.h"
+
+namespace dustbench::gpu {
+
+Framebuffer::Framebuffer(Device&, std::string_view label, const Texture* colour, const Texture* depth) {
+    GLuint name = 0;
+    glCreateFramebuffers(1, &name);
+    name_ = Name(name, [](std::uint32_t value) { glDeleteFramebuffers(1, &value); });
+    glObjectLabel(GL_FRAMEBUFFER, name, static_cast<GLsizei>(label.size()), label.data());
+    if (colour) glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour->name().get(), 0);
+    if (depth) glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth->name().get(), 0);
+    if (!colour) glNamedFramebufferDrawBuffer(name, GL_NONE);
+    const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        throw std::runtime_error("framebuffer '" + std::string(label) + "' is not complete: status " +
+                                 std::to_string(status));
+    throwOnDebugOutput(label);
+    const Texture& any = colour ? *colour : *depth;
+    width_ = any.width();
+    height_ = any.height();
+}
+
+void Framebuffer::bind() const {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name_.get());
+    glViewport(0, 0, width_, height_);
+}
+
+void Framebuffer::clearColour(float red, float green, float blue, float alpha) const {
+    const std::array<float, 4> value{red, green, blue, alpha};
+    glClearNamedFramebufferfv(name_.get(), GL_COLOR, 0, value.data());
+}
+
+void Framebuffer::clearDepth() const {
+    const float farthest = 0;
+    glDepthMask(GL_TRUE);  // a mask left off would swallow the clear
+    glClearNamedFramebufferfv(name_.get(), GL_DEPTH, 0, &farthest);
+}
+
+}  // namespace dustbench::gpu

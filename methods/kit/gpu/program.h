@@ -1,0 +1,60 @@
+// A linked program from shader files.
+//
+// Owns: the OpenGL program. The files carry no #version line: it is 450 core, followed by the definitions given here
+// and by the shared `.glsl` pieces, so that a compile error names the file and its own line.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <initializer_list>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/name.h"
+#include "methods/kit/gpu/shader_file.h"
+
+namespace dustbench::gpu {
+
+class DUSTBENCH_API Program {
+ public:
+    Program() = default;
+    /// The stage follows from the file's ending: .vert .frag .comp; .glsl pieces go before each of them.
+    /// `definitions` become `#define NAME VALUE` lines. Throws std::runtime_error with the driver's log.
+    Program(Device& device, std::string_view label, std::initializer_list<ShaderFile> files,
+            const std::map<std::string, std::string>& definitions = {});
+
+    /// Sets a uniform. Throws std::invalid_argument where the program has none of that name.
+    void set(std::string_view uniform, float value);
+    void set(std::string_view uniform, int value);
+    void set(std::string_view uniform, glm::ivec3 value);
+    void set(std::string_view uniform, glm::vec2 value);
+    void set(std::string_view uniform, glm::vec3 value);
+    void set(std::string_view uniform, glm::vec4 value);
+    void set(std::string_view uniform, const glm::mat4& value);
+
+    void use() const;
+    /// Runs a compute program over groups of work items, and makes its writes visible to what follows.
+    void dispatch(int groupsX, int groupsY, int groupsZ) const;
+
+ private:
+    [[nodiscard]] int location(std::string_view uniform);
+
+    Name name_;
+    std::string label_;
+    std::map<std::string, int, std::less<>> locations_;
+};
+
+/// A shader as OpenGL gets it: the file with all that goes before it.
+struct CompiledShader {
+    ShaderFile file;
+    std::string source;
+};
+/// Hears the shaders of every program that is made from now on, before OpenGL does. For tests; an empty one ends it.
+void listenToPrograms(std::function<void(std::string_view label, std::span<const CompiledShader>)> listener);
+
+}  // namespace dustbench::gpu

@@ -1,0 +1,70 @@
+// A 2D, 2D-array or 3D texture of fixed size.
+//
+// Owns: the OpenGL texture; its bytes are on the device's ledger under `label`.
+// Frame: rows from the bottom, as OpenGL has them. Edges clamp unless told otherwise.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "methods/kit/gpu/booking.h"
+#include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/format.h"
+#include "methods/kit/gpu/name.h"
+
+namespace dustbench::gpu {
+
+enum class Filter { nearest, linear, mipmapped };
+enum class Wrap { clamp, repeat };
+
+class DUSTBENCH_API Texture {
+ public:
+    Texture() = default;
+    [[nodiscard]] static Texture make2D(Device& device, std::string_view label, Format format, int width, int height,
+                                        Filter filter = Filter::nearest, Wrap wrap = Wrap::clamp);
+    [[nodiscard]] static Texture make2DArray(Device& device, std::string_view label, Format format, int width,
+                                             int height, int layers, Filter filter = Filter::linear);
+    [[nodiscard]] static Texture make3D(Device& device, std::string_view label, Format format, int width, int height,
+                                        int depth, Filter filter = Filter::linear);
+
+    /// All texels, tightly packed in the texture's own channels: bytes for the 8-bit formats, floats for the others.
+    /// Makes the mipmaps where the filter asks for them. Throws std::invalid_argument for a wrong number of values.
+    void write(std::span<const std::uint8_t> values);
+    void write(std::span<const float> values);
+    /// One layer of an array.
+    void writeLayer(int layer, std::span<const std::uint8_t> values);
+    /// All texels as floats, tightly packed (waits for the GPU).
+    [[nodiscard]] std::vector<float> readFloats() const;
+
+    /// Compare on sampling (`sampler2DShadow`): 1 where the reference is at least the stored depth (reversed depth).
+    void setDepthComparison();
+
+    void bind(std::uint32_t unit) const;
+    void bindImage(std::uint32_t unit, bool read, bool write) const;
+
+    [[nodiscard]] int width() const { return width_; }
+    [[nodiscard]] int height() const { return height_; }
+    [[nodiscard]] int depth() const { return depth_; }
+    [[nodiscard]] Format format() const { return format_; }
+    [[nodiscard]] std::size_t bytes() const { return booking_.bytes(); }
+    [[nodiscard]] const Name& name() const { return name_; }
+
+ private:
+    enum class Kind { flat, array, volume };
+    Texture(Device& device, std::string_view label, Kind kind, Format format, int width, int height, int depth,
+            Filter filter, Wrap wrap);
+    void writeTexels(int firstLayer, int layers, const void* values, std::size_t count, std::size_t valueBytes);
+
+    Name name_;
+    Booking booking_;
+    Kind kind_ = Kind::flat;
+    Format format_ = Format::rgba8;
+    int width_ = 0;
+    int height_ = 0;
+    int depth_ = 1;
+    bool mipmapped_ = false;
+};
+
+}  // namespace dustbench::gpu

@@ -1,0 +1,61 @@
+#include "methods/kit/gpu/timer_query.h"
+
+#include <epoxy/gl.h>
+
+#include <chrono>
+
+#include "gpu_shaders.h"
+#include "methods/kit/gpu/buffer.h"
+#include "methods/kit/gpu/program.h"
+
+namespace dustbench::gpu {
+
+TimerQuery::TimerQuery(Device&) {
+    GLuint name = 0;
+    glCreateQueries(GL_TIME_ELAPSED, 1, &name);
+    name_ = Name(name, [](std::uint32_t value) { glDeleteQueries(1, &value); });
+}
+
+void TimerQuery::begin() {
+    glBeginQuery(GL_TIME_ELAPSED, name_.get());
+}
+
+void TimerQuery::end() {
+    glEndQuery(GL_TIME_ELAPSED);
+}
+
+std::optional<double> TimerQuery::milliseconds() const {
+    GLint ready = 0;
+    glGetQueryObjectiv(name_.get(), GL_QUERY_RESULT_AVAILABLE, &ready);
+    if (!ready) return std::nullopt;
+    GLuint64 nanoseconds = 0;
+    glGetQueryObjectui64v(name_.get(), GL_QUERY_RESULT, &nanoseconds);
+    return static_cast<double>(nanoseconds) * 1e-6;
+}
+
+bool timerQueriesAreTrue(Device& device) {
+    constexpr int items = 64 * 1024;
+    constexpr double enoughMs = 5;  // far above what reading either clock costs
+    const std::vector<float> start(items, 0.25f);
+    Buffer values(device, "timer self-test", std::span<const float>(start));
+    Program load(device, "timer self-test", {gpu_shaders::busy_comp});
+    TimerQuery query(device);
+    values.bindStorage(0);
+
+    double wallMs = 0;
+    double queryMs = 0;
+    for (int rounds = 64; rounds <= 64 * 1024 && wallMs < enoughMs; rounds *= 4) {
+        load.set("rounds", rounds);
+        device.finish();
+        const auto begin = std::chrono::steady_clock::now();
+        query.begin();
+        load.dispatch(items / 64, 1, 1);
+        query.end();
+        device.finish();
+        wallMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+        queryMs = query.milliseconds().value_or(0);
+    }
+    return queryMs > wallMs / 2 && queryMs < wallMs * 2;
+}
+
+}  // namespace dustbench::gpu

@@ -1,0 +1,111 @@
+// Sorts particles into bricks, keeping the order of the store inside each.
+//
+// Up to depth 8 each chunk of the store is sorted by itself, as large as the cache of one core holds: a brick's
+// particles are then a run in each chunk. Deeper, where bricks are too many to be counted in each chunk, all particles
+// are sorted at once, as one chunk.
+//
+// Owns: its working memory, on a ledger, kept from frame to frame. Threads: parallel over fixed chunks of the store;
+// the same result at any number of threads.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "methods/contract/volume.h"
+#include "methods/kit/octree/brick_nodes.h"
+#include "methods/kit/octree/cell_entry.h"
+#include "methods/kit/octree/cell_kernel.h"
+#include "methods/kit/octree/reused_array.h"
+#include "methods/kit/octree/voxel_rule.h"
+
+namespace dustbench::octree {
+
+/// One brick that holds particles.
+struct Brick {
+    std::uint64_t code = 0;              ///< Morton code of its first finest cell
+    std::uint32_t first = 0, count = 0;  ///< its particles among those of all bricks
+    std::uint32_t bin = 0;               ///< where its runs are looked up
+};
+
+/// The voxel at a place of a brick.
+[[nodiscard]] inline CellEntry voxelAt(const Brick& brick, std::uint32_t place, std::uint32_t particle) {
+    return CellEntry(brick.code << 28 | std::uint64_t{codeAndRiseOfPlace[place]} << 24 | particle);
+}
+
+/// How a sorted particle is one word: the first bits of its priority, its place in the brick, its index. Of
+/// two particles in one cell the one with the higher word wins, unless their first bits are equal.
+struct BrickKey {
+    int indexBits = 24;  ///< enough for all particles
+
+    [[nodiscard]] std::uint64_t make(std::uint32_t priority, std::uint32_t place, std::uint32_t particle) const {
+        const std::uint64_t first = priority >> (brickPlaceBits + indexBits - 32);
+        return (first << brickPlaceBits | place) << indexBits | particle;
+    }
+    [[nodiscard]] std::uint32_t place(std::uint64_t key) const {
+        return static_cast<std::uint32_t>(key >> indexBits) & ((1u << brickPlaceBits) - 1);
+    }
+    [[nodiscard]] std::uint32_t particle(std::uint64_t key) const {
+        return static_cast<std::uint32_t>(key) & ((1u << indexBits) - 1);
+    }
+    [[nodiscard]] bool samePriority(std::uint64_t a, std::uint64_t b) const {
+        return (a ^ b) >> (brickPlaceBits + indexBits) == 0;
+    }
+};
+
+class DUSTBENCH_API BrickPartition {
+ public:
+    explicit BrickPartition(MemoryLedger& ledger);
+
+    /// Throws as `checkPositions` and `checkCount` do (cell_kernel.h).
+    void sort(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings, const VoxelRule& voxelRule);
+
+    /// In Morton order.
+    [[nodiscard]] std::span<const Brick> bricks() const { return {bricks_.data(), brickCount_}; }
+    /// Particles in all bricks.
+    [[nodiscard]] std::size_t size() const { return sortedCount_; }
+    /// Calls `visit(particle)` for each particle of a brick, in the order of the store, as `key()` has them.
+    template <typename Visit>
+    void forEachParticle(const Brick& brick, const Visit& visit) const {
+        const std::uint32_t* ends = ends_.data() + brick.bin;
+        for (std::size_t run = 0; run < runs_; ++run, ends += runStride_) {
+            const std::uint64_t* const end = sorted_.data() + ends[1];
+            // Here begins the run of the next brick.
+            __builtin_prefetch(end);
+            __builtin_prefetch(end + 8);
+            __builtin_prefetch(ends + 16);
+            for (const std::uint64_t* particle = sorted_.data() + ends[0]; particle < end; ++particle) visit(*particle);
+        }
+    }
+    [[nodiscard]] const BrickKey& key() const { return key_; }
+
+    /// Particles whose voxels are larger than a brick, in the order of the store.
+    [[nodiscard]] std::span<CellEntry> upper() { return {upper_.data(), upperCount_}; }
+    [[nodiscard]] std::int64_t clipped() const { return clipped_; }
+
+ private:
+    template <LevelRule rule>
+    void sortNarrow(const Puffs& store, const CellKernel<rule>& kernel, const VoxelRule& voxelRule, int depth);
+    template <LevelRule rule>
+    void sortWide(const Puffs& store, const CellKernel<rule>& kernel, const VoxelRule& voxelRule);
+    template <LevelRule rule>
+    void collectUpper(const Brick& above, const CellKernel<rule>& kernel);
+    void setChunks(std::size_t count, std::uint32_t bins);
+    void startBins();
+    void scatterWide(const std::uint64_t* from, std::uint64_t* to, std::size_t count, int shift, std::uint32_t mask);
+    std::uint32_t* holdRuns(std::size_t runs, std::uint32_t bins);
+
+    ReusedArray<std::uint64_t> wideKeys_, wideScratch_;  ///< brick, place, index
+    ReusedArray<std::uint64_t> sorted_;
+    ReusedArray<std::uint32_t> ends_;     ///< by chunk and bin: where the bin's run begins, and the next one's, its end
+    ReusedArray<std::uint32_t> counts_;   ///< by chunk and bin: how many, then where the next one goes
+    ReusedArray<std::uint32_t> binSums_;  ///< over all chunks
+    ReusedArray<Brick> bricks_;
+    ReusedArray<CellEntry> upper_;
+    BrickKey key_;
+    std::uint32_t bins_ = 0;
+    std::size_t runs_ = 0, runStride_ = 0;
+    std::size_t chunks_ = 0, chunkSize_ = 0, brickCount_ = 0, sortedCount_ = 0, upperCount_ = 0;
+    std::int64_t clipped_ = 0;
+};
+
+}  // namespace dustbench::octree

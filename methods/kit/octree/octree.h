@@ -1,0 +1,144 @@
+// The octree of one moment: nodes to walk through, and its voxels in a fixed order.
+//
+// Units: metres. Frame: world. Owns: nodes and voxels, booked on a ledger and kept from frame to frame. Threads: const
+// access from any.
+// Source: Carr2006, 3.2 and Fig. 3.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+
+#include "methods/kit/octree/cell_entry.h"
+#include "methods/kit/octree/lattice.h"
+#include "methods/kit/octree/node_block.h"
+#include "methods/kit/octree/reused_array.h"
+
+namespace dustbench::octree {
+
+class Octree {
+ public:
+    explicit Octree(MemoryLedger& ledger)
+        : blocks_(ledger.account("octree nodes")),
+          voxels_(ledger.account("octree voxels")),
+          masses_(ledger.account("octree voxels")) {}
+
+    /// A place in the tree. Copies are cheap; valid until the tree is built again.
+    class Cursor {
+     public:
+        [[nodiscard]] int level() const { return level_; }
+        /// Morton code of the first finest cell inside.
+        [[nodiscard]] std::uint64_t code() const { return code_; }
+        [[nodiscard]] bool hasVoxel() const { return slot_.hasVoxel(); }
+        /// Index into `voxels()`.
+        [[nodiscard]] std::uint32_t voxel() const { return slot_.voxel - 1; }
+        [[nodiscard]] bool hasChildren() const { return level_ == 0 || slot_.children != 0; }
+        /// Whether there is a node for the octant; `child` only where there is.
+        [[nodiscard]] bool hasChild(unsigned octant) const { return hasChildren() && slotOf(octant).exists(); }
+        [[nodiscard]] Cursor child(unsigned octant) const {
+            const std::uint64_t below = static_cast<std::uint64_t>(octant) << 3 * (tree_->depth_ - level_ - 1);
+            return {*tree_, slotOf(octant), level_ + 1, code_ | below};
+        }
+
+     private:
+        friend class Octree;
+        Cursor(const Octree& tree, NodeSlot slot, int level, std::uint64_t code)
+            : tree_(&tree), slot_(slot), level_(level), code_(code) {}
+        [[nodiscard]] NodeSlot slotOf(unsigned octant) const {
+            return NodeBlock::childOf(slot_, octant, tree_->blocks_.data());
+        }
+
+        const Octree* tree_;
+        NodeSlot slot_;
+        int level_;
+        std::uint64_t code_;
+    };
+
+    [[nodiscard]] Cursor root() const { return {*this, NodeSlot{}, 0, 0}; }
+    /// Calls `visit(cursor)` for every node below the root in pre-order: a node before its children, these by octant.
+    template <typename Visit>
+    void visitNodes(const Visit& visit) const {
+        visitBelow(root(), visit);
+    }
+
+    /// In pre-order. Each names the particle that it stands for.
+    [[nodiscard]] std::span<const CellEntry> voxels() const { return {voxels_.data(), voxelCount_}; }
+    /// Optical mass of each voxel, m²; empty unless the policy is to accumulate.
+    [[nodiscard]] std::span<const double> masses() const { return {masses_.data(), massCount_}; }
+    /// Block 0 holds the root's children.
+    [[nodiscard]] std::span<const NodeBlock> blocks() const { return {blocks_.data(), blockCount_}; }
+    [[nodiscard]] int depth() const { return depth_; }
+    /// Nodes that exist, the root not counted; walks the whole tree.
+    [[nodiscard]] std::size_t countNodes() const {
+        std::size_t nodes = 0;
+        for (const NodeBlock& block : blocks())
+            for (const NodeSlot& slot : block.slots)
+                nodes += (slot.exists() ? 1 : 0) + (slot.hasFamily() ? slot.familySize() : 0);
+        return nodes;
+    }
+
+    // For builders.
+
+    /// An empty tree: a root without children.
+    void clear(int depth) {
+        depth_ = depth;
+        voxelCount_ = massCount_ = 0;
+        blocks_.extend(1, 0)[0] = NodeBlock{};
+        blockCount_ = 1;
+    }
+    /// One more block, empty. May move all blocks.
+    std::uint32_t addBlock() {
+        blocks_.extend(blockCount_ + 1, blockCount_)[blockCount_] = NodeBlock{};
+        return static_cast<std::uint32_t>(blockCount_++);
+    }
+    /// The node that lies `rise` levels above the finest and holds the finest cell `code`; nodes that are missing on
+    /// its path are added. Not below a family (node_block.h). May move all blocks.
+    NodeSlot& makeNode(std::uint64_t code, int rise) {
+        std::uint32_t block = 0;
+        int shift = 3 * (depth_ - 1);
+        for (; shift > 3 * rise; shift -= 3) {
+            const std::size_t octant = code >> shift & 7;
+            std::uint32_t next = blocks_.data()[block].slots[octant].children;
+            if (next == 0) {
+                next = addBlock();
+                blocks_.data()[block].slots[octant].children = next;
+            }
+            block = next;
+        }
+        return blocks_.data()[block].slots[code >> shift & 7];
+    }
+    /// `count` blocks in all: the first as it is, the others to be written by the builder.
+    void setBlocks(std::size_t count) {
+        blocks_.extend(count, 1);
+        blockCount_ = count;
+    }
+    /// Room for `count` voxels, to be written by the builder; as many as there are or fewer keep their values.
+    void setVoxels(std::size_t count, bool withMasses) {
+        voxels_.hold(count);
+        voxelCount_ = count;
+        massCount_ = withMasses ? count : 0;
+        masses_.hold(massCount_);
+    }
+    [[nodiscard]] NodeBlock* mutableBlocks() { return blocks_.data(); }
+    [[nodiscard]] CellEntry* mutableVoxels() { return voxels_.data(); }
+    [[nodiscard]] double* mutableMasses() { return masses_.data(); }
+
+ private:
+    template <typename Visit>
+    static void visitBelow(const Cursor& node, const Visit& visit) {
+        for (unsigned octant = 0; octant < 8; ++octant) {
+            if (!node.hasChild(octant)) continue;
+            const Cursor child = node.child(octant);
+            visit(child);
+            if (child.hasChildren()) visitBelow(child, visit);
+        }
+    }
+
+    ReusedArray<NodeBlock> blocks_;
+    ReusedArray<CellEntry> voxels_;
+    ReusedArray<double> masses_;
+    std::size_t blockCount_ = 0, voxelCount_ = 0, massCount_ = 0;
+    int depth_ = minimumDepth;
+};
+
+}  // namespace dustbench::octree

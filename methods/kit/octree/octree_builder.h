@@ -1,0 +1,22 @@
+// One way to build the octree from particles. All builders give the same voxels, in the same order.
+#pragma once
+
+#include <cstdint>
+
+#include "methods/contract/volume.h"
+#include "methods/kit/octree/lattice.h"
+#include "methods/kit/octree/octree.h"
+#include "methods/kit/octree/octree_settings.h"
+
+namespace dustbench::octree {
+
+class DUSTBENCH_API OctreeBuilder {
+ public:
+    virtual ~OctreeBuilder();
+    /// Gives how many particles lie outside the world and are in no voxel. Throws SimulationError where a position
+    /// is not a number.
+    virtual std::int64_t build(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings,
+                               Octree& tree) = 0;
+};
+
+}  // namespace dustbench::octree

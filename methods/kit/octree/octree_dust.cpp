@@ -1,0 +1,257 @@
+#include "methods/kit/octree/octree_dust.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "methods/contract/scene.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/maths/transmittance.h"
+#include "methods/kit/octree/cell_kernel.h"
+#include "methods/kit/octree/octree_world.h"
+#include "methods/kit/parallel/for_each_block.h"
+
+namespace dustbench::octree {
+namespace {
+
+constexpr std::size_t voxelsPerBlock = 16'384;
+/// A billboard's opacity stays below 1, whose optical depth has no end.
+constexpr float maximumOpacity = 0.99999f;
+/// The vehicle stays this share of the world's edge away from its faces, wherever the dust is.
+constexpr double vehicleMargin = 1.0 / 8;
+
+/// The middle between the minimum and the maximum; what is not a number is passed over.
+double middleOf(std::span<const float> values) {
+    // Lanes side by side, so that the comparisons do not wait for each other.
+    constexpr std::size_t lanes = 16;
+    std::array<float, lanes> minimum, maximum;
+    minimum.fill(std::numeric_limits<float>::infinity());
+    maximum.fill(-std::numeric_limits<float>::infinity());
+    for (std::size_t i = 0; i < values.size(); i += lanes) {
+        const std::size_t here = std::min(lanes, values.size() - i);
+        for (std::size_t lane = 0; lane < here; ++lane) {
+            const float value = values[i + lane];
+            minimum[lane] = value < minimum[lane] ? value : minimum[lane];
+            maximum[lane] = value > maximum[lane] ? value : maximum[lane];
+        }
+    }
+    return 0.5 * (static_cast<double>(*std::ranges::min_element(minimum)) +
+                  static_cast<double>(*std::ranges::max_element(maximum)));
+}
+
+/// Where the world's middle belongs: a trail lies behind its vehicle, so the world lies round the dust and holds the
+/// vehicle as well.
+glm::dvec3 worldMiddle(const Puffs& dust, const glm::dvec3& vehicle, double edgeMetres) {
+    const double farthest = (0.5 - vehicleMargin) * edgeMetres;
+    const auto along = [farthest](std::span<const float> column, double vehicleAt) {
+        const double middle = middleOf(column);
+        return std::isfinite(middle) ? std::clamp(middle, vehicleAt - farthest, vehicleAt + farthest) : vehicleAt;
+    };
+    return {along(dust.x, vehicle.x), vehicle.y, along(dust.z, vehicle.z)};
+}
+
+}  // namespace
+
+OctreeBuilder::~OctreeBuilder() = default;
+
+void declareDust(MethodInfo& info) {
+    declareOctreeParameters(info.parameters);
+    info.parameters
+        .choice("render", Render::billboards, renders,
+                "a voxel as a smoothly faded circle, as six faces, or a march through the tree along each pixel's ray")
+        .choice("sort", draw::SortKind::radix, draw::sortKinds,
+                "order in which billboards and cubes are blended: far to near by the paper's quicksort or by a radix "
+                "sort, or as the tree gives them")
+        .boolean("crossfade", false, "let voxels fade in and out instead of popping")
+        .real("crossfade_time", 0.1, 0.001, 10, "s", "time constant of that fading")
+        .real("world_edge", 128, 1, 1e5, "m", "edge of the octree's world, a cube that follows the vehicle");
+    info.facts.push_back({"clipped", "particles", FactOver::maximumOfFrames,
+                          "particles outside the method's world: maximum of the recorded frames"});
+    info.facts.push_back({"mass_kept", "share", FactOver::lastFrame,
+                          "share of the particles' optical mass that the method's volume holds after the last frame"});
+}
+
+DustSettings dustSettings(const ParameterValues& values) {
+    DustSettings settings;
+    settings.tree = octreeSettings(values);
+    settings.render = values.choice("render", renders);
+    settings.sort = values.choice("sort", draw::sortKinds);
+    settings.crossFade = values.boolean("crossfade");
+    settings.crossFadeSeconds = values.real("crossfade_time");
+    settings.worldEdgeMetres = values.real("world_edge");
+    return settings;
+}
+
+OctreeDust::OctreeDust(const DustSettings& settings, const MakeBuilder& makeBuilder)
+    : settings_(settings),
+      builder_(makeBuilder(ledger_)),
+      tree_(ledger_),
+      shownTree_(ledger_),
+      cloud_(ledger_),
+      sort_(ledger_),
+      extinctions_(ledger_.account("voxel list")),
+      colours_(ledger_.account("voxel list")) {
+    if (settings.crossFade) fade_.emplace(ledger_, settings.crossFadeSeconds);
+}
+
+void OctreeDust::prepare(const scene::Scene&, const RunSetup&, gpu::Device& device) {
+    tree_.clear(settings_.tree.depth);
+    switch (settings_.render) {
+        case Render::billboards:
+            billboards_.emplace(device, draw::BillboardStyle{});
+            break;
+        case Render::cubes:
+            cubes_.emplace(device);
+            break;
+        case Render::raycast:
+            march_.emplace(device);
+            break;
+    }
+}
+
+void OctreeDust::build(const Frame& frame) {
+    Lattice lattice;
+    lattice.edgeMetres = settings_.worldEdgeMetres;
+    lattice.depth = settings_.tree.depth;
+    lattice.origin =
+        octreeWorldOrigin(worldMiddle(frame.dust, frame.state.vehicle.position, settings_.worldEdgeMetres),
+                          settings_.worldEdgeMetres, lattice.cellEdgeMetres(lattice.depth - settings_.tree.levels + 1));
+    {
+        const auto detail = frame.clock.measureDetail("tree");
+        clipped_ = builder_->build(frame.dust, lattice, settings_.tree, tree_);
+    }
+    {
+        const auto detail = frame.clock.measureDetail("list");
+        cloud_.take(tree_, frame.dust, VoxelRule(frame.dust, settings_.tree.policy), lattice);
+    }
+    if (!fade_) return;
+    const auto detail = frame.clock.measureDetail("crossfade");
+    shown_ = &fade_->follow(cloud_, frame.stepSeconds);
+}
+
+void OctreeDust::update(const Frame& frame) {
+    build(frame);
+    if (settings_.render == Render::raycast) {
+        const auto timing = frame.clock.measure(Stage::upload);
+        uploadTree();
+        return;
+    }
+    std::span<const std::uint32_t> order;
+    {
+        const auto timing = frame.clock.measure(Stage::sort);
+        order = sort_.farToNear(settings_.sort, {shown().x, shown().y, shown().z}, glm::vec3(frame.view.camera.eye));
+    }
+    const auto timing = frame.clock.measure(Stage::upload);
+    if (settings_.render == Render::billboards)
+        uploadBillboards(order);
+    else
+        uploadCubes(order);
+}
+
+/// r = edge/√(π/2) and τ = mass/edge²: the Gaussian puff of the voxel's mass and of the optical depth across it.
+void OctreeDust::uploadBillboards(std::span<const std::uint32_t> order) {
+    const VoxelCloud& cloud = shown();
+    const draw::InstanceLayout layout = billboards_->layout(cloud.coloured());
+    const std::span<float> memory = billboards_->map(order.size(), layout);
+    parallel::forEachBlock(order.size(), voxelsPerBlock, [&](std::size_t first, std::size_t count) {
+        float* value = memory.data() + first * layout.floats;
+        for (std::size_t k = first; k < first + count; ++k) {
+            const std::uint32_t i = order[k];
+            *value++ = cloud.x[i];
+            *value++ = cloud.y[i];
+            *value++ = cloud.z[i];
+            *value++ = cloud.edge[i] / edgePerRadius;
+            *value++ = std::min(-std::expm1(-cloud.opticalDepth(i)), maximumOpacity);
+            if (!layout.coloured) continue;
+            *value++ = cloud.red[i];
+            *value++ = cloud.green[i];
+            *value++ = cloud.blue[i];
+        }
+    });
+    billboards_->unmap();
+}
+
+void OctreeDust::uploadCubes(std::span<const std::uint32_t> order) {
+    const VoxelCloud& cloud = shown();
+    const draw::InstanceLayout layout = draw::Cubes::layout(cloud.coloured());
+    const std::span<float> memory = cubes_->map(order.size(), layout);
+    parallel::forEachBlock(order.size(), voxelsPerBlock, [&](std::size_t first, std::size_t count) {
+        float* value = memory.data() + first * layout.floats;
+        for (std::size_t k = first; k < first + count; ++k) {
+            const std::uint32_t i = order[k];
+            *value++ = cloud.x[i];
+            *value++ = cloud.y[i];
+            *value++ = cloud.z[i];
+            *value++ = cloud.edge[i];
+            *value++ = cloud.opticalDepth(i);
+            if (!layout.coloured) continue;
+            *value++ = cloud.red[i];
+            *value++ = cloud.green[i];
+            *value++ = cloud.blue[i];
+        }
+    });
+    cubes_->unmap();
+}
+
+void OctreeDust::uploadTree() {
+    const VoxelCloud& cloud = shown();
+    const Octree* tree = &tree_;
+    if (fade_) {  // fading voxels are in no tree yet
+        shownTree_.clear(cloud.lattice.depth);
+        for (std::size_t i = 0; i < cloud.size(); ++i)
+            shownTree_.makeNode(cloud.code(i), cloud.rise(i)).voxel = static_cast<std::uint32_t>(i + 1);
+        tree = &shownTree_;
+    }
+    extinctions_.resize(cloud.size());
+    colours_.resize(cloud.coloured() ? cloud.size() : 0);
+    for (std::size_t i = 0; i < cloud.size(); ++i) extinctions_[i] = cloud.extinctionPerMetre(i);
+    for (std::size_t i = 0; i < colours_.size(); ++i) colours_[i] = {cloud.red[i], cloud.green[i], cloud.blue[i]};
+    march_->upload({cloud.lattice, tree->blocks(), extinctions_, colours_});
+}
+
+void OctreeDust::draw(const Frame& frame, gpu::Layer& layer) {
+    if (billboards_) billboards_->draw(frame.view, frame.dust.colourOfAll, layer);
+    if (cubes_) cubes_->draw(frame.view, frame.dust.colourOfAll, layer);
+    if (march_) march_->draw(frame.view, frame.dust.colourOfAll, layer);
+}
+
+void OctreeDust::volume(const Frame&, VolumeVisitor& visitor) const {
+    const VoxelCloud& cloud = shown();
+    std::vector<OctreeVoxel> voxels;
+    voxels.reserve(cloud.size());
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const glm::uvec3 cell = mortonCell(cloud.code(i)) >> static_cast<unsigned>(cloud.rise(i));
+        voxels.push_back(
+            {cell.x, cell.y, cell.z, cloud.lattice.depth - cloud.rise(i), cloud.extinctionPerMetre(i), cloud.age[i]});
+    }
+    visitor.octree({cloud.lattice.origin, cloud.lattice.edgeMetres, cloud.lattice.depth, voxels});
+}
+
+void OctreeDust::report(const Frame& frame, Facts& facts) const {
+    facts.tell("clipped", clipped_);
+    if (!facts.wants("mass_kept")) return;
+    if (const auto kept = massKept(frame.dust)) facts.tell("mass_kept", *kept);
+}
+
+std::optional<double> OctreeDust::massKept(const Puffs& dust) const {
+    double ofParticles = 0, ofVoxels = 0;
+    for (std::size_t i = 0; i < dust.size(); ++i)
+        ofParticles +=
+            maths::puffMassSquareMetres(static_cast<double>(dust.opacity[i]), static_cast<double>(dust.radius[i]));
+    for (const float mass : shown().mass) ofVoxels += static_cast<double>(mass);
+    if (!(ofParticles > 0)) return std::nullopt;
+    return ofVoxels / ofParticles;
+}
+
+MemoryReport OctreeDust::memory() const {
+    MemoryReport report;
+    for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
+    if (billboards_) report.push_back({"billboards", 0, billboards_->gpuBytes()});
+    if (cubes_) report.push_back({"cubes", 0, cubes_->gpuBytes()});
+    if (march_) report.push_back({"octree march", march_->cpuBytes(), march_->gpuBytes()});
+    return report;
+}
+
+}  // namespace dustbench::octree

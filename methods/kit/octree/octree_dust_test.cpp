@@ -1,0 +1,283 @@
+#include "methods/kit/octree/octree_dust.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "methods/contract/errors.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/octree/cell_kernel.h"
+#include "methods/kit/testing/test_moment.h"
+
+namespace dustbench::octree {
+namespace {
+
+/// The plainest builder: what lies in a voxel is looked up in a map.
+class MapBuilder final : public OctreeBuilder {
+ public:
+    std::int64_t build(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings,
+                       Octree& tree) override {
+        const VoxelRule rule(store, settings.policy);
+        const CellKernel<LevelRule::age> kernel(store, lattice, settings);
+        std::map<std::uint64_t, std::pair<CellEntry, double>> voxels;
+        std::int64_t clipped = 0;
+        for (std::uint32_t i = 0; i < store.size(); ++i) {
+            const ParticleCell cell = kernel(i);
+            if (cell.outside != 0) {
+                ++clipped;
+                continue;
+            }
+            const std::uint64_t code = static_cast<std::uint64_t>(cell.brickCode) << 12 | cell.localCode;
+            const CellEntry entry(code, static_cast<int>(cell.rise), i);
+            const CellEntry voxel(entry.voxelCode(), entry.rise(), i);
+            auto& [winner, mass] = voxels.try_emplace(entry.place(), voxel, 0.0).first->second;
+            if (rule.wins(i, winner.index())) winner = voxel;
+            mass += rule.massSquareMetres(i);
+        }
+        tree.clear(settings.depth);
+        tree.setVoxels(voxels.size(), rule.accumulates());
+        std::uint32_t k = 0;
+        for (const auto& [place, found] : voxels) {
+            tree.mutableVoxels()[k] = found.first;
+            if (rule.accumulates()) tree.mutableMasses()[k] = found.second;
+            tree.makeNode(found.first.code(), found.first.rise()).voxel = ++k;
+        }
+        return clipped;
+    }
+};
+
+/// A trail behind a vehicle at the world's zero.
+class Moment : public TestMoment {
+ public:
+    explicit Moment(std::size_t count) : TestMoment(count, 160, 120, {0, 6, 24}, {-6, -5, -24}) {
+        std::mt19937 random(4);
+        std::uniform_real_distribution<float> uniform(0, 1);
+        for (std::size_t i = 0; i < count; ++i) {
+            const float life = uniform(random);
+            dust.serial[i] = i;
+            dust.x[i] = -12 * life;
+            dust.y[i] = 0.5f + 2 * uniform(random);
+            dust.z[i] = 3 * uniform(random) - 1.5f;
+            dust.radius[i] = 0.3f + life;
+            dust.opacity[i] = 0.05f + 0.1f * uniform(random);
+            dust.lifetime[i] = 4;
+            dust.age[i] = 4 * life;
+        }
+        dust.colourOfAll = {0.6f, 0.5f, 0.4f};
+    }
+};
+
+OctreeDust make(const DustSettings& settings) {
+    return {settings, [](MemoryLedger&) { return std::make_unique<MapBuilder>(); }};
+}
+
+DustSettings settingsOf(Render render, OpacityPolicy policy = OpacityPolicy::accumulate) {
+    DustSettings settings;
+    settings.tree.policy = policy;
+    settings.render = render;
+    return settings;
+}
+
+/// Σ optical depth over the picture.
+double depthOf(const pictures::Image& image) {
+    double sum = 0;
+    for (const glm::vec4& pixel : image.pixels) sum -= std::log1p(-static_cast<double>(pixel.a));
+    return sum;
+}
+
+TEST(OctreeDust, ShowsTheSameMassHoweverItIsDrawn) {
+    Moment moment(800);
+    std::map<Render, double> depths;
+    for (const Render render : {Render::billboards, Render::cubes, Render::raycast}) {
+        OctreeDust method = make(settingsOf(render));
+        method.prepare(moment.scene, {}, Moment::device());
+        method.update(moment.frame());
+        depths[render] = depthOf(moment.draw(method));
+    }
+    ASSERT_GT(depths[Render::raycast], 100);
+    EXPECT_NEAR(depths[Render::billboards] / depths[Render::raycast], 1, 0.03);
+    // Six flat faces count an oblique crossing like a straight one: too much where they cut corners.
+    EXPECT_NEAR(depths[Render::cubes] / depths[Render::raycast], 1, 0.45);
+}
+
+FactValue factOf(const OctreeDust& method, const Moment& moment, const char* name, FactOver over) {
+    MethodInfo info;
+    declareDust(info);
+    Facts facts(info.facts, over);
+    method.report(moment.frame(), facts);
+    return facts.value(name).value();
+}
+
+TEST(OctreeDust, KeepsAllMassWhereItAccumulatesAndSaysWhatElseItDrops) {
+    Moment moment(3000);
+    std::map<OpacityPolicy, double> kept;
+    for (const OpacityPolicy policy : {OpacityPolicy::accumulate, OpacityPolicy::max, OpacityPolicy::youngest}) {
+        OctreeDust method = make(settingsOf(Render::raycast, policy));
+        method.prepare(moment.scene, {}, Moment::device());
+        method.update(moment.frame());
+        kept[policy] = std::get<double>(factOf(method, moment, "mass_kept", FactOver::lastFrame));
+    }
+    EXPECT_NEAR(kept[OpacityPolicy::accumulate], 1, 1e-6);
+    EXPECT_LT(kept[OpacityPolicy::max], 0.9);
+    EXPECT_LT(kept[OpacityPolicy::youngest], kept[OpacityPolicy::accumulate]);
+    EXPECT_GT(kept[OpacityPolicy::youngest], 0.01);
+}
+
+TEST(OctreeDust, HoldsATrailThatIsLongerThanHalfItsWorld) {
+    Moment moment(1000);
+    for (float& x : moment.dust.x) x *= 8;  // 96 m, of a world of 128
+    OctreeDust method = make(settingsOf(Render::raycast));
+    const auto clipped = [&] {
+        return std::get<std::int64_t>(factOf(method, moment, "clipped", FactOver::maximumOfFrames));
+    };
+    method.prepare(moment.scene, {}, Moment::device());
+    method.update(moment.frame());
+    EXPECT_EQ(clipped(), 0);
+    EXPECT_NEAR(std::get<double>(factOf(method, moment, "mass_kept", FactOver::lastFrame)), 1, 1e-6);
+    // One that is far away is lost and counted, and does not take the others with it.
+    moment.dust.x[7] = -1e7f;
+    method.update(moment.frame());
+    EXPECT_GE(clipped(), 1);
+    EXPECT_LT(clipped(), 300);
+}
+
+TEST(OctreeDust, HandsOverItsVoxelsWithTheirMass) {
+    class Collector final : public VolumeVisitor {
+     public:
+        void puffs(const Puffs&) override { ADD_FAILURE() << "puffs"; }
+        void grid(const GridVolume&) override { ADD_FAILURE() << "grid"; }
+        void octree(const OctreeVolume& volume) override {
+            std::set<std::tuple<int, unsigned, unsigned, unsigned>> cells;
+            for (const OctreeVoxel& voxel : volume.voxels) {
+                const double edge = volume.edgeMetres / static_cast<double>(1u << voxel.level);
+                mass += static_cast<double>(voxel.extinctionPerMetre) * edge * edge * edge;
+                EXPECT_TRUE(cells.emplace(voxel.level, voxel.x, voxel.y, voxel.z).second);
+                EXPECT_LT(std::max({voxel.x, voxel.y, voxel.z}), 1u << voxel.level);
+            }
+            count = volume.voxels.size();
+        }
+        double mass = 0;
+        std::size_t count = 0;
+    } collector;
+    Moment moment(2000);
+    OctreeDust method = make(settingsOf(Render::billboards));
+    method.prepare(moment.scene, {}, Moment::device());
+    method.update(moment.frame());
+    method.volume(moment.frame(), collector);
+    double mass = 0;
+    const VoxelRule rule(moment.dust, OpacityPolicy::accumulate);
+    for (std::uint32_t i = 0; i < moment.dust.size(); ++i) mass += rule.massSquareMetres(i);
+    EXPECT_NEAR(collector.mass, mass, 1e-5 * mass);
+    EXPECT_EQ(static_cast<std::int64_t>(collector.count), method.primitives());
+}
+
+TEST(OctreeDust, DrawsTheSameAgainInEveryWay) {
+    Moment moment(500);
+    for (const Render render : {Render::billboards, Render::cubes, Render::raycast})
+        for (const bool fades : {false, true}) {
+            DustSettings settings = settingsOf(render, OpacityPolicy::max);
+            settings.crossFade = fades;
+            OctreeDust method = make(settings);
+            method.prepare(moment.scene, {}, Moment::device());
+            for (int frame = 0; frame < 3; ++frame) {
+                for (float& x : moment.dust.x) x += 0.1f;
+                method.update(moment.frame());
+            }
+            const pictures::Image first = moment.draw(method);
+            EXPECT_EQ(moment.draw(method).pixels, first.pixels);
+            EXPECT_GT(depthOf(first), 10);
+        }
+}
+
+TEST(OctreeDust, CrossFadingLeavesLessToPop) {
+    std::map<bool, double> jump;
+    for (const bool fades : {false, true}) {
+        Moment moment(60);
+        DustSettings settings = settingsOf(Render::raycast, OpacityPolicy::max);
+        settings.crossFade = fades;
+        OctreeDust method = make(settings);
+        method.prepare(moment.scene, {}, Moment::device());
+        method.update(moment.frame());
+        pictures::Image last = moment.draw(method);
+        for (int frame = 0; frame < 12; ++frame) {
+            for (float& x : moment.dust.x) x += 0.05f;
+            method.update(moment.frame());
+            const pictures::Image now = moment.draw(method);
+            for (std::size_t i = 0; i < now.pixels.size(); ++i)
+                jump[fades] += std::pow(static_cast<double>(now.pixels[i].a - last.pixels[i].a), 2);
+            last = now;
+        }
+    }
+    EXPECT_LT(std::sqrt(jump[true]), 0.4 * std::sqrt(jump[false]));
+}
+
+/// One voxel at a lattice.
+VoxelCloud oneVoxel(MemoryLedger& ledger, const Lattice& lattice, const glm::uvec3& cell, float mass) {
+    VoxelCloud cloud(ledger);
+    cloud.lattice = lattice;
+    cloud.resize(1, false);
+    cloud.place[0] = CellEntry(mortonCode(cell.x, cell.y, cell.z), 0, 0).place();
+    cloud.mass[0] = mass;
+    cloud.age[0] = 0;
+    cloud.locate(0);
+    return cloud;
+}
+
+TEST(CrossFade, FollowsByTheLawOfItsTimeConstant) {
+    MemoryLedger ledger;
+    const Lattice lattice;
+    CrossFade fade(ledger, 0.2);
+    VoxelCloud nothing(ledger);
+    nothing.lattice = lattice;
+    fade.follow(nothing, 0.05);
+    const VoxelCloud target = oneVoxel(ledger, lattice, {3, 4, 5}, 0.5f);
+    for (int n = 1; n <= 8; ++n) {
+        const VoxelCloud& shown = fade.follow(target, 0.05);
+        ASSERT_EQ(shown.size(), 1u);
+        EXPECT_NEAR(shown.mass[0], 0.5 * (1 - std::exp(-n * 0.05 / 0.2)), 1e-6);
+    }
+    const float held = fade.follow(target, 0.05).mass[0];
+    EXPECT_NEAR(fade.follow(nothing, 0.05).mass[0], static_cast<double>(held) * std::exp(-0.05 / 0.2), 1e-6);
+    for (int n = 0; n < 100; ++n) fade.follow(nothing, 0.05);
+    EXPECT_EQ(fade.follow(nothing, 0.05).size(), 0u);  // and then it is gone
+}
+
+TEST(CrossFade, StaysWhereItIsWhileTheWorldMoves) {
+    MemoryLedger ledger;
+    Lattice lattice;
+    lattice.origin = glm::dvec3(-64);
+    CrossFade fade(ledger, 0.2);
+    fade.follow(oneVoxel(ledger, lattice, {130, 128, 120}, 1), 0.05);
+    const float x = fade.follow(oneVoxel(ledger, lattice, {130, 128, 120}, 1), 0.05).x[0];
+    Lattice moved = lattice;
+    moved.origin.x += 4;  // eight finest cells on
+    const VoxelCloud& shown = fade.follow(oneVoxel(ledger, moved, {122, 128, 120}, 1), 0.05);
+    ASSERT_EQ(shown.size(), 1u);
+    EXPECT_NEAR(shown.mass[0], 1, 1e-6);
+    EXPECT_EQ(shown.x[0], x);
+    // Out of the world: dropped.
+    moved.origin.x += 256;
+    VoxelCloud nothing(ledger);
+    nothing.lattice = moved;
+    EXPECT_EQ(fade.follow(nothing, 0.05).size(), 0u);
+}
+
+TEST(OctreeSettings, RefusesMoreLevelsThanThereAre) {
+    MethodInfo info;
+    declareDust(info);
+    ParameterValues values(info.parameters);
+    values.set("depth", "5");
+    values.set("levels", "6");
+    EXPECT_THROW((void)dustSettings(values), InputError);
+    values.set("levels", "5");
+    EXPECT_EQ(dustSettings(values).tree.levels, 5);
+}
+
+}  // namespace
+}  // namespace dustbench::octree

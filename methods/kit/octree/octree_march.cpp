@@ -1,0 +1,124 @@
+#include "methods/kit/octree/octree_march.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <string>
+
+#include "methods/contract/errors.h"
+#include "methods/kit/gpu/draw_call.h"
+#include "octree_shaders.h"
+
+namespace dustbench::octree {
+namespace {
+
+/// Texels a row, and rows: what every OpenGL 4.5 can.
+constexpr int rowBits = 12;
+constexpr std::size_t texelsPerRow = 1u << rowBits, maximumRows = 16384;
+
+/// The rays through pixels (x, y), y from the bottom: corner + x·right + y·up, of length 1 along the camera's axis.
+struct Rays {
+    glm::dvec3 corner, right, up;
+};
+
+Rays raysOf(const scene::View& view, const glm::mat4& worldToEye) {
+    const glm::dmat3 axes = glm::transpose(glm::dmat3(glm::mat3(worldToEye)));
+    const double pixel = 2 * std::tan(view.camera.verticalFieldOfView / 2) / view.height;
+    const glm::dvec3 right = pixel * axes[0], up = pixel * axes[1];
+    return {-axes[2] - 0.5 * view.width * right - 0.5 * view.height * up, right, up};
+}
+
+/// Whether a box, its corners relative to the eye, lies wholly before the near plane.
+bool isBeforeNearPlane(const glm::dvec3& minimum, const glm::dvec3& maximum, const glm::dvec3& forward,
+                       double nearMetres) {
+    double nearest = 0;  // the nearest corner along the camera's axis
+    for (int axis = 0; axis < 3; ++axis)
+        nearest += std::min(forward[axis] * minimum[axis], forward[axis] * maximum[axis]);
+    return nearest > 1.001 * nearMetres;
+}
+
+}  // namespace
+
+OctreeMarch::OctreeMarch(gpu::Device& device) : device_(device), vertices_(device) {}
+
+void OctreeMarch::upload(const MarchedTree& tree) {
+    drawable_ = false;
+    lattice_ = tree.lattice;
+    tree_.set(tree);
+    if (tree_.empty()) return;
+    const std::size_t needed = (tree_.slots().size() + texelsPerRow - 1) / texelsPerRow;
+    if (needed > maximumRows)
+        throw InputError("render raycast: got an octree of " + std::to_string(tree_.slots().size() / 8) +
+                         " blocks, allowed: up to " + std::to_string(maximumRows * texelsPerRow / 8));
+    if (needed > rows_) {
+        rows_ = std::min(needed + needed / 8, maximumRows);
+        slots_ = gpu::Texture::make2D(device_, "octree march slots", gpu::Format::r32F, texelsPerRow,
+                                      static_cast<int>(rows_));
+    }
+    tree_.pad(rows_ * texelsPerRow);
+    slots_.write(tree_.slots());
+    if (const auto colours = tree_.colours(); !colours.empty()) {
+        if (colours_.bytes() == 0 || colours_.height() < static_cast<int>(rows_))
+            colours_ = gpu::Texture::make2D(device_, "octree march colours", gpu::Format::rgba32F, texelsPerRow,
+                                            static_cast<int>(rows_));
+        colours_.write(std::span<const float>(&colours.data()->x, 4 * colours.size()));
+    }
+    drawable_ = true;
+}
+
+gpu::Program& OctreeMarch::program() {
+    const bool coloured = !tree_.colours().empty();
+    std::optional<gpu::Program>& made = coloured ? ownColours_ : oneColour_;
+    if (!made) {
+        std::map<std::string, std::string> definitions{{"ROW_BITS", std::to_string(rowBits)}};
+        if (coloured) definitions["COLOURED"] = "";
+        made.emplace(device_, "octree march",
+                     std::initializer_list<gpu::ShaderFile>{octree_shaders::octree_march_vert,
+                                                            octree_shaders::octree_march_frag},
+                     definitions);
+    }
+    return *made;
+}
+
+void OctreeMarch::draw(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer) {
+    if (!drawable_) return;
+    gpu::Program& program = this->program();
+    const glm::mat4 worldToEye = view.worldToEye(), eyeToClip = view.eyeToClip();
+    const Rays rays = raysOf(view, worldToEye);
+
+    // The eye is taken off in double precision, so that the world may lie anywhere.
+    const double cellMetres = lattice_.cellEdgeMetres(lattice_.depth);
+    const glm::dvec3 eyeMetres = view.camera.eye - lattice_.origin;
+    program.set("levels", lattice_.depth);
+    program.set("eye", glm::vec3(eyeMetres / cellMetres));
+    program.set("minimum", glm::vec3(tree_.minimum()));
+    program.set("maximum", glm::vec3(tree_.maximum()));
+    program.set("rayCorner", glm::vec3(rays.corner));
+    program.set("rayRight", glm::vec3(rays.right));
+    program.set("rayUp", glm::vec3(rays.up));
+    program.set("nearDistance", static_cast<float>(view.camera.nearMetres / cellMetres));
+    if (tree_.colours().empty()) program.set("colourOfAll", colourOfAll);
+
+    // A little larger than the voxels: a rasteriser rounds corners, and rays that miss end at once.
+    const glm::dvec3 minimum = cellMetres * (glm::dvec3(tree_.minimum()) - 0.5) - eyeMetres;
+    const glm::dvec3 maximum = cellMetres * (glm::dvec3(tree_.maximum()) + 0.5) - eyeMetres;
+    const glm::dvec3 forward = -glm::dvec3(glm::transpose(glm::mat3(worldToEye))[2]);
+    const bool wholePicture = !isBeforeNearPlane(minimum, maximum, forward, view.camera.nearMetres);
+    program.set("wholePicture", wholePicture ? 1 : 0);
+    program.set("boxMinimum", glm::vec3(minimum));
+    program.set("boxMaximum", glm::vec3(maximum));
+    program.set("worldToEye", worldToEye);
+    program.set("projection", glm::vec3(eyeToClip[0][0], eyeToClip[1][1], view.camera.nearMetres));
+
+    gpu::DrawState state;
+    state.blend = gpu::Blend::premultiplied;
+    state.cullBackFaces = !wholePicture;
+    layer.bindColourOnly();
+    layer.sceneDepth().bind(0);
+    slots_.bind(1);
+    if (!tree_.colours().empty()) colours_.bind(2);
+    gpu::draw(program, vertices_, state, gpu::Primitives::triangles, wholePicture ? 3 : 36);
+}
+
+}  // namespace dustbench::octree

@@ -1,0 +1,42 @@
+// The voxels of an octree as things to draw: a column each, in the tree's order.
+//
+// Units: metres, m², seconds. Frame: world. Colours: linear RGB. Owns: its columns, on a ledger. Threads: filled in
+// parallel.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "methods/contract/volume.h"
+#include "methods/kit/memory/memory_ledger.h"
+#include "methods/kit/octree/lattice.h"
+#include "methods/kit/octree/octree.h"
+#include "methods/kit/octree/voxel_rule.h"
+
+namespace dustbench::octree {
+
+struct VoxelCloud {
+    explicit VoxelCloud(MemoryLedger& ledger);
+
+    /// One voxel of `tree` after the other, with the mass and colour of the particle it stands for, or its sum.
+    void take(const Octree& tree, const Puffs& store, const VoxelRule& rule, const Lattice& treeLattice);
+    void resize(std::size_t count, bool coloured);
+    [[nodiscard]] std::size_t size() const { return place.size(); }
+    /// Sets what follows from the place.
+    void locate(std::size_t i);
+    [[nodiscard]] bool coloured() const { return !red.empty(); }
+    [[nodiscard]] int rise(std::size_t i) const { return 15 - static_cast<int>(place[i] & 15); }
+    [[nodiscard]] std::uint64_t code(std::size_t i) const { return place[i] >> 4; }
+    /// Optical depth through the voxel along an axis.
+    [[nodiscard]] float opticalDepth(std::size_t i) const { return mass[i] / (edge[i] * edge[i]); }
+    [[nodiscard]] float extinctionPerMetre(std::size_t i) const { return opticalDepth(i) / edge[i]; }
+
+    Lattice lattice;
+    LedgerVector<std::uint64_t> place;  ///< as CellEntry::place: rising
+    LedgerVector<float> x, y, z, edge;  ///< centre; edge
+    LedgerVector<float> mass;           ///< τ·2π·s², of the kept particle or summed
+    LedgerVector<float> age;
+    LedgerVector<float> red, green, blue;  ///< empty where all have one colour
+};
+
+}  // namespace dustbench::octree

@@ -1,0 +1,107 @@
+#include "methods/kit/particles/chunk_update.h"
+
+#include <algorithm>
+
+namespace dustbench::particles {
+namespace {
+
+void growOlder(std::size_t count, float* __restrict age, float seconds) {
+    for (std::size_t i = 0; i < count; ++i) age[i] += seconds;
+}
+
+void shareOfLife(std::size_t count, const float* __restrict age, const float* __restrict lifetime,
+                 float* __restrict share) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float lived = age[i] / lifetime[i];
+        share[i] = lived < 1.0f ? lived : 1.0f;
+    }
+}
+
+/// v ← v + a·dt, then x ← x + v·dt. Source: Thesis, 5.1. Departs: the printed a = mass·ΣF is ΣF/mass; the mass is 1.
+void integrate(std::size_t count, float* __restrict position, float* __restrict velocity,
+               const float* __restrict acceleration, float seconds) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float v = velocity[i] + acceleration[i] * seconds;
+        velocity[i] = v;
+        position[i] += v * seconds;
+    }
+}
+
+void drift(std::size_t count, float* __restrict position, const float* __restrict velocity,
+           const float* __restrict seconds) {
+    for (std::size_t i = 0; i < count; ++i) position[i] += velocity[i] * seconds[i];
+}
+
+void light(std::size_t count, float* __restrict colour, const float* __restrict luminosity) {
+    for (std::size_t i = 0; i < count; ++i) colour[i] *= luminosity[i];
+}
+
+void clear(std::size_t count, std::initializer_list<float*> columns) {
+    for (float* column : columns) std::fill_n(column, count, 0.0f);
+}
+
+void shade(Chunk& chunk, const PartList& parts, const Step& step) {
+    clear(chunk.count, {chunk.luminosityRed, chunk.luminosityGreen, chunk.luminosityBlue});
+    for (const auto& part : parts.shadings()) part->shade(chunk, step);
+    light(chunk.count, chunk.red, chunk.luminosityRed);
+    light(chunk.count, chunk.green, chunk.luminosityGreen);
+    light(chunk.count, chunk.blue, chunk.luminosityBlue);
+}
+
+}  // namespace
+
+void ChunkScratch::lend(Chunk& chunk, bool shaded) {
+    std::size_t next = 0;
+    for (float** column : {&chunk.share, &chunk.accelerationX, &chunk.accelerationY, &chunk.accelerationZ, &chunk.airX,
+                           &chunk.airY, &chunk.airZ})
+        *column = values[next++].data();
+    if (shaded)
+        for (float** column : {&chunk.luminosityRed, &chunk.luminosityGreen, &chunk.luminosityBlue})
+            *column = values[next++].data();
+    chunk.dead = dead.data();
+}
+
+void updateChunk(Chunk& chunk, const PartList& parts, const Step& step) {
+    const std::size_t count = chunk.count;
+    const float seconds = static_cast<float>(step.seconds);
+    clear(count, {chunk.accelerationX, chunk.accelerationY, chunk.accelerationZ, chunk.airX, chunk.airY, chunk.airZ});
+
+    growOlder(count, chunk.age, seconds);
+    shareOfLife(count, chunk.age, chunk.lifetime, chunk.share);
+
+    std::fill_n(chunk.dead, count, std::uint8_t{0});
+    for (const auto& part : parts.lives()) part->judge(chunk, step);
+
+    if (parts.shadings().empty()) {
+        parts.colour()->update(chunk, step);
+    } else {
+        parts.colour()->initialise(chunk, step);  // the light of the last step is in the colour still
+        shade(chunk, parts, step);
+    }
+    parts.size()->update(chunk, step);
+
+    for (const auto& part : parts.forces()) part->blow(chunk, step);
+    for (const auto& part : parts.forces()) part->push(chunk, step);
+    integrate(count, chunk.x, chunk.velocityX, chunk.accelerationX, seconds);
+    integrate(count, chunk.y, chunk.velocityY, chunk.accelerationY, seconds);
+    integrate(count, chunk.z, chunk.velocityZ, chunk.accelerationZ, seconds);
+    for (const auto& part : parts.forces()) part->touch(chunk, step);
+}
+
+void initialiseNewborns(Newborns& newborns, const PartList& parts, const Step& step) {
+    Chunk& chunk = newborns.chunk;
+    parts.position()->place(newborns, step);
+    parts.velocity()->launch(newborns, step);
+    drift(chunk.count, chunk.x, chunk.velocityX, chunk.age);
+    drift(chunk.count, chunk.y, chunk.velocityY, chunk.age);
+    drift(chunk.count, chunk.z, chunk.velocityZ, chunk.age);
+
+    parts.lifetime().giveLifetimes(newborns, step);
+    shareOfLife(chunk.count, chunk.age, chunk.lifetime, chunk.share);
+    parts.colour()->initialise(chunk, step);
+    if (!parts.shadings().empty()) shade(chunk, parts, step);
+    parts.size()->initialise(chunk, step);
+    for (const auto& part : parts.forces()) part->touch(chunk, step);
+}
+
+}  // namespace dustbench::particles

@@ -1,0 +1,28 @@
+// The kind of part that gives particles their colour and opacity, at birth and over their life.
+//
+// Source: Thesis, 3.1.3 and 4.4 (a colour has four components; the fourth is the opacity α).
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "methods/kit/particles/chunk.h"
+#include "methods/kit/particles/part.h"
+#include "methods/kit/particles/step.h"
+
+namespace dustbench::particles {
+
+class ColourPart : public Part {
+ public:
+    using Part::Part;
+    [[nodiscard]] PartKind kind() const final { return PartKind::colour; }
+
+    /// The colour that serves all particles, where one does: then the colour columns are not kept.
+    [[nodiscard]] virtual std::optional<glm::vec3> colourOfAll(const Step&) const { return std::nullopt; }
+    /// Writes opacity, and colour where the chunk has colours. With shading it is called at every step.
+    virtual void initialise(Chunk& chunk, const Step& step) const = 0;
+    /// Writes what changes with age (`chunk.share`).
+    virtual void update(Chunk& chunk, const Step& step) const = 0;
+};
+
+}  // namespace dustbench::particles

@@ -1,0 +1,30 @@
+// The kind of part that says how many particles are born in a step, and when.
+//
+// Source: Thesis, 3.1.3 and 4.6.
+#pragma once
+
+#include <cstdint>
+
+#include "methods/kit/particles/part.h"
+#include "methods/kit/particles/step.h"
+
+namespace dustbench::particles {
+
+/// Birth k of a step happens at firstSeconds + k·spacingSeconds after its begin.
+struct Births {
+    std::int64_t count = 0;
+    double firstSeconds = 0;
+    double spacingSeconds = 0;
+};
+
+class EmissionPart : public Part {
+ public:
+    using Part::Part;
+    [[nodiscard]] PartKind kind() const final { return PartKind::emission; }
+
+    /// Called once a step; `step.particlesPerPuff` multiplies every rate. May keep what it needs for the next (an
+    /// accumulator, a counter of time).
+    [[nodiscard]] virtual Births births(const Step& step) = 0;
+};
+
+}  // namespace dustbench::particles

@@ -1,0 +1,32 @@
+// Columns for a few newborns, on the stack of the thread that brings them up.
+//
+// Units: m, s. Owns: its columns. Threads: one block, one thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "methods/kit/particles/emission_part.h"
+#include "methods/kit/particles/newborns.h"
+
+namespace dustbench::particles {
+
+class NewbornBlock {
+ public:
+    static constexpr std::size_t size = 128;
+
+    NewbornBlock() {}  // NOLINT: left as it is on purpose, the parts write every column
+
+    /// Births `first`..`first + count` of a step, numbered from `serial` on, with their moment and age.
+    [[nodiscard]] Newborns newborns(std::size_t first, std::size_t count, std::uint64_t serial, const Births& births,
+                                    std::span<const Emitter> emitters, double stepSeconds);
+
+ private:
+    std::array<std::uint64_t, size> serial_;
+    std::array<float, size> moment_;
+    std::array<const Emitter*, size> emitter_;
+    alignas(64) std::array<std::array<float, size>, 13> columns_;
+};
+
+}  // namespace dustbench::particles

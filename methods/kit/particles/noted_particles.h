@@ -1,0 +1,34 @@
+// Particles that something happens to in a step, such as death: noted chunk by chunk on any thread, then collected in
+// the order of storage.
+//
+// Owns: its lists, booked on a ledger: two bytes per particle, and four per noted one.
+// Threads: `note` from any thread, one chunk each.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "methods/kit/memory/memory_ledger.h"
+#include "methods/kit/particles/chunk.h"
+
+namespace dustbench::particles {
+
+class DUSTBENCH_API NotedParticles {
+ public:
+    explicit NotedParticles(MemoryLedger& ledger, const char* account = "particle deaths");
+
+    /// Makes room for this many particles.
+    void prepare(std::size_t particles);
+    /// Those of the chunk's `count` particles whose flag is 1 (the others are 0).
+    void note(std::size_t chunk, const std::uint8_t* flags, std::size_t count);
+    /// Storage indices of all that were noted, ascending, however many threads noted them.
+    [[nodiscard]] std::span<const std::uint32_t> collect();
+
+ private:
+    LedgerVector<std::uint16_t> within_;  ///< of chunk c: places in it, from c·chunkSize on
+    LedgerVector<std::uint32_t> counts_;  ///< of chunk c
+    LedgerVector<std::uint32_t> indices_;
+};
+
+}  // namespace dustbench::particles

@@ -1,0 +1,52 @@
+#include "methods/kit/particles/opacity_curve.h"
+
+namespace dustbench::particles {
+namespace {
+
+constexpr double maximumOpacity = 0.999;
+
+void linearOpacity(std::size_t count, const float* __restrict share, float* __restrict opacity, float start,
+                   float end) {
+    const float change = end - start;
+    for (std::size_t i = 0; i < count; ++i) opacity[i] = start + change * share[i];
+}
+
+void bezierOpacity(std::size_t count, const float* __restrict share, float* __restrict opacity,
+                   const maths::CubicPolynomial<float> curve) {
+    // Rounding may leave a curve that ends at 0 a little below it.
+    for (std::size_t i = 0; i < count; ++i) {
+        const float value = curve(share[i]);
+        opacity[i] = value > 0.0f ? value : 0.0f;
+    }
+}
+
+float valueOf(const ParameterValues& values, const char* name) {
+    return static_cast<float>(values.real(name));
+}
+
+}  // namespace
+
+void OpacityCurve::declare(ParameterSet& set) {
+    set.choice("opacity_curve", Form::linear, forms,
+               "opacity over life: a straight line from start to end, or a cubic curve with two values between")
+        .real("opacity_start", 0.25, 0, maximumOpacity, "", "peak opacity at birth")
+        .real("opacity_early", 0.17, 0, maximumOpacity, "", "second control value of the curve")
+        .real("opacity_late", 0.08, 0, maximumOpacity, "", "third control value of the curve")
+        .real("opacity_end", 0, 0, maximumOpacity, "", "peak opacity at death");
+}
+
+OpacityCurve::OpacityCurve(const ParameterValues& values)
+    : form_(values.choice("opacity_curve", forms)),
+      start_(valueOf(values, "opacity_start")),
+      end_(valueOf(values, "opacity_end")),
+      curve_(maths::bezierPolynomial(start_, valueOf(values, "opacity_early"), valueOf(values, "opacity_late"), end_)) {
+}
+
+void OpacityCurve::write(const float* share, float* opacity, std::size_t count) const {
+    if (form_ == Form::linear)
+        linearOpacity(count, share, opacity, start_, end_);
+    else
+        bezierOpacity(count, share, opacity, curve_);
+}
+
+}  // namespace dustbench::particles

@@ -1,0 +1,29 @@
+// How opacity α goes with age: the part of the colour that every dust colour needs. At most 0.999, so that τ is finite.
+//
+// Source: Thesis, 4.4.2 and 4.4.3 (the fourth component of a colour).
+#pragma once
+
+#include <cstddef>
+
+#include "methods/contract/parameters.h"
+#include "methods/kit/maths/bezier.h"
+
+namespace dustbench::particles {
+
+class OpacityCurve {
+ public:
+    static void declare(ParameterSet& set);
+    explicit OpacityCurve(const ParameterValues& values);
+
+    void write(const float* share, float* opacity, std::size_t count) const;
+
+ private:
+    enum class Form { linear, bezier };
+    static constexpr Choices<Form> forms{{"linear", Form::linear}, {"bezier", Form::bezier}};
+
+    Form form_;
+    float start_, end_;
+    maths::CubicPolynomial<float> curve_;
+};
+
+}  // namespace dustbench::particles

@@ -1,0 +1,63 @@
+// The parts of one system: six single ones and three lists. They may be swapped between two updates.
+//
+// Owns: the parts. Source: Thesis, 3.1.3.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "methods/kit/particles/colour_part.h"
+#include "methods/kit/particles/emission_part.h"
+#include "methods/kit/particles/force_part.h"
+#include "methods/kit/particles/life_part.h"
+#include "methods/kit/particles/position_part.h"
+#include "methods/kit/particles/render_part.h"
+#include "methods/kit/particles/shading_part.h"
+#include "methods/kit/particles/size_part.h"
+#include "methods/kit/particles/velocity_part.h"
+
+namespace dustbench::particles {
+
+class PartList {
+ public:
+    template <typename Kind>
+    using List = std::vector<std::unique_ptr<Kind>>;
+
+    /// Puts a part where its kind belongs: in place of the single one, or at the end of the list.
+    void set(std::unique_ptr<Part> part);
+
+    /// Null while the system is being put together.
+    [[nodiscard]] EmissionPart* emission() const { return emission_.get(); }
+    [[nodiscard]] PositionPart* position() const { return position_.get(); }
+    [[nodiscard]] VelocityPart* velocity() const { return velocity_.get(); }
+    [[nodiscard]] ColourPart* colour() const { return colour_.get(); }
+    [[nodiscard]] SizePart* size() const { return size_.get(); }
+    /// Null where the file says nothing of it.
+    [[nodiscard]] RenderPart* render() const { return render_.get(); }
+    [[nodiscard]] List<LifePart>& lives() { return lives_; }
+    [[nodiscard]] List<ShadingPart>& shadings() { return shadings_; }
+    [[nodiscard]] List<ForcePart>& forces() { return forces_; }
+    [[nodiscard]] const List<LifePart>& lives() const { return lives_; }
+    [[nodiscard]] const List<ShadingPart>& shadings() const { return shadings_; }
+    [[nodiscard]] const List<ForcePart>& forces() const { return forces_; }
+
+    /// The one part that gives lifetimes.
+    [[nodiscard]] const LifePart& lifetime() const;
+    /// Every part, kind by kind in the order of PartKind.
+    [[nodiscard]] std::vector<const Part*> all() const;
+    /// What keeps the list from being a system (`no part of kind 'size'`), or empty.
+    [[nodiscard]] std::string missing() const;
+
+ private:
+    std::unique_ptr<EmissionPart> emission_;
+    std::unique_ptr<PositionPart> position_;
+    std::unique_ptr<VelocityPart> velocity_;
+    std::unique_ptr<ColourPart> colour_;
+    std::unique_ptr<SizePart> size_;
+    std::unique_ptr<RenderPart> render_;
+    List<LifePart> lives_;
+    List<ShadingPart> shadings_;
+    List<ForcePart> forces_;
+};
+
+}  // namespace dustbench::particles

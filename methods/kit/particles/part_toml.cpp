@@ -1,0 +1,132 @@
+#include "methods/kit/particles/part_toml.h"
+
+#include <algorithm>
+
+#include "methods/contract/errors.h"
+#include "methods/kit/files/toml_reader.h"
+#include "methods/kit/particles/part_table.h"
+
+namespace dustbench::particles {
+namespace {
+
+/// `direction` of `direction.x`; a name without components is itself.
+std::string_view stem(std::string_view parameter) {
+    return parameter.substr(0, parameter.find('.'));
+}
+
+/// The parameters that a key of a file stands for: one, or the components of a vector.
+std::vector<const Parameter*> parametersOf(const ParameterSet& declared, std::string_view key) {
+    std::vector<const Parameter*> found;
+    for (const Parameter& parameter : declared.all())
+        if (stem(parameter.name) == key) found.push_back(&parameter);
+    return found;
+}
+
+std::vector<std::string> keysOf(const ParameterSet& declared) {
+    std::vector<std::string> keys;
+    for (const Parameter& parameter : declared.all())
+        if (keys.empty() || keys.back() != stem(parameter.name)) keys.emplace_back(stem(parameter.name));
+    return keys;
+}
+
+void readParameter(files::TomlReader& table, const PartInfo& info, const std::string& key, ParameterValues& values) {
+    const auto parameters = parametersOf(info.parameters, key);
+    if (parameters.empty()) throw unknownName("parameter of '" + info.name + "'", key, keysOf(info.parameters));
+    const auto texts = table.scalars(key);
+    if (texts.size() != parameters.size())
+        throw InputError("parameter " + key + ": got " + std::to_string(texts.size()) + " values, expected " +
+                         std::to_string(parameters.size()));
+    for (std::size_t i = 0; i < texts.size(); ++i) values.set(parameters[i]->name, texts[i]);
+}
+
+/// Runs `action`; its errors begin with the place of `key`.
+template <typename Action>
+auto at(const files::TomlReader& table, std::string_view key, Action action) {
+    try {
+        return action();
+    } catch (const InputError& error) {
+        throw InputError(table.where(key) + error.what());
+    }
+}
+
+std::unique_ptr<Part> readPart(files::TomlReader table, PartKind kind) {
+    const std::string name = table.text("part");
+    const PartInfo& info =
+        at(table, "part", [&]() -> std::reference_wrapper<const PartInfo> { return findPart(kind, name); }).get();
+    ParameterValues values(info.parameters);
+    for (const std::string& key : table.keys())
+        if (key != "part") at(table, key, [&] { readParameter(table, info, key, values); });
+    return at(table, "part", [&] { return info.create(values); });
+}
+
+std::unique_ptr<PartList> readParts(files::TomlReader file) {
+    auto parts = std::make_unique<PartList>();
+    for (std::size_t k = 0; k < partKindNames.size(); ++k) {
+        const auto kind = static_cast<PartKind>(k);
+        const std::string_view key = partKindNames[k];
+        if (isList(kind)) {
+            for (files::TomlReader& table : file.tables(key)) parts->set(readPart(std::move(table), kind));
+        } else if (file.has(key)) {
+            parts->set(readPart(file.table(key), kind));
+        }
+    }
+    file.finish();
+    if (const std::string missing = parts->missing(); !missing.empty())
+        throw InputError(file.where() + "particle system: " + missing);
+    return parts;
+}
+
+/// The values of these parameters, and a list where they are several.
+template <typename TextOf>
+std::string joined(const std::vector<const Parameter*>& parameters, const TextOf& textOf) {
+    std::string list;
+    for (const Parameter* parameter : parameters) list.append(list.empty() ? "" : ", ").append(textOf(*parameter));
+    return parameters.size() > 1 ? "[" + list + "]" : list;
+}
+
+}  // namespace
+
+std::unique_ptr<PartList> partsFromFile(const std::filesystem::path& file) {
+    return readParts(files::TomlReader::parseFile(file));
+}
+
+std::unique_ptr<PartList> partsFromText(std::string_view text, std::string name) {
+    return readParts(files::TomlReader::parseText(text, std::move(name)));
+}
+
+std::string partsToToml(const PartList& parts) {
+    std::string toml;
+    for (const Part* part : parts.all()) {
+        const std::string kind(kindName(part->kind()));
+        if (!toml.empty()) toml += "\n";
+        toml += isList(part->kind()) ? "[[" + kind + "]]\n" : "[" + kind + "]\n";
+        toml += "part = \"" + part->name() + "\"\n";
+        for (const std::string& key : keysOf(part->values().declared())) {
+            const auto textOf = [&](const Parameter& parameter) {
+                return valueToToml(parameter, part->values().canonical().find(parameter.name)->second);
+            };
+            toml += key + " = " + joined(parametersOf(part->values().declared(), key), textOf) + "\n";
+        }
+    }
+    return toml;
+}
+
+std::vector<Parameter> tableKeys(const ParameterSet& declared) {
+    std::vector<Parameter> keys;
+    for (const std::string& key : keysOf(declared)) {
+        const auto parameters = parametersOf(declared, key);
+        Parameter shown = *parameters.front();
+        shown.name = key;
+        shown.initial = joined(parameters, [](const Parameter& parameter) { return parameter.initial; });
+        keys.push_back(std::move(shown));
+    }
+    return keys;
+}
+
+std::string valueToToml(const Parameter& parameter, const std::string& canonical) {
+    if (parameter.type == ParameterType::choice) return std::string("\"").append(canonical).append("\"");
+    if (parameter.type == ParameterType::boolean) return canonical == "on" ? "true" : "false";
+    return canonical;
+}
+
+}  // namespace dustbench::particles

@@ -1,0 +1,127 @@
+#include "methods/kit/particles/part_toml.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "methods/contract/errors.h"
+#include "methods/kit/particles/part_table.h"
+#include "methods/kit/particles/test_world.h"
+#include "source_folder.h"
+
+namespace dustbench::particles {
+namespace {
+
+using test::everyForce;
+using test::with;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string errorOf(const std::string& toml) {
+    try {
+        test::systemFrom(toml);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(PartToml, SavingAndLoadingGivesTheSameSystem) {
+    const auto wheelDust = partsFromFile(DUSTBENCH_SOURCE_DIR "/data/particles/wheel_dust.toml");
+    for (const std::string& toml : {everyForce, partsToToml(*wheelDust)}) {
+        auto system = test::systemFrom(toml);
+        auto again = test::systemFrom(system.toToml());
+        EXPECT_EQ(again.toToml(), system.toToml());
+        const auto scene = test::sceneWithCar();
+        test::advance(system, scene, 100);
+        test::advance(again, scene, 100);
+        EXPECT_GT(system.store().size(), 0u);
+        EXPECT_EQ(again.stateHash(), system.stateHash());
+    }
+}
+
+TEST(PartToml, EveryPartOfTheTableSurvivesSavingAndLoading) {
+    for (const PartInfo& info : partTable()) {
+        auto parts = partsFromText(everyForce, "test.toml");
+        if (info.kind == PartKind::life) parts->lives().clear();
+        parts->set(info.create(ParameterValues(info.parameters)));
+        const std::string saved = partsToToml(*parts);
+        EXPECT_THAT(saved, HasSubstr("part = \"" + info.name + "\""));
+        EXPECT_EQ(partsToToml(*partsFromText(saved, "saved.toml")), saved) << info.name;
+    }
+}
+
+TEST(PartTable, NamesAreUniqueWithinTheirKindAndEveryThingHasHelp) {
+    std::set<std::pair<PartKind, std::string>> names;
+    for (const PartInfo& info : partTable()) {
+        EXPECT_TRUE(names.emplace(info.kind, info.name).second) << info.name;
+        EXPECT_FALSE(info.help.empty()) << info.name;
+        for (const Parameter& parameter : info.parameters.all()) EXPECT_FALSE(parameter.help.empty()) << parameter.name;
+        const auto part = makePart(info.kind, info.name);
+        EXPECT_EQ(part->name(), info.name);
+        EXPECT_EQ(part->kind(), info.kind);
+    }
+}
+
+TEST(PartTable, HasEveryFileOfThePartsFolderAndNothingElse) {
+    std::set<std::string> files, parts;
+    const std::filesystem::path folder = DUSTBENCH_SOURCE_DIR "/methods/kit/particles/parts";
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        const std::string file = entry.path().lexically_relative(folder).generic_string();
+        if (file.ends_with(".cpp") && !file.ends_with("_test.cpp") && !file.ends_with("_bench.cpp")) files.insert(file);
+    }
+    for (const PartInfo& info : partTable()) parts.insert(std::string(kindName(info.kind)) + "/" + info.name + ".cpp");
+    EXPECT_EQ(parts, files);
+    EXPECT_GE(parts.size(), 16u);
+}
+
+TEST(PartTable, GoesKindByKindThenByName) {
+    const auto place = [](const PartInfo& info) { return std::pair(info.kind, info.name); };
+    EXPECT_TRUE(std::ranges::is_sorted(partTable(), {}, place));
+}
+
+TEST(PartToml, KeysOfATableStandForAllParametersAndTheirDefaultsCanBeWrittenInAFile) {
+    for (const PartInfo& info : partTable()) {
+        auto parts = partsFromText(everyForce, "test.toml");
+        if (info.kind == PartKind::life) parts->lives().clear();
+        parts->set(info.create(ParameterValues(info.parameters)));
+        const std::string toml = partsToToml(*parts);
+        for (const Parameter& key : tableKeys(info.parameters))
+            EXPECT_THAT(toml, HasSubstr("\n" + key.name + " = " + valueToToml(key, key.initial) + "\n")) << info.name;
+    }
+    const auto keys = tableKeys(findPart(PartKind::velocity, "cone").parameters);
+    EXPECT_EQ(keys.at(0).name, "mode");
+    EXPECT_EQ(valueToToml(keys.at(0), keys.at(0).initial), "\"fixed\"");
+    EXPECT_EQ(keys.at(1).name, "direction");
+    EXPECT_EQ(keys.at(1).initial, "[0, 1, 0]");
+}
+
+TEST(PartToml, ErrorsNameFileAndLineAndTheNearestName) {
+    EXPECT_THAT(errorOf(with(everyForce, "\"drag\"", "\"dragg\"")),
+                AllOf(HasSubstr("test.toml:10: "), HasSubstr("force part 'dragg'"), HasSubstr("did you mean 'drag'")));
+    EXPECT_THAT(errorOf(with(everyForce, "rate_per_metre", "rate_per_meter")),
+                AllOf(HasSubstr("test.toml:2: "), HasSubstr("did you mean 'rate_per_metre'")));
+    EXPECT_THAT(errorOf(with(everyForce, "rate_per_metre = 25", "rate_per_metre = -1")),
+                AllOf(HasSubstr("test.toml:2: "), HasSubstr("got '-1'"), HasSubstr("allowed: number 0..")));
+    EXPECT_THAT(errorOf(with(everyForce, "[-0.5, 0.8, 0.1]", "[1, 2]")),
+                AllOf(HasSubstr("test.toml:4: "), HasSubstr("direction: got 2 values, expected 3")));
+    EXPECT_THAT(errorOf(with(everyForce, "[-0.5, 0.8, 0.1]", "[0, 0, 0]")),
+                AllOf(HasSubstr("test.toml:4: "), HasSubstr("direction")));
+    EXPECT_THAT(errorOf(with(everyForce, "variation_seconds = 0.5", "variation_seconds = 0.8")),
+                AllOf(HasSubstr("test.toml:7: "), HasSubstr("less than average_seconds")));
+    EXPECT_THAT(errorOf(with(everyForce, "force = [", "forces = [")), HasSubstr("did you mean 'force'"));
+    EXPECT_THAT(errorOf(with(everyForce, "size = {", "# ")), AllOf(HasSubstr("test.toml:"), HasSubstr("'size'")));
+    EXPECT_THAT(errorOf(with(everyForce, "life = [ { part = \"lifetime\", ", "life = [] # ")),
+                HasSubstr("gives lifetimes"));
+    EXPECT_THAT(errorOf("size = 3"), HasSubstr("test.toml:1: "));
+}
+
+TEST(PartToml, MissingFileIsAnErrorWithItsName) {
+    EXPECT_THROW(ParticleSystem::load("/no/such/dust.toml", 1), InputError);
+}
+
+}  // namespace
+}  // namespace dustbench::particles

@@ -1,0 +1,169 @@
+#include "methods/kit/particles/particle_system.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "methods/contract/errors.h"
+#include "methods/kit/maths/hash.h"
+#include "methods/kit/parallel/for_each_block.h"
+#include "methods/kit/particles/chunk_update.h"
+#include "methods/kit/particles/emitter_tracker.h"
+#include "methods/kit/particles/newborn_block.h"
+#include "methods/kit/particles/noted_particles.h"
+#include "methods/kit/particles/part_toml.h"
+
+namespace dustbench::particles {
+namespace {
+
+constexpr std::size_t fewChunks = 4;  // below, a second thread does not pay
+
+}  // namespace
+
+struct ParticleSystem::State {
+    State(std::unique_ptr<PartList> list, std::uint64_t seedOfAll) : parts(std::move(list)), seed(seedOfAll) {}
+
+    void live(const Step& step);
+    void bury(std::span<const std::uint32_t> holes);
+    void giveBirth(const Births& births, std::span<const Emitter> emitters, std::span<const std::uint32_t> holes,
+                   const Step& step);
+
+    std::unique_ptr<PartList> parts;
+    std::uint64_t seed;
+    std::uint64_t nextSerial = 0;
+    EmitterTracker tracker;
+    MemoryLedger ledger;
+    ParticleStore store{ledger};
+    NotedParticles deaths{ledger};
+    LedgerVector<std::uint32_t> survivors{ledger.account("particle deaths")};
+};
+
+void ParticleSystem::State::live(const Step& step) {
+    deaths.prepare(store.size());
+    parallel::forEachBlock(
+        store.size(), chunkSize,
+        [&](std::size_t first, std::size_t count) {
+            ChunkScratch scratch;
+            Chunk chunk = store.chunk(first, count);
+            scratch.lend(chunk, !parts->shadings().empty());
+            updateChunk(chunk, *parts, step);
+            deaths.note(first / chunkSize, chunk.dead, count);
+        },
+        fewChunks);
+}
+
+/// Closes the holes (ascending) that no newborn has filled: the last survivors move into them, in order.
+void ParticleSystem::State::bury(std::span<const std::uint32_t> holes) {
+    if (holes.empty()) return;
+    const std::size_t left = store.size() - holes.size();
+    const auto firstBeyond = std::ranges::lower_bound(holes, left);
+    survivors.clear();
+    auto skipped = firstBeyond;
+    for (std::size_t i = left; i < store.size(); ++i) {
+        if (skipped != holes.end() && *skipped == i)
+            ++skipped;
+        else
+            survivors.push_back(static_cast<std::uint32_t>(i));
+    }
+    parallel::forEachBlock(
+        survivors.size(), chunkSize,
+        [&](std::size_t first, std::size_t count) {
+            for (std::size_t k = first; k < first + count; ++k) store.move(survivors[k], holes[k]);
+        },
+        fewChunks);
+    store.resize(left);
+}
+
+/// Newborns take the holes of the dead first, in order; the rest are appended.
+void ParticleSystem::State::giveBirth(const Births& births, std::span<const Emitter> emitters,
+                                      std::span<const std::uint32_t> holes, const Step& step) {
+    const std::size_t born = static_cast<std::size_t>(births.count);
+    const std::size_t before = store.size();
+    if (born > holes.size()) store.resize(before + born - holes.size());
+    parallel::forEachBlock(
+        born, NewbornBlock::size,
+        [&](std::size_t first, std::size_t count) {
+            ChunkScratch scratch;
+            NewbornBlock block;
+            Newborns newborns = block.newborns(first, count, nextSerial + first, births, emitters, step.seconds);
+            scratch.lend(newborns.chunk, !parts->shadings().empty());
+            initialiseNewborns(newborns, *parts, step);
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::size_t k = first + i;
+                store.put(newborns.chunk, i, k < holes.size() ? holes[k] : before + (k - holes.size()));
+            }
+        },
+        fewChunks);
+    nextSerial += born;
+    if (born < holes.size()) bury(holes.subspan(born));
+}
+
+ParticleSystem ParticleSystem::load(const std::filesystem::path& file, std::uint64_t seed) {
+    return ParticleSystem(partsFromFile(file), seed);
+}
+
+ParticleSystem::ParticleSystem(std::unique_ptr<PartList> parts, std::uint64_t seed)
+    : state_(std::make_unique<State>(std::move(parts), seed)) {
+    if (const std::string missing = state_->parts->missing(); !missing.empty())
+        throw InputError("particle system: " + missing);
+}
+
+ParticleSystem::ParticleSystem(ParticleSystem&&) noexcept = default;
+ParticleSystem& ParticleSystem::operator=(ParticleSystem&&) noexcept = default;
+ParticleSystem::~ParticleSystem() = default;
+
+void ParticleSystem::update(const Surroundings& surroundings) {
+    if (!(surroundings.stepSeconds > 0)) throw std::invalid_argument("ParticleSystem: a step must be longer than 0 s");
+    if (surroundings.particlesPerPuff < 1)
+        throw std::invalid_argument("ParticleSystem: at least 1 particle is born for each puff");
+    State& s = *state_;
+    if (const std::string missing = s.parts->missing(); !missing.empty()) throw std::logic_error(missing);
+    const PartList& parts = *s.parts;
+    const double fixedRate = static_cast<double>(surroundings.fixedCount) / meanLifetimeSeconds();
+    const Step step{surroundings.scene,
+                    surroundings.state,
+                    surroundings.stepSeconds,
+                    s.seed,
+                    fixedRate,
+                    s.tracker.follow(surroundings.scene, surroundings.state, surroundings.stepSeconds),
+                    surroundings.particlesPerPuff};
+
+    const auto oneColour = parts.colour()->colourOfAll(step);
+    if (oneColour) s.store.colourOfAll = *oneColour;
+    s.store.keepOneColour(oneColour.has_value() && parts.shadings().empty());
+
+    for (const auto& force : s.parts->forces()) force->begin(step);
+    s.live(step);
+    const auto holes = s.deaths.collect();
+    const auto emitters = parts.position()->emitters(step);
+    const Births births = emitters.empty() ? Births{} : parts.emission()->births(step);
+    s.giveBirth(births, emitters, holes, step);
+}
+
+std::string ParticleSystem::toToml() const {
+    return partsToToml(*state_->parts);
+}
+
+const ParticleStore& ParticleSystem::store() const {
+    return state_->store;
+}
+
+PartList& ParticleSystem::parts() {
+    return *state_->parts;
+}
+
+double ParticleSystem::meanLifetimeSeconds() const {
+    return *state_->parts->lifetime().meanLifetimeSeconds();
+}
+
+std::uint64_t ParticleSystem::stateHash() const {
+    return state_->store.hash();
+}
+
+MemoryReport ParticleSystem::memory() const {
+    MemoryReport report;
+    for (const auto& [structure, bytes] : state_->ledger.entries()) report.push_back({structure, bytes, 0});
+    return report;
+}
+
+}  // namespace dustbench::particles

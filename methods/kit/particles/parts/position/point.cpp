@@ -1,0 +1,35 @@
+// Births at a point.
+#include "methods/kit/particles/placed_source.h"
+
+namespace dustbench::particles::parts::position::point {
+namespace {
+
+class PointSource final : public PlacedSource {
+ public:
+    using PlacedSource::PlacedSource;
+
+    void place(Newborns& newborns, const Step& step) const override;
+};
+
+void PointSource::place(Newborns& newborns, const Step&) const {
+    const Chunk& chunk = newborns.chunk;
+    for (std::size_t i = 0; i < chunk.count; ++i) {
+        const glm::vec3 centre = centreOf(newborns, i);
+        chunk.x[i] = centre.x;
+        chunk.y[i] = centre.y;
+        chunk.z[i] = centre.z;
+    }
+}
+
+}  // namespace
+
+PartInfo describe() {
+    PartInfo info;
+    info.help = "a point";
+    info.source = "Thesis, 4.2.1";
+    PlacedSource::declare(info.parameters);
+    info.create = [](const ParameterValues& values) { return std::make_unique<PointSource>(values); };
+    return info;
+}
+
+}  // namespace dustbench::particles::parts::position::point

@@ -1,0 +1,21 @@
+// The kind of part that lights particles: it adds to the luminosity, and the colour shown is colour · luminosity.
+//
+// Source: Thesis, 3.1.3 and 6.2.
+#pragma once
+
+#include "methods/kit/particles/chunk.h"
+#include "methods/kit/particles/part.h"
+#include "methods/kit/particles/step.h"
+
+namespace dustbench::particles {
+
+class ShadingPart : public Part {
+ public:
+    using Part::Part;
+    [[nodiscard]] PartKind kind() const final { return PartKind::shading; }
+
+    /// Adds to `chunk.luminosityRed`, `…Green`, `…Blue`.
+    virtual void shade(Chunk& chunk, const Step& step) const = 0;
+};
+
+}  // namespace dustbench::particles

@@ -1,0 +1,20 @@
+// The kind of part that gives newborns their velocity.
+//
+// Source: Thesis, 3.1.3 and 4.3.
+#pragma once
+
+#include "methods/kit/particles/newborns.h"
+#include "methods/kit/particles/part.h"
+
+namespace dustbench::particles {
+
+class VelocityPart : public Part {
+ public:
+    using Part::Part;
+    [[nodiscard]] PartKind kind() const final { return PartKind::velocity; }
+
+    /// Positions are known by then.
+    virtual void launch(Newborns& newborns, const Step& step) const = 0;
+};
+
+}  // namespace dustbench::particles

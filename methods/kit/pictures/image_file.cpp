@@ -1,0 +1,95 @@
+// Image files: bytes and floats of pixels from and to their files.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <system_error>
+
+#include "methods/contract/errors.h"
+#include "methods/kit/pictures/image.h"
+#include "methods/kit/pictures/picture_files.h"
+
+namespace dustbench::pictures {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isOpaque(const Image& image) {
+    return std::all_of(image.pixels.begin(), image.pixels.end(), [](const glm::vec4& p) { return p.a >= 1; });
+}
+
+std::uint8_t toByte(float share) {
+    return static_cast<std::uint8_t>(std::lround(255 * share));
+}
+
+/// Straight alpha, colours encoded, to the nearest of 256 steps.
+std::vector<std::uint8_t> encodedBytes(const Image& image, bool withAlpha) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(image.pixels.size() * (withAlpha ? 4 : 3));
+    for (const glm::vec4& pixel : image.pixels) {
+        const float alpha = pixel.a > 0 ? std::min(pixel.a, 1.0f) : 0.0f;
+        const float share = withAlpha && alpha > 0 ? alpha : 1.0f;
+        for (int channel = 0; channel < 3; ++channel) bytes.push_back(toByte(encodeSrgb(pixel[channel] / share)));
+        if (withAlpha) bytes.push_back(toByte(alpha));
+    }
+    return bytes;
+}
+
+/// Empty on success, else what went wrong.
+std::string tryToWrite(const Image& image, const fs::path& file, bool png) {
+    if (!png) return writeExr(file, image.width, image.height, {&image.pixels[0].x, image.pixels.size() * 4});
+    const bool withAlpha = !isOpaque(image);
+    return writePng(file, image.width, image.height, withAlpha ? 4 : 3, encodedBytes(image, withAlpha));
+}
+
+/// The file's channels as straight or premultiplied RGBA: grey is spread over the colours, missing alpha is 1.
+glm::vec4 toRgba(const float* channels, int count, int alphaChannel) {
+    glm::vec4 pixel(channels[0], channels[0], channels[0], 1);
+    const int colours = alphaChannel >= 0 ? count - 1 : count;
+    if (colours >= 3) pixel = {channels[0], channels[1], channels[2], 1};
+    if (alphaChannel >= 0) pixel.a = channels[alphaChannel];
+    return pixel;
+}
+
+}  // namespace
+
+void writeImage(const Image& image, const fs::path& file) {
+    const std::string extension = file.extension().string();
+    if (extension != ".png" && extension != ".exr")
+        throw InputError("cannot write image '" + file.string() + "': got extension '" + extension +
+                         "', expected .png or .exr");
+    if (image.width < 1 || image.height < 1)
+        throw InputError("cannot write image '" + file.string() + "': it has no pixels");
+
+    // Beside the target, so that the rename stays within one file system; the process makes the name its own.
+    fs::path beside = file;
+    beside += ".part" + std::to_string(getpid());
+    const auto fail = [&](const std::string& reason) {
+        std::error_code ignored;
+        fs::remove(beside, ignored);
+        throw InputError("cannot write image '" + file.string() + "': " + reason);
+    };
+    if (const std::string reason = tryToWrite(image, beside, extension == ".png"); !reason.empty()) fail(reason);
+    std::error_code error;
+    fs::rename(beside, file, error);
+    if (error) fail(error.message());
+}
+
+Image readImage(const fs::path& file) {
+    StoredPicture stored;
+    if (const std::string reason = readPicture(file, stored); !reason.empty())
+        throw InputError("cannot read image '" + file.string() + "': " + reason);
+    const auto pixels = static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height);
+    const auto channels = static_cast<std::size_t>(stored.channels);
+    Image image{stored.width, stored.height, std::vector<glm::vec4>(pixels)};
+    for (std::size_t i = 0; i < pixels; ++i) {
+        glm::vec4 pixel = toRgba(&stored.values[i * channels], stored.channels, stored.alphaChannel);
+        if (stored.isEncoded) pixel = {decodeSrgb(pixel.r), decodeSrgb(pixel.g), decodeSrgb(pixel.b), pixel.a};
+        if (!stored.isPremultiplied) pixel = {glm::vec3(pixel) * pixel.a, pixel.a};
+        image.pixels[i] = pixel;
+    }
+    return image;
+}
+
+}  // namespace dustbench::pictures

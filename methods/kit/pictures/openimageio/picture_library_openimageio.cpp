@@ -1,0 +1,97 @@
+// The pictures' library by OpenImageIO: the one file that includes it.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "methods/kit/pictures/picture_library.h"
+
+namespace dustbench::pictures {
+namespace {
+
+constexpr int oneThread = 1;
+
+/// OpenImageIO's message on one line.
+std::string oneLine(std::string message) {
+    while (!message.empty() && std::isspace(static_cast<unsigned char>(message.back())) != 0) message.pop_back();
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    return message.empty() ? "no reason given" : message;
+}
+
+class OpenImageIo final : public PictureLibrary {
+ public:
+    std::string read(const std::filesystem::path& file, StoredPicture& picture) const override {
+        // Straight alpha is asked for: OpenImageIO would premultiply the encoded colours.
+        OIIO::ImageSpec wanted;
+        wanted.attribute("oiio:UnassociatedAlpha", 1);
+        const auto input = OIIO::ImageInput::open(file.string(), &wanted);
+        if (!input) return oneLine(OIIO::geterror());
+        const OIIO::ImageSpec& spec = input->spec();
+        const int channels = spec.nchannels;
+        if (channels < 1 || spec.width < 1 || spec.height < 1 || spec.depth > 1) return "it is not a flat picture";
+        const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+        const bool integers = !spec.format.is_floating_point();
+        picture = {spec.width,
+                   spec.height,
+                   channels,
+                   spec.alpha_channel,
+                   space.empty() ? integers : OIIO::Strutil::iequals(space, "sRGB"),
+                   !integers && spec.get_int_attribute("oiio:UnassociatedAlpha") == 0,
+                   std::vector<float>(spec.image_pixels() * static_cast<std::size_t>(channels))};
+        if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, picture.values.data()))
+            return oneLine(input->geterror());
+        return "";
+    }
+
+    std::string encodeJpeg(int width, int height, std::span<const std::uint8_t> rgb, int quality,
+                           std::vector<std::uint8_t>& jpeg) const override {
+        OIIO::Filesystem::IOVecOutput sink(jpeg);
+        const auto output = OIIO::ImageOutput::create("jpeg", &sink);
+        if (!output) return oneLine(OIIO::geterror());
+        OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+        spec.attribute("Compression", "jpeg:" + std::to_string(quality));
+        if (!output->open("jpeg", spec) || !output->write_image(spec.format, rgb.data()) || !output->close())
+            return oneLine(output->geterror());
+        return "";
+    }
+
+    bool findInk(const std::string& line, int pixels, const std::string& font, InkBox& ink) const override {
+        const OIIO::ROI box = OIIO::ImageBufAlgo::text_size(line, pixels, font);
+        if (!box.defined()) return false;
+        ink = box.xbegin < box.xend ? InkBox{box.xbegin, box.xend, box.ybegin, box.yend} : InkBox{};
+        return true;
+    }
+
+    std::string drawText(const std::string& line, int pixels, const std::string& font, const InkBox& ink,
+                         std::span<float> coverage) const override {
+        // White on black leaves the coverage itself.
+        OIIO::ImageBuf buffer(OIIO::ImageSpec(ink.width(), ink.height(), 1, OIIO::TypeDesc::FLOAT), coverage.data());
+        const bool drawn = OIIO::ImageBufAlgo::render_text(buffer, -ink.left, -ink.top, line, pixels, font, 1.0f,
+                                                           OIIO::ImageBufAlgo::TextAlignX::Left,
+                                                           OIIO::ImageBufAlgo::TextAlignY::Baseline, 0, {}, oneThread);
+        return drawn ? "" : oneLine(buffer.geterror());
+    }
+
+    std::string resize(std::span<const float> from, int fromWidth, int fromHeight, std::span<float> to, int width,
+                       int height) const override {
+        std::vector<float> source(from.begin(), from.end());  // OpenImageIO wraps memory that it may write to
+        const OIIO::ImageBuf read(OIIO::ImageSpec(fromWidth, fromHeight, 4, OIIO::TypeDesc::FLOAT), source.data());
+        OIIO::ImageBuf written(OIIO::ImageSpec(width, height, 4, OIIO::TypeDesc::FLOAT), to.data());
+        const OIIO::ROI all(0, width, 0, height, 0, 1, 0, 4);
+        return OIIO::ImageBufAlgo::resize(written, read, "blackman-harris", 0.0f, all, oneThread)
+                   ? ""
+                   : oneLine(written.geterror());
+    }
+};
+
+}  // namespace
+}  // namespace dustbench::pictures
+
+extern "C" DUSTBENCH_API const dustbench::pictures::PictureLibrary& dustbenchPictureLibrary();
+extern "C" const dustbench::pictures::PictureLibrary& dustbenchPictureLibrary() {
+    static const dustbench::pictures::OpenImageIo library;
+    return library;
+}

@@ -1,0 +1,90 @@
+// Samples sixteen places of a grid at once: out of a window of cells held in registers, or anywhere out of memory.
+//
+// The rays of a packet are so near to each other that all eight neighbours of all their samples lie within 4×4×3 cells
+// most of the time. Those are read once, and the neighbours are picked in registers: on AVX-512 a seventh of the time
+// that gathering them takes.
+//
+// Units: cells; places count from the middle of the first cell.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "methods/kit/raycast/lanes.h"
+#include "methods/kit/raycast/padded_cells.h"
+
+namespace dustbench::raycast {
+
+struct Places {
+    Floats x, y, z;
+};
+
+/// Linear between eight neighbours that `value(corner)` gives, x fastest; shares are from the lower ones.
+template <typename Value>
+[[gnu::always_inline]] inline Floats betweenEight(const Places& share, const Value& value) {
+    const Floats front = mix(mix(value(0), value(1), share.x), mix(value(2), value(3), share.x), share.y);
+    const Floats back = mix(mix(value(4), value(5), share.x), mix(value(6), value(7), share.x), share.y);
+    return mix(front, back, share.z);
+}
+
+/// What lies at the places, clamped to the grid.
+[[gnu::always_inline]] inline Floats sampleAnywhere(const PaddedCells& cells, const Places& at) {
+    const auto lower = [](const Floats& place, int count) {
+        const Floats clamped = atLeast(atMost(place, all(static_cast<float>(count - 1))), all(0));
+        return clamped;
+    };
+    const Floats x = lower(at.x, cells.cells().x), y = lower(at.y, cells.cells().y), z = lower(at.z, cells.cells().z);
+    const Ints i = wholePart(x), j = wholePart(y), k = wholePart(z);
+    const Places share{x - toFloats(i), y - toFloats(j), z - toFloats(k)};
+    const Ints index = i + cells.row() * j + cells.slab() * k;
+    const float* const origin = cells.origin();
+    return betweenEight(share, [&](int corner) {
+        const float* const from =
+            origin + (corner & 1) + (corner & 2) / 2 * cells.row() + (corner & 4) / 4 * cells.slab();
+        Floats values;
+        for (int lane = 0; lane < laneCount; ++lane) values[lane] = from[index[lane]];
+        return values;
+    });
+}
+
+#ifdef __AVX512F__
+/// 4×4×3 cells from one on.
+class CellWindow {
+ public:
+    static constexpr bool useful = true;
+
+    [[gnu::always_inline]] CellWindow(const float* from, std::ptrdiff_t row, std::ptrdiff_t slab) {
+        for (int k = 0; k < 3; ++k, from += slab) slabs_[k] = joined(from, from + row, from + 2 * row, from + 3 * row);
+    }
+
+    /// Places from the first cell's middle on: less than (3, 3, 2).
+    [[gnu::always_inline]] [[nodiscard]] Floats sample(const Places& at) const {
+        const Ints i = wholePart(at.x), j = wholePart(at.y), k = wholePart(at.z);
+        const Places share{at.x - toFloats(i), at.y - toFloats(j), at.z - toFloats(k)};
+        const Ints index = i + 4 * j + 16 * k;
+        return betweenEight(share, [&](int corner) {
+            const Ints there = index + ((corner & 1) + 2 * (corner & 2));
+            return corner < 4 ? __builtin_shuffle(slabs_[0], slabs_[1], there)
+                              : __builtin_shuffle(slabs_[1], slabs_[2], there);
+        });
+    }
+
+ private:
+    [[gnu::always_inline]] static Floats joined(const float* a, const float* b, const float* c, const float* d) {
+        const auto low = __builtin_shufflevector(lanes::load<Four>(a), lanes::load<Four>(b), 0, 1, 2, 3, 4, 5, 6, 7);
+        const auto high = __builtin_shufflevector(lanes::load<Four>(c), lanes::load<Four>(d), 0, 1, 2, 3, 4, 5, 6, 7);
+        return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    }
+
+    Floats slabs_[3];
+};
+#else
+/// Without registers to pick from, gathering is the faster.
+class CellWindow {
+ public:
+    static constexpr bool useful = false;
+    CellWindow(const float*, std::ptrdiff_t, std::ptrdiff_t) {}
+    [[nodiscard]] static Floats sample(const Places&) { return Floats{}; }
+};
+#endif
+
+}  // namespace dustbench::raycast

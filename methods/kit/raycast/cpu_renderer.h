@@ -1,0 +1,27 @@
+// The march on the CPU as a renderer: reads the scene's depths back, marches, and puts the picture over the layer.
+//
+// Owns: the grid in the march's layout, the picture on the GPU. Threads: the OpenGL thread's; the march spreads over
+// the others.
+#pragma once
+
+#include "methods/kit/raycast/cpu_march.h"
+#include "methods/kit/raycast/grid_renderer.h"
+#include "methods/kit/raycast/packet_composite.h"
+
+namespace dustbench::raycast {
+
+class CpuRenderer final : public GridRenderer {
+ public:
+    CpuRenderer(gpu::Device& device, const RaycastSettings& settings, const Reflected& reflected, MemoryLedger& ledger);
+
+    void upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light) override;
+    std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer) override;
+    [[nodiscard]] std::size_t gpuBytes() const override { return composite_.gpuBytes(); }
+
+ private:
+    Reflected reflected_;
+    CpuMarch march_;
+    PacketComposite composite_;
+};
+
+}  // namespace dustbench::raycast

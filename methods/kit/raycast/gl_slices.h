@@ -1,0 +1,41 @@
+// Textured planes across the view, blended from the farthest to the nearest.
+//
+// Owns: the grid on the GPU. Units: cells. Threads: the OpenGL thread's. Source: Senger2009, ch. 2.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "methods/kit/gpu/buffer.h"
+#include "methods/kit/gpu/vertex_array.h"
+#include "methods/kit/raycast/grid_on_gpu.h"
+#include "methods/kit/raycast/grid_renderer.h"
+
+namespace dustbench::raycast {
+
+class GlSlices final : public GridRenderer {
+ public:
+    GlSlices(gpu::Device& device, const RaycastSettings& settings, const Reflected& reflected);
+
+    void upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light) override;
+    [[nodiscard]] bool takesTextures() const override { return true; }
+    void take(const ShownTextures& grid, const BricksOnGpu& bricks, const LightOnGpu* light) override;
+    std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer) override;
+
+    [[nodiscard]] std::size_t gpuBytes() const override { return grid_.gpuBytes() + slices_.bytes(); }
+
+ private:
+    [[nodiscard]] gpu::Program& program();
+
+    gpu::Device& device_;
+    RaycastSettings settings_;
+    Reflected reflected_;
+    GridOnGpu grid_;
+    glm::ivec3 minimum_{0}, maximum_{0};
+    gpu::Buffer slices_;
+    gpu::VertexArray vertices_;
+    std::optional<gpu::Program> smokeAlone_, withFire_;  ///< made when first wanted
+};
+
+}  // namespace dustbench::raycast

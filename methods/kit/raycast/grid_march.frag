@@ -1,0 +1,116 @@
+// Front to back along the pixel's ray through a grid of cells.
+//
+//     D ← D + σ·Δ,   T = e^(−D),   C ← C + (T before − T after)·(reflected + emission)
+//
+// Steps end at distances (k + jitter)·step from the eye, on whatever side of the grid it is; the first and the last are
+// cut to what lies within the grid and before the scene, and each is sampled in its middle.
+// Source: Senger2009, ch. 4. Departs: entry, length and their cuts are computed for each pixel instead of drawn first.
+layout(binding = 0) uniform sampler2D sceneDepth;
+#ifdef SKIP
+layout(binding = 2) uniform sampler3D bricks;  // 0: nothing in it
+uniform vec3 minimum, maximum;                      // [minimum, most) holds all there is
+#endif
+
+uniform vec3 eye;
+uniform vec3 rayCorner, rayRight, rayUp;  // the ray through the picture's corner, and what one pixel adds
+uniform float nearDistance, stepLength;
+uniform float opaqueDepth;  // where a ray may end
+
+layout(location = 0) out vec4 colour;
+
+// pixel_rays.h says what it is.
+float jitter() {
+#ifdef JITTER
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    return float((pixel.x * 3242174889u + pixel.y * 2447445414u) >> 8) * exp2(-24.0);
+#else
+    return 0.0;
+#endif
+}
+
+float depth = 0.0;
+#ifdef COLOURED
+float transmittance = 1.0;
+vec3 shown = vec3(0);
+#endif
+
+void march(vec3 at, float reach) {
+    vec3 source;
+    float next = depth + extinctionAt(at, source) * reach;
+#ifdef COLOURED
+    float left = exp(-next);
+    shown += (transmittance - left) * source;
+    transmittance = left;
+#endif
+    depth = next;
+}
+
+// Where the ray from the eye is between two corners: x to y.
+vec2 within(vec3 low, vec3 high, vec3 perRay) {
+    vec3 atLow = (low - eye) * perRay, atHigh = (high - eye) * perRay;
+    vec3 enters = min(atLow, atHigh), leaves = max(atLow, atHigh);
+    return vec2(max(max(enters.x, enters.y), max(enters.z, 0.0)), min(min(leaves.x, leaves.y), leaves.z));
+}
+
+#ifdef SKIP
+// How far a ray goes through bricks without anything in them, `length` at the most.
+float clearAhead(vec3 start, vec3 ray, float length) {
+    vec3 perRay = 1.0 / ray;
+    ivec3 brickCount = textureSize(bricks, 0);
+    ivec3 brick = clamp(ivec3(start / BRICK), ivec3(0), brickCount - 1);
+    ivec3 toward = ivec3(sign(ray));
+    vec3 perBrick = BRICK * abs(perRay);
+    vec3 exits = (vec3(brick + max(toward, 0)) * BRICK - start) * perRay;
+    float ahead = 0.0;
+    while (texelFetch(bricks, brick, 0).r == 0.0) {
+        ahead = min(min(exits.x, exits.y), exits.z);
+        bvec3 through = lessThanEqual(exits, vec3(ahead));
+        exits += mix(vec3(0), perBrick, through);
+        brick += ivec3(through) * toward;
+        if (ahead >= length || any(lessThan(brick, ivec3(0))) || any(greaterThanEqual(brick, brickCount)))
+            return length;
+    }
+    return max(ahead, 0.0);
+}
+#endif
+
+void main() {
+    colour = vec4(0);
+    vec3 ray = rayCorner + gl_FragCoord.x * rayRight + gl_FragCoord.y * rayUp;
+    float stretch = length(ray);
+    ray /= stretch;
+    ray = mix(ray, vec3(1e-12), lessThan(abs(ray), vec3(1e-12)));  // finite quotients
+    vec3 perRay = 1.0 / ray;
+
+    vec2 box = within(vec3(0), cells, perRay);
+    float end = min(box.y, nearDistance / max(texelFetch(sceneDepth, ivec2(gl_FragCoord.xy), 0).r, 1e-9) * stretch);
+#ifdef SKIP
+    vec2 filled = within(minimum, maximum, perRay);
+    float enter = filled.x, last = min(filled.y, end);
+    if (enter >= last) return;
+    enter += clearAhead(eye + enter * ray, ray, last - enter);
+    if (enter >= last) return;
+    last -= clearAhead(eye + last * ray, -ray, last - enter);
+#else
+    float enter = box.x, last = end;
+#endif
+    if (enter >= last) return;
+
+    float shift = jitter() * stepLength;
+    float k = floor((enter - shift) / stepLength) + 1.0;  // the step from `from` ends at `next`, or at the end
+    float next = k * stepLength + shift, from = max(next - stepLength, box.x);
+    // Counted, because so far away that floats do not tell steps from each other they would not end.
+    for (int steps = int((last - enter) / stepLength) + 3; steps > 0 && from < last && depth <= opaqueDepth; --steps) {
+        float to = min(next, end);
+        march(eye + 0.5 * (from + to) * ray, to - from);
+        from = to;
+        k += 1.0;
+        next = k * stepLength + shift;
+    }
+    float alpha = 1.0 - exp(-depth);
+#ifdef COLOURED
+    colour = vec4(shown, alpha);
+#else
+    colour = vec4(reflected * alpha, alpha);
+#endif
+}

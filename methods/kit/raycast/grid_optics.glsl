@@ -1,0 +1,62 @@
+// What a grid of cells shows: its density, light and fire anywhere in it.
+//
+// Lengths are in cells, places from the grid's minimum corner.
+layout(binding = 1) uniform sampler3D density;
+#ifdef FIRE
+layout(binding = 3) uniform sampler3D reaction;
+layout(binding = 4) uniform sampler2D fire;  // emission and extinction factor by reaction
+#endif
+#ifdef SHADOW
+layout(binding = 5) uniform sampler3D light;  // how much of the sun's comes through
+uniform vec3 lightCells;                      // that it reaches over
+uniform vec3 reflectedSky, reflectedSun;
+#else
+uniform vec3 reflected;  // what a thick cloud reflects
+#endif
+#if defined(FIRE) || defined(SHADOW)
+#define COLOURED
+#endif
+
+uniform vec3 cells;
+uniform float extinction;  // of a density of 1, per cell
+
+#ifdef CUBIC
+// Eight linear samples make a cubic B-spline's 64: along each axis the two outer pairs of weights are put together.
+// Source: Sigg2005.
+float sampled(sampler3D field, vec3 at) {
+    vec3 place = at - 0.5, share = fract(place), low = place - share;
+    vec3 rest = 1.0 - share;
+    vec3 w0 = rest * rest * rest / 6.0;
+    vec3 w1 = 2.0 / 3.0 - 0.5 * share * share * (2.0 - share);
+    vec3 w3 = share * share * share / 6.0;
+    vec3 w2 = 1.0 - w0 - w1 - w3;
+    vec3 g0 = w0 + w1, g1 = w2 + w3;
+    vec3 h0 = (low - 0.5 + w1 / g0) / cells, h1 = (low + 1.5 + w3 / g1) / cells;
+    vec4 front = vec4(texture(field, vec3(h0.x, h0.y, h0.z)).r, texture(field, vec3(h1.x, h0.y, h0.z)).r,
+                      texture(field, vec3(h0.x, h1.y, h0.z)).r, texture(field, vec3(h1.x, h1.y, h0.z)).r);
+    vec4 back = vec4(texture(field, vec3(h0.x, h0.y, h1.z)).r, texture(field, vec3(h1.x, h0.y, h1.z)).r,
+                     texture(field, vec3(h0.x, h1.y, h1.z)).r, texture(field, vec3(h1.x, h1.y, h1.z)).r);
+    vec4 all = g0.z * front + g1.z * back;
+    return g0.y * (g0.x * all.x + g1.x * all.y) + g1.y * (g0.x * all.z + g1.x * all.w);
+}
+#else
+float sampled(sampler3D field, vec3 at) {
+    return texture(field, at / cells).r;
+}
+#endif
+
+// Extinction per cell, and the colour of what it covers.
+float extinctionAt(vec3 at, out vec3 source) {
+#ifdef SHADOW
+    source = reflectedSky + reflectedSun * texture(light, at / lightCells).r;
+#else
+    source = reflected;
+#endif
+    float found = sampled(density, at) * extinction;
+#ifdef FIRE
+    vec4 burning = texture(fire, vec2((sampled(reaction, at) * (FIRE_TEXELS - 1.0) + 0.5) / FIRE_TEXELS, 0.5));
+    found *= burning.a;
+    source += burning.rgb;
+#endif
+    return found;
+}

@@ -1,0 +1,61 @@
+#include "methods/kit/raycast/grid_raycast.h"
+
+namespace dustbench::raycast {
+namespace {
+
+/// Cells that a sample sees beyond its own.
+int reachOf(Filter filter) {
+    return filter == Filter::cubic ? 2 : 1;
+}
+
+}  // namespace
+
+GridRaycast::GridRaycast(gpu::Device& device, const RaycastSettings& settings, const scene::Lights& lights,
+                         MemoryLedger& ledger)
+    : device_(device), settings_(settings), toSun_(lights.toSun), bricks_(ledger) {
+    check(settings);
+    if (settings.shadowCells > 0) light_.emplace(settings, lights.toSun, ledger);
+    renderer_ = makeGridRenderer(device, settings, lights, ledger);
+}
+
+void GridRaycast::upload(const ShownGrid& grid) {
+    drawable_ = false;
+    check(grid);
+    bricks_.set(grid, reachOf(settings_.filter));
+    place_ = {{grid.cells, grid.spacingMetres, grid.originMetres, {}, {}}, bricks_.minimum(), bricks_.maximum()};
+    if (bricks_.empty()) return;
+    if (light_) light_->set(grid);
+    renderer_->upload(grid, bricks_, light_ ? &*light_ : nullptr);
+    drawable_ = true;
+}
+
+void GridRaycast::take(const ShownTextures& grid) {
+    drawable_ = false;
+    check(grid);
+    if (!bricksOnGpu_) bricksOnGpu_.emplace(device_);
+    if (!bricksOnGpu_->set(grid, reachOf(settings_.filter))) {
+        // It says where.
+        const std::vector<float> density = grid.density->readFloats();
+        bricks_.set({grid.cells, grid.spacingMetres, grid.originMetres, density, {}}, 0);
+    }
+    place_ = {
+        {grid.cells, grid.spacingMetres, grid.originMetres, {}, {}}, bricksOnGpu_->minimum(), bricksOnGpu_->maximum()};
+    if (bricksOnGpu_->empty()) return;
+    if (settings_.shadowCells > 0) {
+        if (!lightOnGpu_) lightOnGpu_.emplace(device_, settings_, toSun_);
+        lightOnGpu_->set(grid);
+    }
+    renderer_->take(grid, *bricksOnGpu_, lightOnGpu_ ? &*lightOnGpu_ : nullptr);
+    drawable_ = true;
+}
+
+void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer) {
+    primitives_ = drawable_ ? renderer_->draw(place_, view, layer) : 0;
+}
+
+std::size_t GridRaycast::gpuBytes() const {
+    const auto bytesOf = [](const auto& part) { return part ? part->gpuBytes() : std::size_t{0}; };
+    return renderer_->gpuBytes() + bytesOf(bricksOnGpu_) + bytesOf(lightOnGpu_);
+}
+
+}  // namespace dustbench::raycast

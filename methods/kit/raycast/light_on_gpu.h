@@ -1,0 +1,38 @@
+// How much of the sun's light comes through to where in a grid that lies on the GPU: what LightVolume knows, found
+// there.
+//
+// Units: cells of the shown grid. Owns: its textures. Threads: the OpenGL thread's.
+// Source: Fedkiw2001, to whom Senger2009 leaves light and shadow.
+#pragma once
+
+#include <optional>
+
+#include "methods/kit/gpu/program.h"
+#include "methods/kit/gpu/texture.h"
+#include "methods/kit/raycast/raycast_settings.h"
+#include "methods/kit/raycast/shown_grid.h"
+
+namespace dustbench::raycast {
+
+class LightOnGpu {
+ public:
+    /// `toSun`: in the world.
+    LightOnGpu(gpu::Device& device, const RaycastSettings& settings, const glm::vec3& toSun);
+
+    void set(const ShownTextures& grid);
+
+    [[nodiscard]] const gpu::Texture& texture() const { return light_; }
+    /// Cells that the light's texels reach over.
+    [[nodiscard]] const glm::ivec3& cells() const { return cells_; }
+    [[nodiscard]] std::size_t gpuBytes() const { return averages_.bytes() + light_.bytes() + fire_.bytes(); }
+
+ private:
+    gpu::Device& device_;
+    RaycastSettings settings_;
+    gpu::Program march_;
+    std::optional<gpu::Program> averageSmoke_, averageFire_;  ///< made when first wanted
+    gpu::Texture averages_, light_, fire_;
+    glm::ivec3 cells_{0};
+};
+
+}  // namespace dustbench::raycast

@@ -1,0 +1,98 @@
+#include "methods/kit/raycast/light_volume.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "methods/kit/parallel/for_each_block.h"
+#include "methods/kit/raycast/cell_window.h"
+
+namespace dustbench::raycast {
+namespace {
+
+constexpr float darkDepth = 8;  ///< no more than 0.03 % comes through
+
+}  // namespace
+
+LightVolume::LightVolume(const RaycastSettings& settings, const glm::vec3& toSun, MemoryLedger& ledger)
+    : texelCells_(settings.shadowCells),
+      extinctionPerMetre_(settings.extinctionPerMetre),
+      toSun_(glm::normalize(toSun)),
+      fire_(settings.fire.table()),
+      density_(ledger.account("ray cast light")),
+      values_(ledger.account("ray cast light")),
+      paddedDensity_(ledger.account("ray cast light")),
+      light_(ledger.account("ray cast light")) {}
+
+void LightVolume::set(const ShownGrid& grid) {
+    const glm::ivec3 texels = (grid.cells + texelCells_ - 1) / texelCells_;
+    const auto rows = static_cast<std::size_t>(texels.y * texels.z);
+    density_.resize(rows * static_cast<std::size_t>(texels.x));
+    values_.resize(density_.size());
+    average(grid, texels);
+    paddedDensity_.set(texels, density_);
+    parallel::forEachBlock(rows, 4, [&](std::size_t first, std::size_t count) {
+        for (std::size_t r = first; r < first + count; ++r)
+            marchRow(grid, static_cast<int>(r) % texels.y, static_cast<int>(r) / texels.y);
+    });
+    light_.set(texels, values_);
+}
+
+/// What each texel's cells extinguish in the mean, as the density of smoke that does the same.
+void LightVolume::average(const ShownGrid& grid, const glm::ivec3& texels) {
+    const auto lastTexel = static_cast<float>(fire_.size() - 1);
+    const auto effective = [&](std::size_t cell) {
+        if (grid.reaction.empty()) return grid.density[cell];
+        const float reaction = std::clamp(grid.reaction[cell], 0.0f, 1.0f);
+        return grid.density[cell] * fire_[static_cast<std::size_t>(std::lround(reaction * lastTexel))].a;
+    };
+    parallel::forEachBlock(density_.size(), 64, [&](std::size_t first, std::size_t count) {
+        for (std::size_t t = first; t < first + count; ++t) {
+            const int i = static_cast<int>(t);
+            const glm::ivec3 from =
+                texelCells_ * glm::ivec3(i % texels.x, i / texels.x % texels.y, i / texels.x / texels.y);
+            const glm::ivec3 to = glm::min(from + texelCells_, grid.cells);
+            float sum = 0;
+            for (int z = from.z; z < to.z; ++z)
+                for (int y = from.y; y < to.y; ++y)
+                    for (int x = from.x; x < to.x; ++x)
+                        sum += effective(static_cast<std::size_t>(x + grid.cells.x * (y + grid.cells.y * z)));
+            const glm::ivec3 size = to - from;
+            density_[t] = sum / static_cast<float>(size.x * size.y * size.z);
+        }
+    });
+}
+
+/// Sixteen texels at a time: steps of a texel's edge from each one's middle to where the way to the sun leaves the
+/// grid.
+void LightVolume::marchRow(const ShownGrid& grid, int y, int z) {
+    const glm::ivec3 texels = paddedDensity_.cells();
+    const float perTexel = 1.0f / static_cast<float>(texelCells_);
+    const glm::vec3 end = glm::vec3(grid.cells) * perTexel;
+    const float extinction =
+        static_cast<float>(extinctionPerMetre_ * grid.spacingMetres) * static_cast<float>(texelCells_);
+    for (int x = 0; x < texels.x; x += laneCount) {
+        Floats column;
+        for (int lane = 0; lane < laneCount; ++lane) column[lane] = static_cast<float>(x + lane);
+        // Middles of texels, those that the grid ends in moved to where it does.
+        const Floats from[3] = {atMost(column + 0.5f, all(end.x)), all(std::min(static_cast<float>(y) + 0.5f, end.y)),
+                                all(std::min(static_cast<float>(z) + 0.5f, end.z))};
+        Floats length = all(1e9f);
+        for (int axis = 0; axis < 3; ++axis)
+            if (toSun_[axis] != 0)
+                length = atMost(length, ((toSun_[axis] > 0 ? end[axis] : 0.0f) - from[axis]) / toSun_[axis]);
+        Floats depth{};
+        const float longest = maximum(length);
+        for (float begin = 0; begin < longest && minimum(depth) < darkDepth; begin += 1) {
+            const Floats to = atMost(all(begin + 1), length), step = atLeast(to - begin, all(0));
+            const Floats middle = begin + 0.5f * step;
+            const Places at{from[0] + middle * toSun_.x - 0.5f, from[1] + middle * toSun_.y - 0.5f,
+                            from[2] + middle * toSun_.z - 0.5f};
+            depth += step * extinction * sampleAnywhere(paddedDensity_, at);
+        }
+        const Floats light = expMinus(depth);
+        float* const to = values_.data() + static_cast<std::size_t>(x + texels.x * (y + texels.y * z));
+        for (int lane = 0; lane < std::min(laneCount, texels.x - x); ++lane) to[lane] = light[lane];
+    }
+}
+
+}  // namespace dustbench::raycast

@@ -1,0 +1,50 @@
+// How much of the sun's light comes through to where, in a grid coarser than the one that is shown.
+//
+// Each texel's value is e^(−D) at its middle, D being the optical depth from there towards the sun.
+// Units: cells of the shown grid. Owns its memory, booked on a ledger. Threads: set() spreads over them.
+// Source: Fedkiw2001, to whom Senger2009 leaves light and shadow.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "methods/kit/memory/memory_ledger.h"
+#include "methods/kit/raycast/padded_cells.h"
+#include "methods/kit/raycast/raycast_settings.h"
+#include "methods/kit/raycast/shown_grid.h"
+
+namespace dustbench::raycast {
+
+/// What a thick cloud reflects, in linear RGB: the sky's light and the sun's.
+struct Reflected {
+    glm::vec3 ambient{0}, sun{0};
+    [[nodiscard]] glm::vec3 all() const { return ambient + sun; }
+};
+
+class LightVolume {
+ public:
+    /// `toSun`: unit vector in the world.
+    LightVolume(const RaycastSettings& settings, const glm::vec3& toSun, MemoryLedger& ledger);
+
+    void set(const ShownGrid& grid);
+
+    /// Cells along a texel's edge.
+    [[nodiscard]] int texelCells() const { return texelCells_; }
+    [[nodiscard]] const glm::ivec3& texels() const { return light_.cells(); }
+    /// x fastest.
+    [[nodiscard]] std::span<const float> values() const { return values_; }
+    [[nodiscard]] const PaddedCells& padded() const { return light_; }
+
+ private:
+    void average(const ShownGrid& grid, const glm::ivec3& texels);
+    void marchRow(const ShownGrid& grid, int y, int z);
+
+    int texelCells_;
+    double extinctionPerMetre_;
+    glm::vec3 toSun_;
+    std::vector<glm::vec4> fire_;
+    LedgerVector<float> density_, values_;
+    PaddedCells paddedDensity_, light_;
+};
+
+}  // namespace dustbench::raycast

@@ -1,0 +1,35 @@
+// Puts a picture that the CPU has marched over a layer.
+//
+// Owns: the picture's memory on the GPU, which the CPU writes into. Threads: the OpenGL thread's.
+#pragma once
+
+#include <optional>
+
+#include "methods/kit/gpu/buffer.h"
+#include "methods/kit/gpu/layer.h"
+#include "methods/kit/gpu/program.h"
+#include "methods/kit/gpu/vertex_array.h"
+#include "methods/kit/raycast/cpu_march.h"
+
+namespace dustbench::raycast {
+
+class PacketComposite {
+ public:
+    explicit PacketComposite(gpu::Device& device) : device_(device), vertices_(device) {}
+
+    /// A picture to be filled; its values are write-only and valid until it is drawn.
+    [[nodiscard]] PacketPicture map(const PixelRectangle& rectangle, int channels);
+    /// Draws what was mapped last. `reflected` is the colour of a picture that has only alpha.
+    void draw(const glm::vec3& reflected, const gpu::Layer& layer);
+
+    [[nodiscard]] std::size_t gpuBytes() const { return values_.bytes(); }
+
+ private:
+    gpu::Device& device_;
+    gpu::Buffer values_;
+    gpu::VertexArray vertices_;
+    std::optional<gpu::Program> alphaAlone_, withColour_;
+    PacketPicture picture_;
+};
+
+}  // namespace dustbench::raycast

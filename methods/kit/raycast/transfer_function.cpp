@@ -1,0 +1,91 @@
+#include "methods/kit/raycast/transfer_function.h"
+
+#include <algorithm>
+#include <string>
+
+#include "methods/contract/errors.h"
+#include "methods/kit/files/toml_reader.h"
+
+namespace dustbench::raycast {
+namespace {
+
+constexpr double maximumEmission = 1000, maximumExtinction = 1000;
+
+std::string place(const std::string& where, std::size_t row) {
+    return where + "row " + std::to_string(row + 1) + ": ";
+}
+
+/// Throws where the row is out of range or not after the one before it.
+void checkRow(const std::vector<TransferFunction::Row>& rows, std::size_t i, const std::string& where) {
+    const TransferFunction::Row& row = rows[i];
+    if (!(row.reaction >= 0 && row.reaction <= 1))
+        throw InputError(place(where, i) + "got a reaction of " + std::to_string(row.reaction) + ", allowed: 0..1");
+    if (i > 0 && !(row.reaction > rows[i - 1].reaction))
+        throw InputError(place(where, i) + "got a reaction of " + std::to_string(row.reaction) +
+                         ", allowed: more than the row before it (" + std::to_string(rows[i - 1].reaction) + ")");
+    for (int channel = 0; channel < 3; ++channel)
+        if (!(row.emission[channel] >= 0 && static_cast<double>(row.emission[channel]) <= maximumEmission))
+            throw InputError(place(where, i) + "got an emission of " + std::to_string(row.emission[channel]) +
+                             ", allowed: 0..1000");
+    if (!(row.extinctionFactor >= 0 && static_cast<double>(row.extinctionFactor) <= maximumExtinction))
+        throw InputError(place(where, i) + "got an extinction of " + std::to_string(row.extinctionFactor) +
+                         ", allowed: 0..1000");
+}
+
+void checkCount(std::size_t rows, const std::string& where) {
+    if (rows < 2)
+        throw InputError(where + "got " + std::to_string(rows) + (rows == 1 ? " row" : " rows") +
+                         ", allowed: 2 or more");
+}
+
+}  // namespace
+
+TransferFunction::TransferFunction()
+    : TransferFunction({{0.00, {0.00f, 0.00f, 0.00f}, 1.0f},
+                        {0.15, {0.12f, 0.01f, 0.00f}, 1.0f},
+                        {0.35, {1.30f, 0.22f, 0.02f}, 0.9f},
+                        {0.60, {2.80f, 1.00f, 0.12f}, 0.7f},
+                        {0.85, {3.60f, 2.20f, 0.60f}, 0.5f},
+                        {1.00, {3.00f, 2.40f, 1.20f}, 0.4f}}) {}
+
+TransferFunction::TransferFunction(std::vector<Row> rows) : rows_(std::move(rows)) {
+    const std::string where = "transfer function: ";
+    checkCount(rows_.size(), where);
+    for (std::size_t i = 0; i < rows_.size(); ++i) checkRow(rows_, i, where);
+}
+
+glm::vec4 TransferFunction::at(double reaction) const {
+    const auto value = [](const Row& row) { return glm::vec4(row.emission, row.extinctionFactor); };
+    const auto above = std::ranges::find_if(rows_, [reaction](const Row& row) { return row.reaction >= reaction; });
+    if (above == rows_.begin()) return value(rows_.front());
+    if (above == rows_.end()) return value(rows_.back());
+    const Row& below = *std::prev(above);
+    const double share = (reaction - below.reaction) / (above->reaction - below.reaction);
+    return glm::mix(value(below), value(*above), static_cast<float>(share));
+}
+
+std::vector<glm::vec4> TransferFunction::table() const {
+    std::vector<glm::vec4> values;
+    values.reserve(texels);
+    for (int i = 0; i < texels; ++i) values.push_back(at(static_cast<double>(i) / (texels - 1)));
+    return values;
+}
+
+TransferFunction loadTransferFunction(const std::filesystem::path& file) {
+    files::TomlReader reader = files::TomlReader::parseFile(file);
+    std::vector<files::TomlReader> tables = reader.tables("row");
+    reader.finish();
+    checkCount(tables.size(), reader.where());
+    std::vector<TransferFunction::Row> rows;
+    for (files::TomlReader& table : tables) {
+        const double reaction = table.number("reaction", 0, 1);
+        const glm::dvec3 emission = table.vector3("emission");
+        const double extinction = table.number("extinction", 0, maximumExtinction, 1);
+        table.finish();
+        rows.push_back({reaction, glm::vec3(emission), static_cast<float>(extinction)});
+        checkRow(rows, rows.size() - 1, table.where());
+    }
+    return TransferFunction(std::move(rows));
+}
+
+}  // namespace dustbench::raycast

@@ -1,0 +1,19 @@
+// The experiment of births in worlds as the harness lends them.
+#include <gtest/gtest.h>
+
+#include "bench/claims/lent_context.h"
+#include "methods/voxel_shape/births_experiment.h"
+
+namespace dustbench::voxel_shape::births {
+namespace {
+
+TEST(BirthExperiment, FindsNoneInSolidsThatTheMethodKnowsAndManyInThoseItDoesNot) {
+    bench::LentContext context(1);
+    const BirthReport told = driveThroughWalls(context, true, 1.4), untold = driveThroughWalls(context, false, 1.4);
+    EXPECT_EQ(told.inSolids, 0);
+    EXPECT_GT(told.births, 100'000);
+    EXPECT_GT(untold.inSolids, 500);
+}
+
+}  // namespace
+}  // namespace dustbench::voxel_shape::births

@@ -1,0 +1,255 @@
+#include "tests/shaders/captured_programs.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "bench/scene/world.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
+#include "methods/kit/draw/composite.h"
+#include "methods/kit/draw/opaque_scene.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/layer.h"
+#include "methods/kit/gpu/program.h"
+#include "methods/kit/gpu/timer_query.h"
+#include "methods/kit/particles/particle_store.h"
+#include "methods/kit/raycast/grid_raycast.h"
+
+namespace dustbench::shaders {
+namespace {
+
+using Values = std::map<std::string, std::string>;
+
+constexpr int width = 32, height = 24;
+constexpr int frames = 2;
+
+/// Numbers that decide about shaders. A choice or a switch is gone through by itself.
+const std::map<std::string, std::vector<std::string>> decidingNumbers{{"shadow_cells", {"0", "2"}},
+                                                                      {"vorticity", {"0", "2"}}};
+
+/// So small that a combination takes milliseconds; for the methods that have such a parameter.
+const Values small{{"grid", "16x16x16"}, {"shape_particles", "300"}, {"depth", "5"}};
+
+/// Parameters that decide about the same shaders: all of their combinations are gone through, with others held fixed.
+struct Product {
+    std::string method;
+    Values fixed;
+    std::vector<std::string> parameters;
+    bool showsDust = false;  ///< then the dust's colours decide as well
+};
+const std::vector<Product> products{
+    {"billboard", {}, {"puff", "soft", "facing"}, true},
+    {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"advection", "limit"}},
+    {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"pressure", "vorticity"}},
+    {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"fluid", "shadow_cells"}},
+    {"grid_fluid", {{"backend", "cpu"}}, {"fluid"}},
+    {"octree_recursive", {}, {"render", "crossfade"}, true},
+    {"octree_search", {}, {"render", "crossfade"}, true},
+    {"voxel_shape", {}, {"render", "blend"}},
+};
+
+std::vector<std::string> valuesOf(const Parameter& parameter) {
+    if (const auto found = decidingNumbers.find(parameter.name); found != decidingNumbers.end()) return found->second;
+    if (parameter.type == ParameterType::choice) return parameter.choices;
+    if (parameter.type == ParameterType::boolean) return {"off", "on"};
+    return {};
+}
+
+/// Everything that a method is shown, at one moment.
+class Stage {
+ public:
+    Stage(gpu::Device& device, const std::string& scene)
+        : device_(device),
+          world_(scene, "", ParameterValues(bench::worldParameters()), 1),
+          opaque_(world_.scene(), device, width, height) {
+        world_.step();
+        opaque_.draw(world_.state(), world_.view(width, height));
+        for (const bool vehicle : {false, true})
+            for (const bool solids : {false, true}) drawBare(vehicle, solids);
+    }
+
+    void show(const MethodInfo& info, const Values& values, const particles::ParticleStore& dust) {
+        if (info.cannotTake && !info.cannotTake(world_.scene()).empty())
+            throw InputError(info.id + " cannot take the scene");
+        ParameterValues given(info.parameters);
+        for (const auto& [name, value] : small)
+            if (info.parameters.find(name)) given.set(name, value);
+        for (const auto& [name, value] : values) given.set(name, value);
+        const auto method = info.create(given);
+        method->prepare(world_.scene(), {}, device_);
+        gpu::Layer layer(device_, opaque_.depth());
+        const scene::View view = world_.view(width, height);
+        const StageClock untimed;
+        for (int frame = 0; frame < frames; ++frame) {
+            const Frame now{frame, bench::stepSeconds, world_.state(), dust, view, untimed};
+            method->update(now);
+            layer.clear();
+            method->draw(now, layer);
+        }
+        draw::Composite(device_, width, height).draw(opaque_.colour(), layer.colour());
+    }
+
+    /// Before the camera, with a colour for each or one for all.
+    void fill(particles::ParticleStore& dust, bool oneColour) const {
+        const glm::dvec3 eye = world_.view(width, height).camera.eye, target = world_.view(width, height).camera.target;
+        dust.resize(20);
+        for (std::size_t i = 0; i < dust.size(); ++i) {
+            const glm::vec3 at = glm::mix(eye, target, 0.5 + 0.05 * static_cast<double>(i));
+            dust.serial[i] = i;
+            dust.x[i] = at.x, dust.y[i] = at.y, dust.z[i] = at.z;
+            dust.age[i] = 1, dust.lifetime[i] = 3;
+            dust.radius[i] = 0.5f;
+            dust.opacity[i] = 0.5f;
+        }
+        dust.keepOneColour(oneColour);
+    }
+
+ private:
+    /// The scene without its vehicle or its solids, which no file of ours leaves out.
+    void drawBare(bool vehicle, bool solids) {
+        scene::Scene bare = world_.scene();
+        if (!vehicle) bare.vehicle.reset();
+        if (!solids) bare.solids.clear(), bare.solidPoses.clear();
+        draw::OpaqueScene(bare, device_, width, height).draw(world_.state(), world_.view(width, height));
+    }
+
+    gpu::Device& device_;
+    bench::World world_;
+    draw::OpaqueScene opaque_;
+};
+
+/// All scenes; what does not fit the first is shown in the next: a fluid may need a solid that only one has.
+class Stages {
+ public:
+    explicit Stages(gpu::Device& device) {
+        for (const std::string& scene : files::listData("scenes", ".toml"))
+            stages_.insert(scene == "plain" ? stages_.begin() : stages_.end(), std::make_unique<Stage>(device, scene));
+        stages_.front()->fill(plain_, true);
+        stages_.front()->fill(coloured_, false);
+    }
+
+    void show(const MethodInfo& info, const Values& values) { show(info, values, plain_); }
+    /// The dust's particles have a colour each.
+    void showColours(const MethodInfo& info, const Values& values) { show(info, values, coloured_); }
+
+ private:
+    void show(const MethodInfo& info, const Values& values, const particles::ParticleStore& dust) {
+        std::string reasons;
+        for (const std::unique_ptr<Stage>& stage : stages_) try {
+                return stage->show(info, values, dust);
+            } catch (const InputError& error) {
+                reasons += std::string(error.what()) + "\n";
+            }
+        throw std::runtime_error(info.id + " is drawn in no scene:\n" + reasons);
+    }
+
+    std::vector<std::unique_ptr<Stage>> stages_;
+    MemoryLedger ledger_;
+    particles::ParticleStore plain_{ledger_}, coloured_{ledger_};
+};
+
+void forEachCombination(const MethodInfo& info, const Values& fixed, std::span<const std::string> parameters,
+                        const std::function<void(const Values&)>& use) {
+    if (parameters.empty()) return use(fixed);
+    for (const std::string& value : valuesOf(*info.parameters.find(parameters.front()))) {
+        Values values = fixed;
+        values[parameters.front()] = value;
+        forEachCombination(info, values, parameters.subspan(1), use);
+    }
+}
+
+/// What a method shows of its grid depends on its flow; a grid filled by hand is drawn whatever the settings.
+void drawGrids(gpu::Device& device) {
+    using namespace raycast;
+    scene::View view;
+    view.width = width;
+    view.height = height;
+    view.camera.eye = {0, 0, 9};
+    view.camera.target = {0, 0, 0};
+    gpu::Texture depth = gpu::Texture::make2D(device, "depth", gpu::Format::depth32F, width, height);
+    depth.write(std::span<const float>(std::vector<float>(width * height, 0.0f)));
+    gpu::Layer layer(device, depth);
+    const std::vector<float> filled(8 * 8 * 8, 1.0f);
+    const auto draw = [&](const RaycastSettings& settings, bool burning) {
+        MemoryLedger ledger;
+        GridRaycast grid(device, settings, scene::Lights(), ledger);
+        grid.upload({{8, 8, 8},
+                     0.5,
+                     {-2, -2, -2},
+                     filled,
+                     burning ? std::span<const float>(filled) : std::span<const float>()});
+        layer.clear();
+        grid.draw(view, layer);
+    };
+    for (const bool burning : {false, true})
+        for (const int shadowCells : {0, 2})
+            for (const Filter filter : {Filter::linear, Filter::cubic}) {
+                RaycastSettings settings;
+                settings.shadowCells = shadowCells;
+                settings.filter = filter;
+                settings.backend = Backend::cpu;
+                draw(settings, burning);
+                settings.backend = Backend::gl;
+                for (const Renderer renderer : {Renderer::slices, Renderer::splat, Renderer::isosurface}) {
+                    settings.renderer = renderer;
+                    draw(settings, burning);
+                }
+                settings.renderer = Renderer::raycast;
+                for (const bool jitter : {false, true})
+                    for (const bool skipEmpty : {false, true}) {
+                        settings.jitter = jitter;
+                        settings.skipEmpty = skipEmpty;
+                        draw(settings, burning);
+                    }
+            }
+}
+
+void drawEverything(gpu::Device& device) {
+    (void)gpu::timerQueriesAreTrue(device);
+    drawGrids(device);
+    Stages stages(device);
+    for (const MethodInfo& info : methods()) {
+        stages.show(info, {});
+        stages.showColours(info, {});
+        for (const Parameter& parameter : info.parameters.all())
+            for (const std::string& value : valuesOf(parameter)) stages.show(info, {{parameter.name, value}});
+    }
+    for (const Product& product : products) {
+        const auto info = std::ranges::find(methods(), product.method, &MethodInfo::id);
+        if (info == methods().end()) continue;
+        forEachCombination(*info, product.fixed, product.parameters, [&](const Values& values) {
+            stages.show(*info, values);
+            if (product.showsDust) stages.showColours(*info, values);
+        });
+    }
+}
+
+}  // namespace
+
+const std::set<CapturedProgram>& capturedPrograms() {
+    static const std::set<CapturedProgram> all = [] {
+        std::set<CapturedProgram> programs;
+        gpu::listenToPrograms([&programs](std::string_view, std::span<const gpu::CompiledShader> shaders) {
+            CapturedProgram program;
+            for (const gpu::CompiledShader& shader : shaders)
+                program.push_back({std::string(shader.file.name), shader.source});
+            programs.insert(std::move(program));
+        });
+        gpu::Device device;
+        drawEverything(device);
+        gpu::listenToPrograms({});
+        return programs;
+    }();
+    return all;
+}
+
+}  // namespace dustbench::shaders
