@@ -82,13 +82,6 @@ double Drive::at(const std::vector<double>& values, double timeSeconds) const {
     return values[i - 1] + share * (values[i] - values[i - 1]);
 }
 
-double Drive::targetDistance() const {
-    double distance = 0;
-    for (std::size_t i = 1; i < speeds_.size(); ++i)
-        distance += (speeds_[i - 1] + speeds_[i]) / 2 * (times_[i] - times_[i - 1]);
-    return distance;
-}
-
 void Drive::replaceSpeeds(double speed) {
     for (double& target : speeds_)
         if (target > 0) target = speed;

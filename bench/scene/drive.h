@@ -28,8 +28,6 @@ class Drive {
     [[nodiscard]] double targetSpeedAt(double timeSeconds) const { return at(speeds_, timeSeconds); }
     [[nodiscard]] double throttleAt(double timeSeconds) const { return at(throttles_, timeSeconds); }
     [[nodiscard]] double brakeAt(double timeSeconds) const { return at(brakes_, timeSeconds); }
-    /// ∫ of the target speed over the whole drive, metres.
-    [[nodiscard]] double targetDistance() const;
 
     /// Every target speed above 0 becomes `speed`.
     void replaceSpeeds(double speed);

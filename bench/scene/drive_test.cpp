@@ -21,6 +21,15 @@ Drive builtIn(const std::string& id) {
     return Drive::parseFile(files::findData("drive", "drives", id, ".csv"));
 }
 
+/// ∫ of the target speed over the whole drive, metres: exact where rows lie at multiples of half a second.
+double targetDistance(const Drive& drive) {
+    constexpr double step = 0.5;
+    double distance = 0;
+    for (double t = 0; t < drive.seconds(); t += step)
+        distance += (drive.targetSpeedAt(t) + drive.targetSpeedAt(t + step)) / 2 * step;
+    return distance;
+}
+
 /// Drives the default vehicle on level ground; `each` sees every state.
 template <typename Each>
 void driveIt(const Drive& drive, const Each& each) {
@@ -99,16 +108,16 @@ TEST(BuiltInDrives, Ece15IsThePublishedUrbanCycle) {
     for (double t = 0; t <= 195; t += 0.5) fastest = std::max(fastest, drive.targetSpeedAt(t));
     EXPECT_NEAR(fastest, 50 / 3.6, 1e-5);
     // The operations joined by straight lines: 3652.5 km/h·s. Published: 1013 m (theoretical), mean 18.7 km/h.
-    EXPECT_NEAR(drive.targetDistance(), 3652.5 / 3.6, 0.01);
-    EXPECT_NEAR(drive.targetDistance(), 1013, 0.002 * 1013);
-    EXPECT_NEAR(drive.targetDistance() / 195 * 3.6, 18.7, 0.05);
+    EXPECT_NEAR(targetDistance(drive), 3652.5 / 3.6, 0.01);
+    EXPECT_NEAR(targetDistance(drive), 1013, 0.002 * 1013);
+    EXPECT_NEAR(targetDistance(drive) / 195 * 3.6, 18.7, 0.05);
 }
 
 TEST(BuiltInDrives, EudcIsThePublishedExtraUrbanCycle) {
     const Drive drive = builtIn("eudc");
     EXPECT_EQ(drive.seconds(), 400);
     EXPECT_NEAR(drive.targetSpeedAt(340), 120 / 3.6, 1e-5);
-    EXPECT_NEAR(drive.targetDistance(), 6955, 1);
+    EXPECT_NEAR(targetDistance(drive), 6955, 1);
 }
 
 TEST(BuiltInDrives, TheVehicleFollowsTheRealCycles) {
@@ -119,7 +128,7 @@ TEST(BuiltInDrives, TheVehicleFollowsTheRealCycles) {
             ASSERT_NEAR(state.speed, drive.targetSpeedAt(time), 0.3) << id << " at " << time;
             travelled = state.position.x;
         });
-        EXPECT_NEAR(travelled, drive.targetDistance(), 0.002 * drive.targetDistance()) << id;
+        EXPECT_NEAR(travelled, targetDistance(drive), 0.002 * targetDistance(drive)) << id;
     }
 }
 

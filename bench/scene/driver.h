@@ -14,11 +14,8 @@ class Driver {
     [[nodiscard]] Controls decide(const scene::VehicleParameters& parameters, const scene::VehicleState& state,
                                   double targetNow, double targetNext, double steer, double dt);
 
-    /// m/s², what the integral adds to the wanted acceleration.
-    [[nodiscard]] double integral() const { return integral_; }
-
  private:
-    double integral_ = 0;
+    double integral_ = 0;  ///< m/s², added to the wanted acceleration
 };
 
 }  // namespace dustbench::bench

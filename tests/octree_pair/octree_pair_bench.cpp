@@ -16,6 +16,7 @@
 #include "methods/octree_recursive/sorting_reducer.h"
 #include "methods/octree_search/grid_reducer.h"
 #include "methods/octree_search/insertion_builder.h"
+#include "tests/octree_pair/node_walk.h"
 
 namespace dustbench::octree_pair {
 namespace {
@@ -69,7 +70,7 @@ void build(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(particleCount));
     const auto voxels = static_cast<double>(tree.voxels().size());
     state.counters["voxels"] = voxels;
-    state.counters["B/node"] = static_cast<double>(tree.blocks().size_bytes()) / static_cast<double>(tree.countNodes());
+    state.counters["B/node"] = static_cast<double>(tree.blocks().size_bytes()) / static_cast<double>(countNodes(tree));
     state.counters["B/voxel"] = static_cast<double>(tree.blocks().size_bytes() + tree.voxels().size_bytes()) / voxels;
     state.counters["B/particle"] = static_cast<double>(ledger.totalBytes()) / static_cast<double>(particleCount);
 }

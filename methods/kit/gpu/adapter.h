@@ -26,8 +26,8 @@ struct Adapter {
     std::string problem{};  ///< why it gives no OpenGL 4.5; empty: it does, or was not tried
 };
 
-[[nodiscard]] std::string_view kindName(Adapter::Kind kind);
-[[nodiscard]] std::string_view platformName(Adapter::Platform platform);
+[[nodiscard]] DUSTBENCH_API std::string_view kindName(Adapter::Kind kind);
+[[nodiscard]] DUSTBENCH_API std::string_view platformName(Adapter::Platform platform);
 
 /// True for the renderers that draw on the CPU.
 [[nodiscard]] bool isSoftwareRenderer(std::string_view renderer);
@@ -48,7 +48,7 @@ struct Adapter {
 /// The one with this index or name, else the only one whose name contains this text; case does not matter. A number is
 /// an index.
 /// Throws InputError with the list where none or several do.
-[[nodiscard]] std::size_t findAdapter(std::span<const Adapter> adapters, std::string_view asked);
+[[nodiscard]] DUSTBENCH_API std::size_t findAdapter(std::span<const Adapter> adapters, std::string_view asked);
 
 /// `0 surfaceless: no display; 1 …`: those with a problem, each with it.
 [[nodiscard]] std::string problemsOf(std::span<const Adapter> adapters);

@@ -32,6 +32,6 @@ class EglContext {
 /// offers nothing of the sort.
 [[nodiscard]] std::vector<Adapter> offeredAdapters();
 /// The same, each tried with a context that is gone again; what was current stays current. Throws InputError.
-[[nodiscard]] std::vector<Adapter> listAdapters();
+[[nodiscard]] DUSTBENCH_API std::vector<Adapter> listAdapters();
 
 }  // namespace dustbench::gpu

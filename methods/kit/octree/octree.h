@@ -55,11 +55,6 @@ class Octree {
     };
 
     [[nodiscard]] Cursor root() const { return {*this, NodeSlot{}, 0, 0}; }
-    /// Calls `visit(cursor)` for every node below the root in pre-order: a node before its children, these by octant.
-    template <typename Visit>
-    void visitNodes(const Visit& visit) const {
-        visitBelow(root(), visit);
-    }
 
     /// In pre-order. Each names the particle that it stands for.
     [[nodiscard]] std::span<const CellEntry> voxels() const { return {voxels_.data(), voxelCount_}; }
@@ -68,14 +63,6 @@ class Octree {
     /// Block 0 holds the root's children.
     [[nodiscard]] std::span<const NodeBlock> blocks() const { return {blocks_.data(), blockCount_}; }
     [[nodiscard]] int depth() const { return depth_; }
-    /// Nodes that exist, the root not counted; walks the whole tree.
-    [[nodiscard]] std::size_t countNodes() const {
-        std::size_t nodes = 0;
-        for (const NodeBlock& block : blocks())
-            for (const NodeSlot& slot : block.slots)
-                nodes += (slot.exists() ? 1 : 0) + (slot.hasFamily() ? slot.familySize() : 0);
-        return nodes;
-    }
 
     // For builders.
 
@@ -124,16 +111,6 @@ class Octree {
     [[nodiscard]] double* mutableMasses() { return masses_.data(); }
 
  private:
-    template <typename Visit>
-    static void visitBelow(const Cursor& node, const Visit& visit) {
-        for (unsigned octant = 0; octant < 8; ++octant) {
-            if (!node.hasChild(octant)) continue;
-            const Cursor child = node.child(octant);
-            visit(child);
-            if (child.hasChildren()) visitBelow(child, visit);
-        }
-    }
-
     ReusedArray<NodeBlock> blocks_;
     ReusedArray<CellEntry> voxels_;
     ReusedArray<double> masses_;

@@ -22,8 +22,8 @@ namespace dustbench::particles {
 [[nodiscard]] std::string partsToToml(const PartList& parts);
 
 /// A part's parameters as the keys of its table: the components of a vector are one, whose default is a list.
-[[nodiscard]] std::vector<Parameter> tableKeys(const ParameterSet& declared);
+[[nodiscard]] DUSTBENCH_API std::vector<Parameter> tableKeys(const ParameterSet& declared);
 /// A value as a file says it: `"fixed"`, `true`, `0.5`.
-[[nodiscard]] std::string valueToToml(const Parameter& parameter, const std::string& canonical);
+[[nodiscard]] DUSTBENCH_API std::string valueToToml(const Parameter& parameter, const std::string& canonical);
 
 }  // namespace dustbench::particles
