@@ -146,6 +146,7 @@ std::string listed(const std::vector<std::string>& cells, const std::vector<std:
     constexpr std::size_t maximumListed = 3;
     if (cells.size() > maximumListed) return "";
     std::vector<std::string> texts;
+    texts.reserve(cells.size());
     for (const std::string& cell : cells) texts.push_back(rows.cellText(cell, keys));
     return fmt::format(": {} {}", intro, fmt::join(texts, "; "));
 }

@@ -31,7 +31,8 @@ std::optional<double> sumOf(const ResultRows& rows, std::size_t row, const std::
 TextRows tabulatePrinted(const files::CsvTable& published, const files::CsvTable& summary) {
     TextRows table{{"what", "paper", "formula", "measured", "measured/formula"}, {}};
     for (std::size_t line = 0; line < published.rows(); ++line) {
-        const std::string where = published.where(line), columns = published.cell(line, "columns");
+        const std::string where = published.where(line);
+        const std::string& columns = published.cell(line, "columns");
         const Selection of = parseSelection(published.cell(line, "of"), where + "of");
         std::istringstream names(columns);
         for (std::string name; names >> name;) requireColumn(where, name);
