@@ -37,6 +37,7 @@ void sayWhereMachinesDiffer(const bench::StoredRuns& runs) {
 
 int mergeFolders(const MergeOptions& options) {
     std::vector<bench::MergeSource> sources;
+    sources.reserve(options.sources.size());
     for (const std::string& folder : options.sources) sources.emplace_back(folder, bench::readStoredRuns(folder));
     bench::ResultsFolder results(options.out);
     const bench::MergePlan plan = bench::planMerge(sources, results);

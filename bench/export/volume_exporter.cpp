@@ -154,6 +154,7 @@ void VolumeExporter::write(const ExportedMoment& moment) {
 
 std::vector<fs::path> VolumeExporter::seriesFiles() const {
     std::vector<fs::path> files;
+    files.reserve(series_.size());
     for (const Series& series : series_) files.push_back(series.file());
     return files;
 }

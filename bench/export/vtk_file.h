@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-class vtkDataObject;
-class vtkXMLWriter;
+class vtkDataObject;  // NOLINT(cppcoreguidelines-virtual-class-destructor): VTK's
+class vtkXMLWriter;   // NOLINT(cppcoreguidelines-virtual-class-destructor): VTK's
 
 namespace dustbench::bench {
 

@@ -289,6 +289,7 @@ TEST(SceneFile, BlocksStandWhereTheSceneHasThem) {
         surfaces[blocks->GetMetaData(i)->Get(vtkCompositeDataSet::NAME())] =
             vtkPolyData::SafeDownCast(blocks->GetBlock(i));
     std::vector<std::string> names;
+    names.reserve(surfaces.size());
     for (const auto& [name, surface] : surfaces) names.push_back(name);
     EXPECT_THAT(names, testing::UnorderedElementsAre("terrain", "body", "wheel_front_left", "wheel_front_right",
                                                      "wheel_rear_left", "wheel_rear_right", "a post"));

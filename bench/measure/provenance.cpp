@@ -33,7 +33,7 @@ std::string ownBuildId() {
                 const auto padded = [&](std::size_t size) { return (size + 3) / 4 * 4; };
                 const char* const content = name + padded(note.n_namesz);
                 if (note.n_type == NT_GNU_BUILD_ID &&
-                    std::string_view(name, note.n_namesz) == std::string_view("GNU", 4))
+                    std::string_view(name, note.n_namesz) == std::string_view("GNU\0", 4))
                     for (std::size_t byte = 0; byte < note.n_descsz; ++byte)
                         *static_cast<std::string*>(result) +=
                             fmt::format("{:02x}", static_cast<unsigned char>(content[byte]));

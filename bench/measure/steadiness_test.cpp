@@ -36,8 +36,8 @@ TEST(Steadiness, AnEvenSpreadIsNoDriftAndNotTwoSpeeds) {
     std::uniform_real_distribution<double> uniform(10, 14);
     int warned = 0;
     for (int round = 0; round < 300; ++round) {
-        std::vector<double> times;
-        for (int i = 0; i < 200; ++i) times.push_back(uniform(random));
+        std::vector<double> times(200);
+        for (double& time : times) time = uniform(random);
         warned += steadinessWarnings(times).empty() ? 0 : 1;
     }
     EXPECT_LE(warned, 3);

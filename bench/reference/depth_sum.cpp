@@ -136,7 +136,7 @@ DepthSum sumDepths(const std::vector<Puff>& puffs, const CameraRays& rays, const
                 const double extent = sigmasAlongRay * puff.deviationMetres;
                 // From the group's middle to its rim, a ray turns by less than the difference in slope, and the foot
                 // moves by less than that times the centre's distance.
-                const double footRange = glm::length(puff.centre) * (group / 2) * (slopesX[1] - slopesX[0]);
+                const double footRange = glm::length(puff.centre) * (group / 2.0) * (slopesX[1] - slopesX[0]);
                 // exp(−b²/2s²) = 2^(−b²·log2(e)/2s²).
                 const double scale = std::numbers::log2e / (2 * puff.deviationMetres * puff.deviationMetres);
                 const double logDepth = std::log2(puff.opticalDepth);

@@ -41,6 +41,7 @@ json cellJson(const RunGroup& group, const ReportCell& cell, const RunIndex& ind
                              ? json(number(interval.median))
                              : json{number(interval.median), number(interval.low), number(interval.high)};
     std::vector<std::string> ids;
+    ids.reserve(cell.done.size());
     for (const StoredRun* run : cell.done) ids.push_back(run->runId);
     const double probability = cell.values.empty() ? 0 : cell.values.begin()->second.probability;
     return {{"method", cell.method},

@@ -41,6 +41,7 @@ class Merge : public testing::Test {
     }
     static std::vector<MergeSource> read(const std::vector<fs::path>& folders) {
         std::vector<MergeSource> sources;
+        sources.reserve(folders.size());
         for (const fs::path& folder : folders) sources.emplace_back(folder, readStoredRuns(folder));
         return sources;
     }

@@ -19,6 +19,7 @@ const std::vector<MethodFact>& methodFacts() {
                 fact.methods.push_back(method.id);
             }
         std::vector<MethodFact> list;
+        list.reserve(byName.size());
         for (auto& [name, fact] : byName) list.push_back(std::move(fact));
         return list;
     }();

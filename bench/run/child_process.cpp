@@ -130,6 +130,7 @@ std::string ChildOutcome::reason() const {
 
 ChildOutcome runChild(const ChildCommand& command) {
     std::vector<char*> argv;
+    argv.reserve(command.argv.size() + 1);
     for (const std::string& word : command.argv) argv.push_back(const_cast<char*>(word.c_str()));
     argv.push_back(nullptr);
 

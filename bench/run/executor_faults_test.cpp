@@ -216,6 +216,7 @@ TEST(RemainingTime, CountsARunAsLongAsTheOthersOfItsCell) {
         plan[i].spec.repetition = static_cast<int>(i / 3) + 1;
     }
     std::vector<const PlannedRun*> toDo;
+    toDo.reserve(plan.size());
     for (const PlannedRun& run : plan) toDo.push_back(&run);
     RemainingTime remaining(toDo);
     EXPECT_LT(remaining.seconds(), 0);

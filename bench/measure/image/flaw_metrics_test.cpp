@@ -143,7 +143,10 @@ TEST(Cutoff, OfAHardStepIsItsHeightOverTheRootOfTheRows) {
 /// Puffs with one texture, far from each other.
 std::vector<TestPuff> grid(double radius, int texture) {
     std::vector<TestPuff> puffs;
-    for (int i = 0; i < 12; ++i) puffs.push_back({40.0 + 70 * (i % 4), 40.3 + 70 * (i / 4), 0, radius, 1, texture});
+    puffs.reserve(12);
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+            puffs.push_back({40.0 + 70 * column, 40.3 + 70 * row, 0, radius, 1, texture});
     return puffs;
 }
 const TestView gridView{290, 220, {}};

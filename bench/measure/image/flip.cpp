@@ -114,6 +114,7 @@ std::vector<float> balanced(const std::vector<double>& samples) {
     double above = 0, below = 0;
     for (const double sample : samples) (sample > 0 ? above : below) += std::abs(sample);
     std::vector<float> kernel;
+    kernel.reserve(samples.size());
     for (const double sample : samples) kernel.push_back(static_cast<float>(sample / (sample > 0 ? above : below)));
     return kernel;
 }

@@ -92,6 +92,7 @@ std::vector<std::size_t> sampleOf(const Plane& detail, std::span<const ScreenPri
         lots.resize(maximumPrimitives);
     }
     std::vector<std::size_t> chosen;
+    chosen.reserve(lots.size());
     for (const auto& [lot, index] : lots) chosen.push_back(index);
     std::ranges::sort(chosen);
     return chosen;

@@ -60,6 +60,7 @@ std::vector<Number> gaussianKernel(double sigmaPixels, int radius) {
     for (int i = -radius; i <= radius; ++i) weights.push_back(std::exp(-0.5 * i * i / (sigmaPixels * sigmaPixels)));
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     std::vector<Number> kernel;
+    kernel.reserve(weights.size());
     for (const double weight : weights) kernel.push_back(static_cast<Number>(weight / sum));
     return kernel;
 }

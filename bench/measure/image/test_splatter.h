@@ -114,6 +114,7 @@ inline Picture testPicture(const Plane& alpha) {
 
 inline std::vector<ScreenPrimitive> testPrimitives(const std::vector<TestPuff>& puffs) {
     std::vector<ScreenPrimitive> primitives;
+    primitives.reserve(puffs.size());
     for (const TestPuff& puff : puffs) primitives.push_back({puff.x, puff.y, puff.radius});
     return primitives;
 }

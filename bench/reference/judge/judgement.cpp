@@ -81,6 +81,7 @@ std::vector<std::pair<std::string, double>> summaryOf(const Judgement& judgement
 std::span<const MetricInfo> metricInfos() {
     static const std::vector<MetricInfo> infos = [] {
         std::vector<MetricInfo> list;
+        list.reserve(means.size() + others.size());
         for (const MeanMetric& metric : means) list.push_back(metric.info);
         list.insert(list.end(), others.begin(), others.end());
         return list;

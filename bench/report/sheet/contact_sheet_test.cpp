@@ -27,6 +27,7 @@ bool overlap(const SheetBox& a, const SheetBox& b) {
 
 std::vector<SheetBox> boxesOf(const SheetLayout& layout) {
     std::vector<SheetBox> boxes;
+    boxes.reserve(layout.pictures.size() + layout.texts.size() + 1);
     for (const PlacedPicture& picture : layout.pictures) boxes.push_back(picture.box);
     for (const PlacedText& text : layout.texts) boxes.push_back(text.box);
     if (layout.bar) boxes.push_back(*layout.bar);
