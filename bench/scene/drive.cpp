@@ -34,7 +34,7 @@ Drive Drive::parseFile(const std::filesystem::path& file) {
     return fromTable(files::CsvTable::parseFile(file), file.string());
 }
 
-Drive Drive::parseText(std::string_view text, std::string name) {
+Drive Drive::parseText(std::string_view text, const std::string& name) {
     const files::CsvTable table = files::CsvTable::parseText(text, name);
     return fromTable(table, name);
 }

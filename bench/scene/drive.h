@@ -18,7 +18,7 @@ class Drive {
  public:
     /// Throws InputError with file, line and what was expected.
     static Drive parseFile(const std::filesystem::path& file);
-    static Drive parseText(std::string_view text, std::string name);
+    static Drive parseText(std::string_view text, const std::string& name);
 
     [[nodiscard]] bool followsSpeed() const { return !speeds_.empty(); }
     /// Time of the last row.

@@ -42,6 +42,7 @@ std::vector<int> shardOfCells(const Suite& suite, int count) {
         shardOfGroup[first] = shard;
     }
     std::vector<int> shards;
+    shards.reserve(groups.size());
     for (const std::size_t group : groups) shards.push_back(shardOfGroup.at(group));
     return shards;
 }

@@ -24,6 +24,7 @@ sort = ["none", "radix"]
 
 std::vector<std::string> idsOf(const std::vector<PlannedRun>& plan) {
     std::vector<std::string> ids;
+    ids.reserve(plan.size());
     for (const PlannedRun& run : plan) ids.push_back(runId(run.spec));
     return ids;
 }

@@ -55,6 +55,7 @@ Suite sideBySideSuite(const std::vector<std::string>& variants, const ParameterT
     if (variants.size() < 2)
         throw InputError(fmt::format("compare: got {} method, allowed: 2 or more", variants.size()));
     std::vector<Variant> parsed;
+    parsed.reserve(variants.size());
     for (const std::string& text : variants) parsed.push_back(parseVariant(text));
     requireKnown(given, parsed);
 

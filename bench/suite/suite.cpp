@@ -132,6 +132,7 @@ std::vector<std::vector<std::size_t>> listGroups(const Suite& suite) {
     const std::vector<std::size_t> groups = groupCells(suite);
     for (std::size_t i = 0; i < groups.size(); ++i) members[groups[i]].push_back(i);
     std::vector<std::vector<std::size_t>> list;
+    list.reserve(members.size());
     for (auto& [first, cells] : members) list.push_back(std::move(cells));
     return list;
 }

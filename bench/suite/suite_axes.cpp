@@ -69,6 +69,7 @@ std::string labelOf(const std::vector<Axis>& axes, const RunSpec& spec) {
 
 std::vector<const PlannedRun*> cellsOf(const Suite& suite) {
     std::vector<const PlannedRun*> cells;
+    cells.reserve(suite.cells.size());
     for (const PlannedRun& cell : suite.cells) cells.push_back(&cell);
     return cells;
 }

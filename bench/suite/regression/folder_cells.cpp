@@ -86,6 +86,7 @@ std::vector<FolderCell> cellsOf(const ResultsSide& a, const ResultsSide& b) {
             add(cell.*runs, run);
         }
     std::vector<FolderCell> list;
+    list.reserve(cells.size());
     for (auto& [identity, cell] : cells) list.push_back(std::move(cell));
     return list;
 }

@@ -22,6 +22,7 @@ std::string quantity(std::size_t count, std::string_view what) {
 /// The cell's done runs with the letter of their folder, A's first.
 std::vector<std::pair<const StoredRun*, char>> doneRuns(const FolderCell& cell) {
     std::vector<std::pair<const StoredRun*, char>> runs;
+    runs.reserve(cell.a.done.size() + cell.b.done.size());
     for (const StoredRun* run : cell.a.done) runs.emplace_back(run, 'A');
     for (const StoredRun* run : cell.b.done) runs.emplace_back(run, 'B');
     return runs;
@@ -46,6 +47,7 @@ std::map<std::string, std::size_t> differencesWithin(const std::vector<FolderCel
 
 std::vector<std::string> withCounts(const std::map<std::string, std::size_t>& cellCounts) {
     std::vector<std::string> sentences;
+    sentences.reserve(cellCounts.size());
     for (const auto& [sentence, count] : cellCounts)
         sentences.push_back(fmt::format("{} ({})", sentence, quantity(count, "cell")));
     return sentences;
