@@ -5,40 +5,51 @@
 #include <glm/gtc/quaternion.hpp>
 
 namespace dustbench::voxel_shape {
+namespace {
 
-TrackKey keyAt(const Track& track, double timeSeconds) {
+/// The turn from one orientation to another as a vector: axis times angle.
+glm::dvec3 turnBetween(const glm::dmat3& from, const glm::dmat3& to) {
+    glm::dquat turn = glm::quat_cast(to * glm::transpose(from));
+    if (turn.w < 0) turn = -turn;
+    const glm::dvec3 axis(turn.x, turn.y, turn.z);
+    const double sine = glm::length(axis);
+    return sine > 0 ? axis / sine * (2 * std::atan2(sine, turn.w)) : glm::dvec3(0);
+}
+
+}  // namespace
+
+TrackMoment momentAt(const Track& track, double timeSeconds) {
     const auto& keys = track.keys;
     const double length = keys.back().timeSeconds;
-    if (!(length > 0)) return keys.front();
+    if (!(length > 0)) return {keys.front(), {0, glm::dvec3(0), 0, 0}};
     const double time = timeSeconds - std::floor(timeSeconds / length) * length;
     std::size_t next = 1;
     while (next + 1 < keys.size() && keys[next].timeSeconds < time) ++next;
     const TrackKey &from = keys[next - 1], &to = keys[next];
-    const double share = (time - from.timeSeconds) / (to.timeSeconds - from.timeSeconds);
-    return {time, glm::mix(from.position, to.position, share), glm::mix(from.heading, to.heading, share),
-            glm::mix(from.scale, to.scale, share)};
+    const double seconds = to.timeSeconds - from.timeSeconds, share = (time - from.timeSeconds) / seconds;
+    return {{time, glm::mix(from.position, to.position, share), glm::mix(from.heading, to.heading, share),
+             glm::mix(from.scale, to.scale, share)},
+            {1, (to.position - from.position) / seconds, (to.heading - from.heading) / seconds,
+             (to.scale - from.scale) / seconds}};
 }
 
 Pose ShapeTrack::advance(const scene::SceneState& state, double stepSeconds) {
-    const TrackKey key = keyAt(track_, state.timeSeconds);
-    glm::dmat4 matrix = track_.followsVehicle ? state.vehicle.toWorld() : glm::dmat4(1);
-    matrix = glm::rotate(glm::translate(matrix, key.position), key.heading, {0, 1, 0});
+    // The frame that the track lies in: where it is, how it moves and turns.
+    const glm::dmat4 frame = track_.followsVehicle ? state.vehicle.toWorld() : glm::dmat4(1);
+    const glm::dmat3 turned(frame);
+    const glm::dvec3 velocity = track_.followsVehicle ? state.vehicle.speed * state.vehicle.forward() : glm::dvec3(0);
+    const glm::dvec3 spin = lastFrame_ ? turnBetween(*lastFrame_, turned) / stepSeconds : glm::dvec3(0);
+    lastFrame_ = turned;
+
+    const auto [key, rate] = momentAt(track_, state.timeSeconds);
+    const glm::dvec3 place = turned * key.position;
     Pose pose;
-    pose.rotation = glm::mat3(matrix);
-    pose.position = glm::vec3(matrix[3]);
+    pose.rotation = glm::mat3(turned * glm::dmat3(glm::rotate(glm::dmat4(1), key.heading, {0, 1, 0})));
+    pose.position = glm::vec3(glm::dvec3(frame[3]) + place);
     pose.scale = static_cast<float>(key.scale);
-    if (last_) {
-        const auto perSecond = static_cast<float>(1 / stepSeconds);
-        pose.velocity = (pose.position - last_->position) * perSecond;
-        // The turn from the last pose to this one, as a vector: axis times angle.
-        glm::quat turn = glm::quat_cast(pose.rotation * glm::transpose(last_->rotation));
-        if (turn.w < 0) turn = -turn;
-        const glm::vec3 axis(turn.x, turn.y, turn.z);
-        const float sine = glm::length(axis);
-        if (sine > 0) pose.angularVelocity = axis / sine * (2 * std::atan2(sine, turn.w) * perSecond);
-        pose.growth = std::log(pose.scale / last_->scale) * perSecond;
-    }
-    last_ = pose;
+    pose.velocity = glm::vec3(velocity + glm::cross(spin, place) + turned * rate.position);
+    pose.angularVelocity = glm::vec3(spin + turned * glm::dvec3(0, rate.heading, 0));
+    pose.growth = static_cast<float>(rate.scale / key.scale);
     return pose;
 }
 

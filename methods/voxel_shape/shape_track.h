@@ -1,5 +1,5 @@
-// A shape's pose from moment to moment: along its track, in the vehicle's frame or the world's, with the velocities
-// that the difference between two moments gives.
+// A shape's pose from moment to moment: along its track, in the vehicle's frame or the world's, with the velocities of
+// that very moment.
 //
 // Units: m, s, radians. Frame: world.
 #pragma once
@@ -13,18 +13,23 @@
 namespace dustbench::voxel_shape {
 
 /// Place, heading and scale at a time: linear from key to key, from the last back to the first one at once.
-[[nodiscard]] TrackKey keyAt(const Track& track, double timeSeconds);
+struct TrackMoment {
+    TrackKey key;
+    TrackKey perSecond;  ///< how place, heading and scale change; going back to the first key is a jump, not a motion
+};
+[[nodiscard]] TrackMoment momentAt(const Track& track, double timeSeconds);
 
 class ShapeTrack {
  public:
     explicit ShapeTrack(const Track& track) : track_(track) {}
 
-    /// The pose of the next moment, `stepSeconds` after the last one; at rest in the first.
+    /// The pose of the next moment, `stepSeconds` after the last one. How fast the vehicle turns is the turn since
+    /// then: none in the first.
     Pose advance(const scene::SceneState& state, double stepSeconds);
 
  private:
     Track track_;
-    std::optional<Pose> last_;
+    std::optional<glm::dmat3> lastFrame_;
 };
 
 }  // namespace dustbench::voxel_shape

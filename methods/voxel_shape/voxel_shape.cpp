@@ -86,17 +86,18 @@ void VoxelShape::update(const Frame& frame) {
 
 void VoxelShape::simulate(const Frame& frame, const Pose& pose) {
     const auto seconds = static_cast<float>(frame.stepSeconds);
-    if (collision_) {
-        const auto timing = frame.clock.measureDetail("switch voxels");
-        collision_->switchVoxels(system_->grid(), pose);
-    }
     {
         const auto timing = frame.clock.measureDetail("move");
-        system_->live(KernelStep(system_->grid(), pose, shape_.motion, seconds));
+        system_->live(shape_.motion, seconds);
     }
     if (collision_) {
         const auto timing = frame.clock.measureDetail("collide");
         collision_->stopParticles(system_->particles(), seconds);
+    }
+    // From here on particles and voxels are those of `pose`: nothing is born where the shape is in a solid by now.
+    if (collision_) {
+        const auto timing = frame.clock.measureDetail("switch voxels");
+        collision_->switchVoxels(system_->grid(), pose);
     }
     const auto timing = frame.clock.measureDetail("replace");
     system_->replace(pose, shape_.motion, seconds);

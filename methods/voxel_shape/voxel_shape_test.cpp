@@ -184,21 +184,6 @@ TEST(DrawOrder, KeepsAnOrderForSomeFramesWhoeverComesAndGoes) {
     EXPECT_EQ(of({3, 2}), (List{0, 1}));
 }
 
-TEST(ShapeTrack, GivesTheVelocitiesOfItsPoses) {
-    Track track;
-    track.keys = {{0, {1, 0, 0}, 0, 1}, {2, {5, 0, 0}, 1, 2}};
-    ShapeTrack moving(track);
-    scene::SceneState state;
-    const double dt = 1.0 / 60;
-    EXPECT_EQ(moving.advance(state, dt).velocity, glm::vec3(0));
-    state.timeSeconds = dt;
-    const Pose pose = moving.advance(state, dt);
-    EXPECT_NEAR(pose.velocity.x, 2, 1e-3f);
-    EXPECT_NEAR(pose.angularVelocity.y, 0.5f, 1e-3f);
-    EXPECT_NEAR(pose.growth, 0.5f, 5e-3f);
-    EXPECT_NEAR(keyAt(track, 3).position.x, 3, 1e-9) << "again and again";
-}
-
 TEST(ShapeFile, SaysInOneLineWhatIsWrong) {
     const TestFolder folder;
     Moment moment;

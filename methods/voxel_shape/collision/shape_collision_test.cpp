@@ -154,9 +154,9 @@ std::uint64_t throughAWall(bool check) {
         Pose pose;
         pose.velocity = {4, 0, 0};
         pose.position = pose.velocity * (dt * static_cast<float>(step));
-        collision.switchVoxels(system.grid(), pose);
-        system.live(KernelStep(system.grid(), pose, motion, dt));
+        system.live(motion, dt);
         hits += collision.stopParticles(system.particles(), dt);
+        collision.switchVoxels(system.grid(), pose);
         system.replace(pose, motion, dt);
         std::size_t within = 0;
         for (std::size_t i = 0; check && i < system.particles().size(); ++i) {

@@ -16,7 +16,8 @@
 
 namespace dustbench::voxel_shape {
 
-/// All that is the same for every particle of a step.
+/// All that is the same for every particle of a step. `pose` is that of the step's beginning, when the particles are
+/// where the step finds them: look-ups, forces' directions and the shape's own velocity are all of that moment.
 struct KernelStep {
     KernelStep(const VoxelGrid& grid, const Pose& pose, const Motion& motion, float stepSeconds);
 

@@ -41,7 +41,8 @@ ShapeSystem::ShapeSystem(MemoryLedger& ledger, VoxelGrid grid, std::uint64_t see
       targets_(ledger.account("arrivals")),
       emission_(ledger, seed) {}
 
-void ShapeSystem::live(const KernelStep& step) {
+void ShapeSystem::live(const Motion& motion, float stepSeconds) {
+    const KernelStep step(grid_, pose_, motion, stepSeconds);
     deaths_.prepare(particles_.size());
     arrivals_.prepare(particles_.size());
     arriving_.resize(particles_.size());
@@ -76,11 +77,12 @@ void ShapeSystem::bury(std::span<const std::uint32_t> holes) {
 }
 
 void ShapeSystem::step(const Pose& pose, const Motion& motion, float stepSeconds) {
-    live(KernelStep(grid_, pose, motion, stepSeconds));
+    live(motion, stepSeconds);
     replace(pose, motion, stepSeconds);
 }
 
 void ShapeSystem::replace(const Pose& pose, const Motion& motion, float stepSeconds) {
+    pose_ = pose;
     bury(deaths_.collect());
     emission_.emit(particles_, grid_, pose, motion, stepSeconds);
 }

@@ -17,18 +17,21 @@ class ShapeSystem {
 
     ShapeSystem(MemoryLedger& ledger, VoxelGrid grid, std::uint64_t seed);
 
-    /// One step: `live`, then `replace`. Between the two, particles may be moved out of solids.
+    /// One step: `live`, then `replace`. Between the two, particles may be moved out of solids, and voxels switched to
+    /// what they are at `pose`.
     void step(const Pose& pose, const Motion& motion, float stepSeconds);
     /// Every particle looks up its voxel, moves, changes its looks, and enters the voxel if it is another one and has
-    /// room; who has faded is noted.
-    void live(const KernelStep& step);
-    /// Buries whom `live` has noted, and gives birth.
+    /// room; who has faded is noted. Particles and lattice are looked at where the last `replace` left both.
+    void live(const Motion& motion, float stepSeconds);
+    /// Buries whom `live` has noted, and gives birth. `pose`: of the moment to which `live` has moved the particles.
     void replace(const Pose& pose, const Motion& motion, float stepSeconds);
 
     [[nodiscard]] const ShapeParticles& particles() const { return particles_; }
     [[nodiscard]] ShapeParticles& particles() { return particles_; }
     [[nodiscard]] const VoxelGrid& grid() const { return grid_; }
     [[nodiscard]] VoxelGrid& grid() { return grid_; }
+    /// Of the grid, at the moment at which the particles are where they are.
+    [[nodiscard]] const Pose& pose() const { return pose_; }
     /// Of particles and voxels.
     [[nodiscard]] std::uint64_t stateHash() const;
 
@@ -36,6 +39,7 @@ class ShapeSystem {
     void bury(std::span<const std::uint32_t> holes);
 
     VoxelGrid grid_;
+    Pose pose_;  ///< of the grid at the particles' moment
     ShapeParticles particles_;
     particles::NotedParticles deaths_;
     LedgerVector<std::uint8_t> arriving_;  ///< 1: stands in a voxel that may let it in

@@ -48,7 +48,7 @@ void update(benchmark::State& state, Force force) {
     Motion motion;
     motion.birthSpeed = 0.1f;
     for (int i = 0; i < 3; ++i) system.step({}, motion, dt);
-    for (auto _ : state) system.live(KernelStep(system.grid(), {}, motion, dt));
+    for (auto _ : state) system.live(motion, dt);
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(system.particles().size()));
 }
 
