@@ -67,7 +67,8 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "gpu_driver_bytes",
                                  "energy_cpu_j",
                                  "energy_gpu_j",
-                                 "frame_ms_min"})
+                                 "frame_ms_min",
+                                 "flip_mask"})
             list.emplace_back(name);
         for (const MethodFact& fact : methodFacts()) list.push_back(fact.info.name);
         return list;

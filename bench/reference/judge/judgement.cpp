@@ -17,11 +17,12 @@ struct MeanMetric {
 };
 
 /// Those of which a run has the mean over its moments.
-constexpr std::array<MeanMetric, 12> means{{
+constexpr std::array<MeanMetric, 13> means{{
     {{"psnr_db", "peak signal-to-noise ratio against the exact picture, dB"}, &MomentMetrics::psnrDb},
     {{"ssim", "structural similarity to the exact picture, 1: the same"}, &MomentMetrics::ssim},
     {{"flip", "difference from the exact picture that an eye sees when the two alternate, 0: none"},
      &MomentMetrics::flip},
+    {{"flip_mask", "flip where there is dust in either picture"}, &MomentMetrics::flipMask},
     {{"rmse_linear", "root of the mean squared difference of linear light"}, &MomentMetrics::rmseLinear},
     {{"psnr_continuum_db", "psnr_db against 64 times as many particles, dB"}, &MomentMetrics::psnrContinuumDb},
     {{"gaps", "share of the trail that is not covered"}, &MomentMetrics::gaps},

@@ -2,6 +2,7 @@
 
 #include "bench/export/extinction_grid.h"
 #include "bench/measure/image/cutoff.h"
+#include "bench/measure/image/dust_alpha.h"
 #include "bench/measure/image/flip.h"
 #include "bench/measure/image/image_check.h"
 #include "bench/measure/image/picture_error.h"
@@ -27,6 +28,18 @@ pictures::Image overScene(const pictures::Image& layer, const pictures::Image& s
     pictures::Image image = pictures::over(layer, scene);
     for (glm::vec4& pixel : image.pixels) pixel.a = 1;
     return image;
+}
+
+/// Of a map over the pixels with dust in either; none where there are none.
+std::optional<double> meanWhereDust(const Plane& map, const Plane& alpha, const Plane& exactAlpha) {
+    double sum = 0;
+    std::int64_t pixels = 0;
+    for (std::size_t i = 0; i < map.values.size(); ++i) {
+        if (alpha.values[i] <= dustAlpha && exactAlpha.values[i] <= dustAlpha) continue;
+        sum += static_cast<double>(map.values[i]);
+        ++pixels;
+    }
+    return pixels > 0 ? std::optional(sum / static_cast<double>(pixels)) : std::nullopt;
 }
 
 std::optional<double> asNumber(const std::optional<int>& value) {
@@ -55,6 +68,7 @@ JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, con
     metrics.ssim = ssim(reference, picture).value;
     Measured flipped = flip(reference, picture);
     metrics.flip = flipped.value;
+    metrics.flipMask = meanWhereDust(flipped.map, alpha, exactAlpha);
     judged.difference = std::move(flipped.map);
     metrics.psnrContinuumDb =
         pictureError(preparePicture(overScene(exact.continuum, drawn.scene), "the continuum"), picture).psnrDb;

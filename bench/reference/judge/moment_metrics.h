@@ -15,7 +15,7 @@ namespace dustbench::bench {
 struct MomentMetrics {
     std::int64_t frame = 0;
     double timeSeconds = 0;
-    std::optional<double> psnrDb, ssim, flip, rmseLinear, psnrContinuumDb;
+    std::optional<double> psnrDb, ssim, flip, flipMask, rmseLinear, psnrContinuumDb;
     std::optional<bool> identical;
     std::optional<double> popping;  ///< from the frame before
     std::optional<double> gaps, components, componentsReference, cutoff, selfSimilarity, quadsPerPixel, volumeError;
