@@ -25,6 +25,7 @@ glm::vec3 rotationAt(const Voxel& voxel, const glm::vec3& r) {
     const glm::vec3 t = glm::cross(voxel.force, r);
     switch (voxel.forceKind()) {
         case Force::linear:
+        case Force::gravity:
             return glm::vec3(0);
         case Force::orbit: {
             // A circle: as fast as |ω|·|r|, across r and the axis.

@@ -2,7 +2,7 @@
 // looks and the shape's motion as momentum.
 //
 // Neither births nor those that wander in from another voxel (particle_kernel.h, `admit`) lift a voxel above its
-// maximum.
+// maximum; the latter do where `Motion::fullVoxelsRefuse` is false.
 //
 // Owns: its lists, on a ledger. Threads: uses the current oneTBB arena; the births are the same at any number of
 // threads: their serials follow the voxels' order, and their random numbers their serials.

@@ -128,7 +128,7 @@ void move(ShapeParticles& particles, std::size_t first, std::size_t count, const
         const auto is = [kind](Force one) {
             return static_cast<float>(static_cast<int>(kind == static_cast<std::uint32_t>(one)));
         };
-        const float isLinear = is(Force::linear), isOrbit = is(Force::orbit);
+        const float isLinear = is(Force::linear), isOrbit = is(Force::orbit) + is(Force::gravity);
         const float isSpiral = is(Force::spiral), isHelix = is(Force::helix);
         const float isRotation = isSpiral + isHelix;
 
@@ -283,7 +283,7 @@ void dropWhereFull(const ShapeParticles& particles, std::size_t first, std::size
 }
 
 void admit(ShapeParticles& particles, std::span<const std::uint32_t> arrivals, std::span<std::uint32_t> targets,
-           std::span<Voxel> voxels) {
+           std::span<Voxel> voxels, bool fullRefuse) {
     parallel::forEachBlock(arrivals.size(), arrivalsInABlock, [&](std::size_t first, std::size_t count) {
         for (std::size_t k = first; k < first + count; ++k)
             targets[k] = particles.place[arrivals[k]] & ~ShapeParticles::outside;
@@ -302,7 +302,7 @@ void admit(ShapeParticles& particles, std::span<const std::uint32_t> arrivals, s
             if (targets[k] - firstVoxel >= count) continue;
             const std::uint32_t i = arrivals[k];
             Voxel& voxel = voxels[targets[k]];
-            if (voxel.density >= voxel.maximumDensity) continue;
+            if (fullRefuse && voxel.density >= voxel.maximumDensity) continue;
             ++voxel.density;
             particles.place[i] = targets[k];
             particles.settlingSeconds[i] = voxel.interpolationSeconds;

@@ -44,9 +44,9 @@ void dropWhereFull(const ShapeParticles& particles, std::size_t first, std::size
                    std::uint8_t* arriving);
 
 /// Lets those into the voxels where they stand that find room there, the first come in `arrivals` first. The others
-/// stay outside, fade by that voxel's looks, and ask again in the next step.
+/// stay outside, fade by that voxel's looks, and ask again in the next step. `fullRefuse` false: all find room.
 /// `targets`: working memory, as long as `arrivals`.
 void admit(ShapeParticles& particles, std::span<const std::uint32_t> arrivals, std::span<std::uint32_t> targets,
-           std::span<Voxel> voxels);
+           std::span<Voxel> voxels, bool fullRefuse);
 
 }  // namespace dustbench::voxel_shape

@@ -53,12 +53,12 @@ void ShapeSystem::live(const Motion& motion, float stepSeconds) {
         note(deaths_, first, {dead.data(), count});
     });
     parallel::forEachBlock(particles_.size(), blockSize, [&](std::size_t first, std::size_t count) {
-        dropWhereFull(particles_, first, count, grid_.voxels(), &arriving[first]);
+        if (motion.fullVoxelsRefuse) dropWhereFull(particles_, first, count, grid_.voxels(), &arriving[first]);
         note(arrivals_, first, arriving.subspan(first, count));
     });
     const std::span<const std::uint32_t> arrivals = arrivals_.collect();
     targets_.resize(arrivals.size());
-    admit(particles_, arrivals, targets_, grid_.voxels());
+    admit(particles_, arrivals, targets_, grid_.voxels(), motion.fullVoxelsRefuse);
 }
 
 /// The last particles move into the holes (ascending) that lie before them.
@@ -74,6 +74,17 @@ void ShapeSystem::bury(std::span<const std::uint32_t> holes) {
         particles_.move(--end, holes[hole]);
     }
     particles_.resize(end);
+}
+
+ShapeCount ShapeSystem::count() const {
+    ShapeCount count;
+    for (const std::uint32_t i : grid_.active()) {
+        const Voxel& voxel = grid_.voxels()[i];
+        count.inside += voxel.density;
+        if (voxel.isOn()) count.room += voxel.maximumDensity;
+    }
+    count.fading = particles_.size() - count.inside;
+    return count;
 }
 
 void ShapeSystem::step(const Pose& pose, const Motion& motion, float stepSeconds) {

@@ -11,6 +11,13 @@
 
 namespace dustbench::voxel_shape {
 
+/// Of a shape's particles.
+struct ShapeCount {
+    std::size_t inside = 0;  ///< whom voxels hold
+    std::size_t fading = 0;  ///< who is outside of them, or in a full one
+    std::size_t room = 0;    ///< whom the voxels that are on would hold
+};
+
 class ShapeSystem {
  public:
     ShapeSystem(MemoryLedger& ledger, const MarkedVoxels& marked, const Voxel& pattern, std::uint64_t seed);
@@ -32,6 +39,7 @@ class ShapeSystem {
     [[nodiscard]] VoxelGrid& grid() { return grid_; }
     /// Of the grid, at the moment at which the particles are where they are.
     [[nodiscard]] const Pose& pose() const { return pose_; }
+    [[nodiscard]] ShapeCount count() const;
     /// Of particles and voxels.
     [[nodiscard]] std::uint64_t stateHash() const;
 

@@ -254,6 +254,19 @@ TEST(Forces, KeepAnOrbitWithinHalfAStepsTurnOfItsRadius) {
     }
 }
 
+TEST(Forces, GravitySwingsAParticleThroughTheMiddleAndBack) {
+    ShapeSystem system = oneParticle(1, {0, 0, 0});
+    system.grid().voxels()[0].setForce(Force::gravity, {0, 4, 0}, 0);
+    const particles::ParticleStore& store = system.particles().store;
+    system.particles().store.x[0] = 0.9f;
+    for (int step = 1; step <= 300; ++step) {
+        system.step({}, withoutBirths(), dt);
+        // x = A·cos(ωt), by a scheme whose phase is right to (ω·dt)².
+        ASSERT_NEAR(store.x[0] - 0.5f, 0.4f * std::cos(4 * dt * (static_cast<float>(step) + 0.5f)), 0.004f) << step;
+        ASSERT_EQ(store.y[0], 0.5f);
+    }
+}
+
 TEST(Forces, LinearIsAnAccelerationAndAHelixGoesRoundAndOn) {
     ShapeSystem linear = oneParticle(40, {0, 0, 0});
     for (Voxel& voxel : linear.grid().voxels()) voxel.setForce(Force::linear, {2, 0, 0}, 0);

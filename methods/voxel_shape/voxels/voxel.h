@@ -16,11 +16,12 @@ namespace dustbench::voxel_shape {
 /// centre, c = ω × (ω × r) and k the second number:
 ///     linear   acceleration ω, the same in the whole voxel (m/s²)
 ///     orbit    acceleration −|ω|²·r: the centre attracts; ω is the axis of the orbits in which particles are born
+///     gravity  the same for particles that are born at rest: they fall through the centre and back
 ///     spiral   velocity ω × r − k/|ω|·c: round the axis, r⊥ growing by the factor e^k a radian
 ///     helix    velocity ω × r + k·ω: round the axis and on along it, k metres a radian
 /// A spiral or helix turns with acceleration c and draws the particle's velocity, relative to the shape's, to its own.
 /// Each is applied over a step as the straight push it is at the step's beginning.
-enum class Force : std::uint32_t { linear, orbit, spiral, helix };
+enum class Force : std::uint32_t { linear, orbit, spiral, helix, gravity };
 
 /// Four numbers 0..1 in eight bytes, to the nearest of 65536 steps.
 struct PackedColour {

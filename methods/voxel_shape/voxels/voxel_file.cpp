@@ -61,7 +61,7 @@ constexpr Attribute attributes[]{
      [](Voxel& v, const float* n) { v.maximumDensity = static_cast<std::uint32_t>(std::lround(n[0])); }},
     {"density", 1, 0, 1e9, [](const Voxel& v, int) { return static_cast<float>(v.density); },
      [](Voxel&, const float*) {}},
-    {"force_kind", 1, 0, 3, [](const Voxel& v, int) { return static_cast<float>(v.forceKind()); },
+    {"force_kind", 1, 0, 4, [](const Voxel& v, int) { return static_cast<float>(v.forceKind()); },
      [](Voxel& v, const float* n) { v.setForce(static_cast<Force>(std::lround(n[0])), {}, 0); }},
     {"force_number", 1, -1e4, 1e4, [](const Voxel& v, int) { return fileNumber(v); },
      [](Voxel& v, const float* n) { v.forceNumber = n[0]; }},
