@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "methods/voxel_shape/solid_space.h"
 #include "methods/voxel_shape/voxel_shape.h"
+#include "methods/voxel_shape/voxels/solid_space.h"
 
 namespace dustbench::voxel_shape::births {
 namespace {

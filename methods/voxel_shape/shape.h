@@ -28,6 +28,13 @@ inline constexpr Choices<Voxeliser> voxelisers{
 enum class Fill { surface, solid };
 inline constexpr Choices<Fill> fills{{"surface", Fill::surface}, {"solid", Fill::solid}};
 
+/// Whose law it is that holds a shape together.
+enum class Mode {
+    fixed,  ///< ours: no voxel holds more than its maximum
+    paper   ///< maximum density limits births alone, and slices along z are the voxels
+};
+inline constexpr Choices<Mode> modes{{"fixed", Mode::fixed}, {"paper", Mode::paper}};
+
 /// What a particle is drawn as.
 enum class Render { points, lines, sprites, billboards, textured, animated };
 inline constexpr Choices<Render> renders{{"points", Render::points},     {"lines", Render::lines},
@@ -52,6 +59,7 @@ struct Look {
     Render render = Render::sprites;
     float pixels = 0;  ///< of points and sprites; 0: as large as the particles are
     bool additive = false;
+    bool lit = false;  ///< by the scene's sun and sky
     Order order = Order::radix;
     std::uint32_t nearest = 2000;  ///< so many
     std::uint32_t every = 4;       ///< frames
@@ -94,6 +102,11 @@ struct Shape {
     float windFactor = 1;  ///< share of the scene's wind
     Look look;
     Track track;
+    std::vector<Shape> others;      ///< that are there as well; they have none themselves
+    float drawnAlongPerSecond = 4;  ///< rate at which particles in another shape's voxels take on its motion
+    float dustDrawsPerSecond =
+        0;                  ///< rate at which particles take on the motion of the dust around them; 0: they do not
+    double heldWithin = 0;  ///< share by which the particles held may differ from the shape's number; 0: as they like
 };
 
 }  // namespace dustbench::voxel_shape

@@ -1,9 +1,12 @@
 #include "methods/voxel_shape/shape_file.h"
 
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/toml_reader.h"
+#include "methods/kit/meshes/mesh_file.h"
+#include "methods/voxel_shape/voxels/solid_fill.h"
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -12,8 +15,11 @@ using files::TomlReader;
 
 constexpr double far = 1e4;  ///< metres: the largest coordinate that a file may give
 
-constexpr Choices<Force> forces{
-    {"linear", Force::linear}, {"orbit", Force::orbit}, {"spiral", Force::spiral}, {"helix", Force::helix}};
+constexpr Choices<Force> forces{{"linear", Force::linear},
+                                {"orbit", Force::orbit},
+                                {"spiral", Force::spiral},
+                                {"helix", Force::helix},
+                                {"gravity", Force::gravity}};
 
 template <typename Enumeration>
 Enumeration choice(TomlReader& table, const char* key, const Choices<Enumeration>& choices, Enumeration initial) {
@@ -46,7 +52,7 @@ VoxelChange::ForceEffect readForce(TomlReader table) {
     if (effect.kind == Force::linear) {
         effect.vector = vector(table, "acceleration", 1000, glm::dvec3(0));
     } else {
-        const glm::vec3 axis = vector(table, "axis", 1, {0, 1, 0});
+        const glm::vec3 axis = effect.kind == Force::gravity ? glm::vec3(0, 1, 0) : vector(table, "axis", 1, {0, 1, 0});
         if (!(glm::length(axis) > 0)) throw InputError(table.where("axis") + "key 'axis': expected one of some length");
         effect.vector = glm::normalize(axis) * number(table, "radians_per_second", -60, 60, 2);
     }
@@ -77,16 +83,32 @@ VoxelChange readChange(TomlReader& table) {
     return change;
 }
 
-VoxelEdit readEdit(TomlReader& table) {
+/// The space within a closed mesh, put somewhere in the shape's frame.
+std::shared_ptr<const SolidSpace> readRegion(TomlReader& table, const std::filesystem::path& folder) {
+    const scene::Mesh mesh = meshes::readMesh(folder / table.text("mesh"), glm::vec3(0));
+    if (openEdges(mesh) > 0)
+        throw InputError(table.where("mesh") + "key 'mesh': the mesh has " + std::to_string(openEdges(mesh)) +
+                         " open edges, expected a closed one, which has an inside");
+    const glm::vec3 place = vector(table, "position", far, glm::dvec3(0));
+    const auto scale = static_cast<float>(table.number("scale", 1e-3, 1e3, 1));
+    return std::make_shared<const SolidSpace>(mesh, glm::scale(glm::translate(glm::mat4(1), place), glm::vec3(scale)));
+}
+
+VoxelEdit readEdit(TomlReader& table, const std::filesystem::path& folder) {
     VoxelEdit edit;
     edit.where = table.where();
-    const bool box = table.has("min") || table.has("max"), sphere = table.has("centre") || table.has("radius_metres");
-    if (box == sphere)
-        throw InputError(edit.where + "an edit takes either a box (min, max) or a sphere (centre, radius_metres)");
-    edit.isSphere = sphere;
+    const bool box = table.has("min") || table.has("max"), sphere = table.has("centre") || table.has("radius_metres"),
+               mesh = table.has("mesh");
+    if (int{box} + int{sphere} + int{mesh} != 1)
+        throw InputError(edit.where +
+                         "an edit takes either a box (min, max), a sphere (centre, radius_metres) or a closed mesh");
     if (sphere) {
+        edit.region = VoxelEdit::Region::sphere;
         edit.centre = table.vector3("centre");
         edit.radiusMetres = static_cast<float>(table.number("radius_metres", 0, far));
+    } else if (mesh) {
+        edit.region = VoxelEdit::Region::mesh;
+        edit.mesh = readRegion(table, folder);
     } else {
         edit.minimum = table.vector3("min");
         edit.maximum = table.vector3("max");
@@ -152,6 +174,7 @@ void readMotion(TomlReader& file, Shape& shape) {
     motion.responsePerSecond = number(table, "response_per_second", 0, 1000, motion.responsePerSecond);
     motion.birthSpeed = number(table, "birth_speed", 0, 100, motion.birthSpeed);
     motion.fillSeconds = number(table, "fill_seconds", 0, 100, motion.fillSeconds);
+    shape.dustDrawsPerSecond = number(table, "dust_draws_per_second", 0, 1000, shape.dustDrawsPerSecond);
     table.finish();
 }
 
@@ -176,6 +199,7 @@ void readLook(TomlReader& file, Shape& shape) {
     look.render = choice(table, "render", renders, look.render);
     look.pixels = number(table, "pixels", 0, 255, look.pixels);
     look.additive = table.boolean("additive", look.additive);
+    look.lit = table.boolean("lit", look.lit);
     look.order = choice(table, "sort", orders, look.order);
     table.finish();
 }
@@ -211,6 +235,22 @@ void readTrack(TomlReader& file, Shape& shape) {
     table.finish();
 }
 
+/// Shapes that are there as well.
+void readOthers(TomlReader& file, const std::filesystem::path& folder, Shape& shape) {
+    for (TomlReader& table : file.tables("also")) {
+        Shape other = readShape(folder / table.text("shape"));
+        if (!other.others.empty())
+            throw InputError(table.where("shape") + "key 'shape': " + other.name +
+                             " has shapes of its own beside it; expected one that stands alone");
+        shape.others.push_back(std::move(other));
+        table.finish();
+    }
+    if (!file.has("crossing")) return;
+    TomlReader table = file.table("crossing");
+    shape.drawnAlongPerSecond = number(table, "drawn_along_per_second", 0, 1000, shape.drawnAlongPerSecond);
+    table.finish();
+}
+
 }  // namespace
 
 Shape readShape(const std::filesystem::path& path) {
@@ -242,11 +282,12 @@ Shape readShape(const std::filesystem::path& path) {
     otherwise(shape.voxels.interpolationSeconds, 0.2f);
     otherwise(shape.voxels.picturesPerSecond, 0);
     if (!shape.voxels.fadingSizeVoxels) shape.voxels.fadingSizeVoxels = shape.voxels.sizeVoxels;
-    for (TomlReader& table : file.tables("edit")) shape.edits.push_back(readEdit(table));
+    for (TomlReader& table : file.tables("edit")) shape.edits.push_back(readEdit(table, path.parent_path()));
     readMotion(file, shape);
     readCollision(file, shape);
     readLook(file, shape);
     readTrack(file, shape);
+    readOthers(file, path.parent_path(), shape);
     file.finish();
     return shape;
 }

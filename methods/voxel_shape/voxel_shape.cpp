@@ -1,11 +1,17 @@
 #include "methods/voxel_shape/voxel_shape.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "methods/contract/errors.h"
 #include "methods/contract/volume.h"
+#include "methods/kit/draw/read_back.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/maths/hash.h"
+#include "methods/voxel_shape/particles/crossing.h"
 #include "methods/voxel_shape/shape_builder.h"
 #include "methods/voxel_shape/shape_file.h"
+#include "methods/voxel_shape/silhouette.h"
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -41,7 +47,19 @@ Shape shapeOf(const ParameterValues& values) {
         shape.resolution = static_cast<int>(resolution);
     if (const auto particles = values.integer("shape_particles"); particles > 0)
         shape.particles = static_cast<std::uint32_t>(particles);
+    if (values.choice("mode", modes) == Mode::paper) {
+        shape.voxeliser = Voxeliser::slices;
+        shape.motion.fullVoxelsRefuse = false;
+        for (Shape& other : shape.others) other.motion.fullVoxelsRefuse = false;
+    }
+    if (const auto each = values.integer("particles_per_voxel"); each > 0)
+        shape.voxels.maximumDensity = static_cast<std::uint32_t>(each);
+    if (values.real("fill_seconds") >= 0) shape.motion.fillSeconds = static_cast<float>(values.real("fill_seconds"));
     shape.voxeliser = unlessPreset(values, "voxeliser", voxelisers, shape.voxeliser);
+    if (shape.fill == Fill::solid && shape.voxeliser != Voxeliser::conservative)
+        throw InputError("shape '" + shape.name + "': is solid, which needs voxeliser=conservative; got " +
+                         std::string(voxelisers.wordOf(shape.voxeliser)));
+    shape.heldWithin = values.real("held_within");
     Look& look = shape.look;
     look.render = unlessPreset(values, "render", renders, look.render);
     if (values.choice("blend") != preset) look.additive = values.choice("blend") == "additive";
@@ -54,53 +72,46 @@ Shape shapeOf(const ParameterValues& values) {
 
 }  // namespace
 
-VoxelShape::VoxelShape(const Shape& shape) : shape_(shape), track_(shape.track), order_(ledger_) {}
+VoxelShape::VoxelShape(const Shape& shape) : order_(ledger_), merged_(ledger_) {
+    shapes_.emplace_back(shape);
+    for (const Shape& other : shape.others) shapes_.emplace_back(other);
+}
 
 void VoxelShape::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) {
-    system_.emplace(buildShape(ledger_, shape_, scene, device, setup.seed));
-    if (shape_.collides && !scene.solids.empty()) {
-        double scale = 0;
-        for (const TrackKey& key : shape_.track.keys) scale = std::max(scale, key.scale);
-        const float voxel = system_->grid().lattice().edgeMetres * static_cast<float>(scale);
-        collision_.emplace(scene, voxel, shape_.impact);
-    }
-    shape_.motion.wind = shape_.windFactor * scene.wind;
-    picture_.emplace(device, shape_.look);
+    scene_ = &scene;
+    device_ = &device;
+    // Each shape's chance is its own.
+    for (std::size_t i = 0; i < shapes_.size(); ++i)
+        shapes_[i].prepare(ledger_, scene, device, setup.seed ^ (i * 0x9e3779b97f4a7c15ULL));
+    picture_ = std::make_unique<ShapePicture>(device, shapes_.front().shape().look);
 }
 
 void VoxelShape::update(const Frame& frame) {
     {
         const auto timing = frame.clock.measure(Stage::simulate);
-        const Pose pose = track_.advance(frame.state, frame.stepSeconds);
-        simulate(frame, pose);
+        simulate(frame);
     }
-    const particles::ParticleStore& store = system_->particles().store;
+    const ShapeParticles& particles = merged_.of(shapes_);
+    const particles::ParticleStore& store = particles.store;
     std::span<const std::uint32_t> order;
     {
         const auto timing = frame.clock.measure(Stage::sort);
-        order = order_.of(shape_.look, {store.x, store.y, store.z}, glm::vec3(frame.view.camera.eye));
+        order = order_.of(shapes_.front().shape().look, {store.x, store.y, store.z}, glm::vec3(frame.view.camera.eye));
     }
     const auto timing = frame.clock.measure(Stage::upload);
-    picture_->upload(system_->particles(), order);
+    picture_->upload(particles, order);
 }
 
-void VoxelShape::simulate(const Frame& frame, const Pose& pose) {
-    const auto seconds = static_cast<float>(frame.stepSeconds);
-    {
-        const auto timing = frame.clock.measureDetail("move");
-        system_->live(shape_.motion, seconds);
-    }
-    if (collision_) {
-        const auto timing = frame.clock.measureDetail("collide");
-        collision_->stopParticles(system_->particles(), seconds);
-    }
-    // From here on particles and voxels are those of `pose`: nothing is born where the shape is in a solid by now.
-    if (collision_) {
-        const auto timing = frame.clock.measureDetail("switch voxels");
-        collision_->switchVoxels(system_->grid(), pose);
-    }
-    const auto timing = frame.clock.measureDetail("replace");
-    system_->replace(pose, shape_.motion, seconds);
+void VoxelShape::simulate(const Frame& frame) {
+    for (LivingShape& shape : shapes_) shape.step(frame);
+    if (shapes_.size() == 1) return;
+    // All of them are at the frame's moment now.
+    const auto timing = frame.clock.measureDetail("cross");
+    const float rate = shapes_.front().shape().drawnAlongPerSecond;
+    const float share = 1 - std::exp(-rate * static_cast<float>(frame.stepSeconds));
+    for (LivingShape& moved : shapes_)
+        for (const LivingShape& by : shapes_)
+            if (&moved != &by) drawAlong(moved.system(), by.system(), share);
 }
 
 void VoxelShape::draw(const Frame& frame, gpu::Layer& layer) {
@@ -108,14 +119,47 @@ void VoxelShape::draw(const Frame& frame, gpu::Layer& layer) {
 }
 
 void VoxelShape::volume(const Frame&, VolumeVisitor& visitor) const {
-    visitor.puffs(system_->particles().store);
+    for (const LivingShape& shape : shapes_) visitor.puffs(shape.system().particles().store);
+}
+
+ShapeCount VoxelShape::count() const {
+    ShapeCount sum;
+    for (const LivingShape& shape : shapes_) {
+        const ShapeCount own = shape.system().count();
+        sum.inside += own.inside;
+        sum.fading += own.fading;
+        sum.room += own.room;
+    }
+    return sum;
+}
+
+void VoxelShape::report(const Frame& frame, Facts& facts) const {
+    for (const LivingShape& shape : shapes_) shape.requireNumberHeld();
+    const ShapeCount counted = count();
+    facts.tell("inside", static_cast<std::int64_t>(counted.inside));
+    facts.tell("fading", static_cast<std::int64_t>(counted.fading));
+    if (!facts.wants("silhouette_iou")) return;
+    if (const auto overlap = silhouetteOverlap(frame.view)) facts.tell("silhouette_iou", *overlap);
+}
+
+std::optional<double> VoxelShape::silhouetteOverlap(const scene::View& view) const {
+    const Shape& shape = shapes_.front().shape();
+    if (shapes_.size() > 1 || (shape.source != Source::mesh && shape.source != Source::vehicle)) return std::nullopt;
+    gpu::Texture nothing =
+        gpu::Texture::make2D(*device_, "depth of nothing", gpu::Format::depth32F, view.width, view.height);
+    const std::vector<float> farthest(static_cast<std::size_t>(view.width * view.height), 0.0f);
+    nothing.write(std::span<const float>(farthest));
+    gpu::Layer layer(*device_, nothing);
+    layer.clear();
+    picture_->draw(view, layer);
+    return overlapOf(silhouetteOf(meshOf(shape, *scene_), system().pose(), view), draw::readBack(layer.colour()));
 }
 
 MemoryReport VoxelShape::memory() const {
     MemoryReport report;
     for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
-    if (collision_)
-        for (const MemoryUse& use : collision_->memory()) report.push_back(use);
+    for (const LivingShape& shape : shapes_)
+        for (const MemoryUse& use : shape.memory()) report.push_back(use);
     if (picture_) report.push_back({"picture", 0, picture_->gpuBytes()});
     return report;
 }
@@ -125,7 +169,11 @@ std::int64_t VoxelShape::primitives() const {
 }
 
 std::optional<std::uint64_t> VoxelShape::stateHash() const {
-    return system_ ? system_->stateHash() : 0;
+    if (!picture_) return 0;
+    if (shapes_.size() == 1) return system().stateHash();
+    maths::Hash hash;
+    for (const LivingShape& shape : shapes_) hash.add(shape.system().stateHash());
+    return hash.value();
 }
 
 MethodInfo describe() {
@@ -136,11 +184,19 @@ MethodInfo describe() {
     info.parameters
         .choice("shape", "car", shapeNames(), "which file of data/shapes: what is made of particles, and how")
         .integer("shape_particles", 0, 0, 10'000'000, "", "particles that the shape holds; 0: as its file says")
+        .integer("particles_per_voxel", 0, 0, 100'000, "",
+                 "particles that each voxel holds; 0: its share of the shape's, or as the file says")
+        .real("fill_seconds", -1, -1, 100, "s",
+              "in which voxels make up for what they lack; 0: at once; below 0: as the shape's file says")
         .integer("resolution", 0, 0, maximumVoxelsASide, "voxels",
                  "along the mesh's longest side; 0: as the shape's file says")
+        .choice(
+            "mode", Mode::fixed, modes,
+            "no voxel holds more than its maximum density; or the paper's law, by which that limits births alone and "
+            "its slices are the voxels")
         .choice("voxeliser", preset, presetOr(voxelisers),
                 "every voxel that the surface touches, by the CPU; the paper's slices, by the GPU; or slices along all "
-                "axes")
+                "axes; preset: as the shape's file says, in mode=paper the slices")
         .choice("render", preset, presetOr(renders), "what a particle is drawn as")
         .real("sprite_pixels", 0, 0, 255, "pixels", "width of points and sprites; 0: as the shape's file says")
         .choice("blend", preset, {preset, "alpha", "additive"}, "cover what is behind, or add light to it")
@@ -148,7 +204,17 @@ MethodInfo describe() {
             "sort", preset, presetOr(orders),
             "far to near, by a radix sort or the paper's quicksort; the nearest ones alone; every few frames; or not")
         .integer("sort_nearest", 2000, 0, 10'000'000, "", "how many sort=nearest sorts")
-        .integer("sort_every", 4, 1, 1000, "frames", "how often sort=every sorts");
+        .integer("sort_every", 4, 1, 1000, "frames", "how often sort=every sorts")
+        .real("held_within", 0, 0, 1, "share",
+              "by which the particles that the voxels hold may differ from the shape's number; a run in which they do "
+              "fails; 0: not asked");
+    info.facts = {
+        {"fading", "particles", FactOver::maximumOfFrames,
+         "particles outside of the shape's voxels, or in a full one, which fade: maximum of the recorded frames"},
+        {"inside", "particles", FactOver::lastFrame, "particles that the shape's voxels hold after the last frame"},
+        {"silhouette_iou", "share", FactOver::lastFrame,
+         "pixels that the particles cover by more than half and the shape's mesh covers, of those that either does: "
+         "after the last frame; empty where the shape is of no mesh"}};
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<VoxelShape>(shapeOf(values));
     };

@@ -10,6 +10,7 @@
 #include "methods/kit/testing/test_moment.h"
 #include "methods/voxel_shape/shape_builder.h"
 #include "methods/voxel_shape/shape_file.h"
+#include "methods/voxel_shape/silhouette.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"
 
 namespace dustbench::voxel_shape {
@@ -35,31 +36,6 @@ class Moment : public TestMoment {
     }
 };
 
-/// Where a shape's mesh is on the screen, by its triangles' projections.
-std::vector<std::uint8_t> silhouette(const scene::Mesh& mesh, const Pose& pose, const scene::View& view) {
-    std::vector<std::uint8_t> mask(static_cast<std::size_t>(view.width * view.height), 0);
-    const glm::mat4 clip = view.worldToClip();
-    std::vector<glm::vec2> points;
-    for (const glm::vec3& position : mesh.positions) {
-        const glm::vec4 p = clip * glm::vec4(pose.toWorld(position), 1);
-        points.emplace_back((0.5f + 0.5f * p.x / p.w) * static_cast<float>(view.width),
-                            (0.5f - 0.5f * p.y / p.w) * static_cast<float>(view.height));
-    }
-    const auto cross = [](glm::vec2 a, glm::vec2 b) { return a.x * b.y - a.y * b.x; };
-    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-        const glm::vec2 a = points[mesh.indices[t]], b = points[mesh.indices[t + 1]], c = points[mesh.indices[t + 2]];
-        const glm::vec2 minimum = glm::min(glm::min(a, b), c), maximum = glm::max(glm::max(a, b), c);
-        for (int y = std::max(0, static_cast<int>(minimum.y)); y <= maximum.y && y < view.height; ++y)
-            for (int x = std::max(0, static_cast<int>(minimum.x)); x <= maximum.x && x < view.width; ++x) {
-                const glm::vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-                const float u = cross(b - a, p - a), v = cross(c - b, p - b), w = cross(a - c, p - c);
-                if ((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))
-                    mask[static_cast<std::size_t>(y * view.width + x)] = 1;
-            }
-    }
-    return mask;
-}
-
 TEST(Presets, KeepTheSilhouettesOfTheirMeshes) {
     const std::pair<const char*, double> wanted[]{{"bunny", 0.9}, {"helicopter", 0.8}, {"figure", 0.8}, {"car", 0.8}};
     for (const auto& [name, minimum] : wanted) {
@@ -72,16 +48,11 @@ TEST(Presets, KeepTheSilhouettesOfTheirMeshes) {
         moment.run(method, 60);
         const pictures::Image image = moment.draw(method);
         ShapeTrack track(shape.track);
-        const auto mask = silhouette(meshOf(shape, moment.scene), track.advance(moment.state, 1), moment.view);
-        double both = 0, either = 0;
-        for (std::size_t i = 0; i < mask.size(); ++i) {
-            const bool drawn = image.pixels[i].a > 0.5f, expected = mask[i] != 0;
-            both += drawn && expected;
-            either += drawn || expected;
-        }
-        EXPECT_GE(both / either, minimum) << name;
-        EXPECT_GT(both, 4000) << name;
-        RecordProperty(std::string("silhouette_") + name, std::to_string(both / either));
+        const auto mask = silhouetteOf(meshOf(shape, moment.scene), track.advance(moment.state, 1), moment.view);
+        const double overlap = overlapOf(mask, image).value();
+        EXPECT_GE(overlap, minimum) << name;
+        EXPECT_GT(std::ranges::count(mask, 1), 4000) << name;
+        RecordProperty(std::string("silhouette_") + name, std::to_string(overlap));
     }
 }
 

@@ -34,7 +34,8 @@ bool VoxelChange::contradictsItself() const {
 }
 
 bool VoxelEdit::contains(const glm::vec3& point) const {
-    if (isSphere) return glm::distance(point, centre) <= radiusMetres;
+    if (region == Region::sphere) return glm::distance(point, centre) <= radiusMetres;
+    if (region == Region::mesh) return mesh->contains(glm::dvec3(point));
     return glm::all(glm::lessThanEqual(minimum, point)) && glm::all(glm::lessThanEqual(point, maximum));
 }
 

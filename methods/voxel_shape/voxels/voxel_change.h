@@ -1,12 +1,15 @@
-// Attributes to set on voxels: all at once where a shape's are first given, or some by an edit of a box or a sphere.
+// Attributes to set on voxels: all at once where a shape's are first given, or some by an edit of a box, a sphere or a
+// mesh.
 //
 // Units: metres, seconds, linear RGB; sizes in edges of a voxel, so that they fit any resolution. Frame: the shape's
 // own.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "methods/voxel_shape/voxels/solid_space.h"
 #include "methods/voxel_shape/voxels/voxel_grid.h"
 
 namespace dustbench::voxel_shape {
@@ -33,13 +36,17 @@ struct VoxelChange {
     [[nodiscard]] bool contradictsItself() const;
 };
 
-/// A change of the active voxels (of all, where it makes them active) whose middle lies in a box or a sphere.
+/// A change of the active voxels (of all, where it makes them active) whose middle lies in a box, a sphere or a closed
+/// mesh.
 struct VoxelEdit {
+    enum class Region { box, sphere, mesh };
+
     std::string where;  ///< for messages: `bunny.toml:31: `
-    bool isSphere = false;
+    Region region = Region::box;
     glm::vec3 minimum{0}, maximum{0};  ///< of a box
     glm::vec3 centre{0};               ///< of a sphere
     float radiusMetres = 0;
+    std::shared_ptr<const SolidSpace> mesh;  ///< in the shape's frame
     VoxelChange change;
 
     [[nodiscard]] bool contains(const glm::vec3& point) const;

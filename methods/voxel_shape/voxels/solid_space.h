@@ -16,6 +16,8 @@ class SolidSpace {
  public:
     /// Of `scene.solids`, whose surfaces are closed; neither the ground nor the vehicle.
     explicit SolidSpace(const scene::Scene& scene);
+    /// Of one closed mesh.
+    SolidSpace(const scene::Mesh& mesh, const glm::mat4& toWorld) { add(mesh, toWorld); }
 
     /// A point that lies exactly below an edge may be taken for one outside.
     [[nodiscard]] bool contains(const glm::dvec3& point) const;
@@ -27,6 +29,7 @@ class SolidSpace {
         glm::dvec3 minimum, maximum;      ///< the box around them all
         double widest;                    ///< extent of a triangle along x
     };
+    void add(const scene::Mesh& mesh, const glm::dmat4& toWorld);
     [[nodiscard]] static int exits(const Body& body, const glm::dvec3& point);
 
     std::vector<Body> bodies_;

@@ -1,4 +1,4 @@
-#include "methods/voxel_shape/solid_space.h"
+#include "methods/voxel_shape/voxels/solid_space.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
-#include "methods/voxel_shape/solid_space.h"
+#include "methods/voxel_shape/voxels/solid_space.h"
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -30,23 +31,24 @@ double maximumX(const std::array<glm::dvec3, 3>& triangle) {
 }  // namespace
 
 SolidSpace::SolidSpace(const scene::Scene& scene) {
-    for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-        const scene::Mesh& mesh = *scene.solids[i].mesh;
-        const glm::dmat4 toWorld(scene.solidPoses[i].toWorld);
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        Body body{{}, glm::dvec3(infinity), glm::dvec3(-infinity), 0};
-        for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
-            Triangle& triangle = body.triangles.emplace_back();
-            for (std::size_t corner = 0; corner < 3; ++corner) {
-                triangle[corner] = glm::dvec3(toWorld * glm::dvec4(mesh.positions[mesh.indices[k + corner]], 1));
-                body.minimum = glm::min(body.minimum, triangle[corner]);
-                body.maximum = glm::max(body.maximum, triangle[corner]);
-            }
-            body.widest = std::max(body.widest, maximumX(triangle) - minimumX(triangle));
+    for (std::size_t i = 0; i < scene.solids.size(); ++i)
+        add(*scene.solids[i].mesh, glm::dmat4(scene.solidPoses[i].toWorld));
+}
+
+void SolidSpace::add(const scene::Mesh& mesh, const glm::dmat4& toWorld) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Body body{{}, glm::dvec3(infinity), glm::dvec3(-infinity), 0};
+    for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
+        Triangle& triangle = body.triangles.emplace_back();
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            triangle[corner] = glm::dvec3(toWorld * glm::dvec4(mesh.positions[mesh.indices[k + corner]], 1));
+            body.minimum = glm::min(body.minimum, triangle[corner]);
+            body.maximum = glm::max(body.maximum, triangle[corner]);
         }
-        std::ranges::sort(body.triangles, {}, minimumX);
-        bodies_.push_back(std::move(body));
+        body.widest = std::max(body.widest, maximumX(triangle) - minimumX(triangle));
     }
+    std::ranges::sort(body.triangles, {}, minimumX);
+    bodies_.push_back(std::move(body));
 }
 
 int SolidSpace::exits(const Body& body, const glm::dvec3& point) {

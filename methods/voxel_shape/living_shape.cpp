@@ -1,0 +1,69 @@
+#include "methods/voxel_shape/living_shape.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "methods/voxel_shape/shape_builder.h"
+
+namespace dustbench::voxel_shape {
+
+void LivingShape::prepare(MemoryLedger& ledger, const scene::Scene& scene, gpu::Device& device, std::uint64_t seed) {
+    system_.emplace(buildShape(ledger, shape_, scene, device, seed));
+    if (shape_.look.lit) light_.emplace(ledger, system_->grid(), scene.lights);
+    if (shape_.dustDrawsPerSecond > 0) flow_.emplace(ledger);
+    if (shape_.collides && !scene.solids.empty()) {
+        double scale = 0;
+        for (const TrackKey& key : shape_.track.keys) scale = std::max(scale, key.scale);
+        const float voxel = system_->grid().lattice().edgeMetres * static_cast<float>(scale);
+        collision_.emplace(scene, voxel, shape_.impact);
+    }
+    shape_.motion.wind = shape_.windFactor * scene.wind;
+}
+
+void LivingShape::step(const Frame& frame) {
+    const Pose pose = track_.advance(frame.state, frame.stepSeconds);
+    const auto seconds = static_cast<float>(frame.stepSeconds);
+    {
+        const auto timing = frame.clock.measureDetail("move");
+        system_->live(shape_.motion, seconds);
+    }
+    if (collision_) {
+        const auto timing = frame.clock.measureDetail("collide");
+        collision_->stopParticles(system_->particles(), seconds);
+    }
+    // From here on particles and voxels are those of `pose`: nothing is born where the shape is in a solid by now.
+    if (collision_) {
+        const auto timing = frame.clock.measureDetail("switch voxels");
+        collision_->switchVoxels(system_->grid(), pose);
+    }
+    if (light_) {
+        const auto timing = frame.clock.measureDetail("light");
+        light_->shineOn(system_->grid(), pose);
+    }
+    {
+        const auto timing = frame.clock.measureDetail("replace");
+        system_->replace(pose, shape_.motion, seconds);
+    }
+    if (flow_) {
+        const auto timing = frame.clock.measureDetail("flow");
+        flow_->drawAlong(*system_, frame.dust, 1 - std::exp(-shape_.dustDrawsPerSecond * seconds));
+    }
+}
+
+void LivingShape::requireNumberHeld() const {
+    if (!(shape_.heldWithin > 0)) return;
+    const ShapeCount count = system_->count();
+    const auto held = static_cast<double>(count.inside), room = static_cast<double>(count.room);
+    if (std::abs(held - room) <= shape_.heldWithin * room) return;
+    throw std::runtime_error(fmt::format("shape '{}': its voxels hold {} particles, allowed: {} within {} %",
+                                         shape_.name, count.inside, count.room, 100 * shape_.heldWithin));
+}
+
+MemoryReport LivingShape::memory() const {
+    return collision_ ? collision_->memory() : MemoryReport();
+}
+
+}  // namespace dustbench::voxel_shape

@@ -1,0 +1,44 @@
+// One shape in a scene: its track, its voxels and particles, their light, and what they collide with.
+//
+// Units: m, s. Frame: world. Owns: all of it, on a ledger. Threads: the OpenGL thread's; uses the current oneTBB arena.
+#pragma once
+
+#include <optional>
+
+#include "methods/contract/method.h"
+#include "methods/voxel_shape/collision/shape_collision.h"
+#include "methods/voxel_shape/particles/dust_flow.h"
+#include "methods/voxel_shape/particles/shape_system.h"
+#include "methods/voxel_shape/shape.h"
+#include "methods/voxel_shape/shape_light.h"
+#include "methods/voxel_shape/shape_track.h"
+
+namespace dustbench::voxel_shape {
+
+class LivingShape {
+ public:
+    explicit LivingShape(const Shape& shape) : shape_(shape), track_(shape.track) {}
+
+    /// Throws InputError where the shape does not fit the scene. `ledger` must outlive this.
+    void prepare(MemoryLedger& ledger, const scene::Scene& scene, gpu::Device& device, std::uint64_t seed);
+    /// On to the frame's moment.
+    void step(const Frame& frame);
+
+    [[nodiscard]] const Shape& shape() const { return shape_; }
+    [[nodiscard]] const ShapeSystem& system() const { return *system_; }
+    [[nodiscard]] ShapeSystem& system() { return *system_; }
+    /// Throws std::runtime_error where the voxels hold another number of particles than the shape was asked to keep to.
+    void requireNumberHeld() const;
+    /// Of what it collides with; the rest is on the ledger.
+    [[nodiscard]] MemoryReport memory() const;
+
+ private:
+    Shape shape_;
+    ShapeTrack track_;
+    std::optional<ShapeSystem> system_;
+    std::optional<ShapeLight> light_;
+    std::optional<DustFlow> flow_;
+    std::optional<ShapeCollision> collision_;
+};
+
+}  // namespace dustbench::voxel_shape

@@ -1,0 +1,133 @@
+#include "methods/voxel_shape/resolution_experiment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <numeric>
+
+#include "methods/kit/files/data_folder.h"
+#include "methods/voxel_shape/shape_builder.h"
+#include "methods/voxel_shape/shape_file.h"
+#include "methods/voxel_shape/voxel_shape.h"
+
+namespace dustbench::voxel_shape::resolution {
+namespace {
+
+constexpr std::array shapes{"bunny", "car", "figure", "helicopter"};
+constexpr int coarsest = 10, finest = 120, between = 10;
+constexpr int width = 320, height = 240;
+constexpr int settlingSteps = 12;
+constexpr std::uint32_t particlesAVoxel = 6;  // as the figure has of 40,000 in 50 voxels a side
+constexpr std::array sidesDegrees{20.0, 140.0, 260.0};
+
+/// At rest at the world's origin.
+Shape atRest(const std::string& name, int voxelsASide) {
+    Shape shape = readShape(files::findData("shape", "shapes", name, ".toml"));
+    shape.track.followsVehicle = false;
+    shape.track.keys = {{}};
+    shape.collides = false;
+    shape.resolution = voxelsASide;
+    shape.voxels.maximumDensity = particlesAVoxel;
+    shape.look.pixels = 0;  // as large as the particles are
+    return shape;
+}
+
+/// From a side, so far away that all of the mesh is in the picture.
+scene::View viewOf(const scene::Mesh& mesh, double degrees) {
+    glm::vec3 low(INFINITY), high(-INFINITY);
+    for (const glm::vec3& position : mesh.positions) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+    }
+    scene::View view;
+    view.width = width;
+    view.height = height;
+    view.camera.target = glm::dvec3(low + high) / 2.0;
+    const double distance = 1.1 * static_cast<double>(glm::length(high - low)) / view.camera.verticalFieldOfView;
+    const double around = glm::radians(degrees);
+    view.camera.eye = view.camera.target + distance * glm::dvec3(std::cos(around), 0.25, std::sin(around));
+    return view;
+}
+
+double overlapAt(const Shape& shape, const scene::Scene& scene, const Frame& frame, std::uint64_t seed,
+                 gpu::Device& device) {
+    VoxelShape method(shape);
+    method.prepare(scene, {.seed = seed}, device);
+    for (int step = 0; step < settlingSteps; ++step) method.update(frame);
+    const scene::Mesh mesh = meshOf(shape, scene);
+    double sum = 0;
+    for (const double degrees : sidesDegrees) sum += method.silhouetteOverlap(viewOf(mesh, degrees)).value_or(0);
+    return sum / static_cast<double>(sidesDegrees.size());
+}
+
+/// Mean with Student's 95 % interval; `resolved`: what the values are known to besides.
+Finding meanOf(const std::string& quantity, const std::vector<double>& values, double resolved) {
+    const auto count = static_cast<double>(values.size());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+    double squares = 0;
+    for (const double value : values) squares += (value - mean) * (value - mean);
+    const double student = values.size() == 3 ? 4.303 : 2.201;  // two degrees of freedom, or eleven
+    const double half = student * std::sqrt(squares / (count - 1) / count) + resolved;
+    return {quantity, mean, mean - half, mean + half, static_cast<std::int64_t>(values.size())};
+}
+
+}  // namespace
+
+double Curve::knee() const {
+    if (overlaps.empty()) return 0;
+    const double first = overlaps.front(), rise = overlaps.back() - first;
+    const auto across = static_cast<double>(voxelsASide.back() - voxelsASide.front());
+    std::size_t knee = 0;
+    double highest = 0;
+    for (std::size_t i = 0; i < overlaps.size(); ++i) {
+        const double line = across > 0 ? static_cast<double>(voxelsASide[i] - voxelsASide.front()) / across : 0;
+        const double above = overlaps[i] - first - rise * line;
+        if (above <= highest) continue;
+        highest = above;
+        knee = i;
+    }
+    return voxelsASide[knee];
+}
+
+Curve outlineOf(ExperimentContext& context, const std::string& shape, std::uint64_t seed) {
+    const auto world = context.world("plain", {{"particles", "10"}, {"preroll", "0"}}, width, height);
+    const Frame frame = world->step();
+    Curve curve;
+    for (int side = coarsest; side <= finest; side += between) {
+        curve.voxelsASide.push_back(side);
+        curve.overlaps.push_back(overlapAt(atRest(shape, side), world->scene(), frame, seed, context.device()));
+    }
+    return curve;
+}
+
+ExperimentInfo describe() {
+    ExperimentInfo info;
+    info.summary = "How many voxels a side a shape needs to keep the outline of its mesh.";
+    info.source = "JuckelBeckhaus2007";
+    info.run = [](ExperimentContext& context) {
+        std::vector<Finding> findings;
+        std::vector<double> allKnees, allKept;
+        for (const std::string shape : shapes) {
+            std::vector<double> knees, atFifty, atFinest;
+            for (std::uint64_t seed = context.seed(); seed < context.seed() + 3; ++seed) {
+                const Curve curve = outlineOf(context, shape, seed);
+                knees.push_back(curve.knee());
+                const auto fifty = std::ranges::find(curve.voxelsASide, 50) - curve.voxelsASide.begin();
+                atFifty.push_back(curve.overlaps[static_cast<std::size_t>(fifty)]);
+                atFinest.push_back(curve.overlaps.back());
+                allKept.push_back(atFifty.back() / atFinest.back());
+            }
+            allKnees.insert(allKnees.end(), knees.begin(), knees.end());
+            findings.push_back(meanOf("silhouette_knee_" + shape, knees, between / 2.0));
+            findings.push_back(meanOf("silhouette_at_50_" + shape, atFifty, 0));
+            findings.push_back(meanOf("silhouette_at_120_" + shape, atFinest, 0));
+        }
+        findings.push_back(meanOf("silhouette_knee", allKnees, between / 2.0));
+        findings.push_back(meanOf("silhouette_kept_at_50", allKept, 0));
+        return findings;
+    };
+    return info;
+}
+
+}  // namespace dustbench::voxel_shape::resolution

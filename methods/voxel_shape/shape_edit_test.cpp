@@ -1,0 +1,79 @@
+// Edits of a shape's file: spheres, boxes and meshes in which voxels change colour, activity or force, and are saved.
+#include <gtest/gtest.h>
+
+#include "methods/kit/testing/test_folder.h"
+#include "methods/kit/testing/test_input_error.h"
+#include "methods/kit/testing/test_moment.h"
+#include "methods/voxel_shape/shape_builder.h"
+#include "methods/voxel_shape/shape_file.h"
+
+namespace dustbench::voxel_shape {
+namespace {
+
+/// A block of 8³ voxels of 0.25 m from (−1, 0, −1) to (1, 2, 1).
+const std::string block = "description = \"\"\nparticles = 512\n[grid]\ncells = [8, 8, 8]\nedge_metres = 0.25\n";
+
+/// A closed tetrahedron: what is within x, y, z ≥ 0 and x + y + z ≤ 1.
+const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+ShapeSystem built(MemoryLedger& ledger, const std::filesystem::path& file) {
+    return buildShape(ledger, readShape(file), {}, TestMoment::device(), 1);
+}
+
+TEST(ShapeEdit, OfAMeshMeetsTheVoxelsWhoseMiddlesLieInIt) {
+    const TestFolder folder;
+    folder.write("corner.obj", tetrahedron);
+    const auto file = folder.write("world.toml", block +
+                                                     "[place]\nfollow = \"world\"\n"
+                                                     "[[edit]]\nmesh = \"corner.obj\"\nposition = [-1, 0, -1]\n"
+                                                     "scale = 1.5\ncolour = [1, 0, 0]\n");
+    MemoryLedger ledger;
+    const ShapeSystem system = built(ledger, file);
+    int red = 0;
+    for (const std::uint32_t i : system.grid().active()) {
+        const glm::vec3 p = system.grid().lattice().centre(system.grid().lattice().cell(i)) - glm::vec3(-1, 0, -1);
+        const bool within = p.x + p.y + p.z < 1.5f;
+        EXPECT_EQ(system.grid().voxels()[i].colour.colour().g < 0.01f, within) << p.x << " " << p.y << " " << p.z;
+        red += within;
+    }
+    EXPECT_GT(red, 20);
+}
+
+TEST(ShapeEdit, CarvesPaintsAndPushesAndIsSavedAndReadBack) {
+    const TestFolder folder;
+    folder.write("corner.obj", tetrahedron);
+    const std::string place = "[place]\nfollow = \"world\"\n";
+    const auto first =
+        folder.write("first.toml", "save_voxels_as = \"edited.vti\"\n" + block + place +
+                                       "[[edit]]\nmesh = \"corner.obj\"\nposition = [-1, 0, -1]\nactive = false\n"
+                                       "[[edit]]\ncentre = [0.5, 1.5, 0.5]\nradius_metres = 0.4\ncolour = [0, 0, 1]\n"
+                                       "[[edit]]\nmin = [-1, 1.5, -1]\nmax = [1, 2, 1]\n"
+                                       "force = { kind = \"gravity\", radians_per_second = 3 }\n");
+    const auto second = folder.write("second.toml", "description = \"\"\nvoxels_from = \"edited.vti\"\n" + place);
+    MemoryLedger ledger;
+    const ShapeSystem edited = built(ledger, first), again = built(ledger, second);
+    ASSERT_EQ(again.grid().active().size(), edited.grid().active().size());
+    EXPECT_LT(edited.grid().active().size(), 512u);
+    int blue = 0, pushed = 0;
+    for (const std::uint32_t i : edited.grid().active()) {
+        const Voxel &a = edited.grid().voxels()[i], &b = again.grid().voxels()[i];
+        EXPECT_EQ(a.colour.colour(), b.colour.colour());
+        EXPECT_EQ(a.forceKind(), b.forceKind());
+        EXPECT_EQ(a.force, b.force);
+        blue += a.colour.colour().r < 0.01f;
+        pushed += a.forceKind() == Force::gravity;
+    }
+    EXPECT_EQ(blue, 8) << "those about the corner in its middle; the next ones are 0.41 m away";
+    EXPECT_EQ(pushed, 2 * 64);
+}
+
+TEST(ShapeEdit, SaysThatAnOpenMeshHasNoInside) {
+    const TestFolder folder;
+    folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const auto file = folder.write("s.toml", block + "[[edit]]\nmesh = \"open.obj\"\ncolour = [1, 0, 0]\n");
+    const std::string message = inputError([&] { (void)readShape(file); });
+    EXPECT_NE(message.find("3 open edges"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace dustbench::voxel_shape
