@@ -9,7 +9,7 @@ namespace {
 
 TEST(BirthExperiment, FindsNoneInSolidsThatTheMethodKnowsAndManyInThoseItDoesNot) {
     bench::LentContext context(1);
-    const BirthReport told = driveThroughWalls(context, true, 1.4), untold = driveThroughWalls(context, false, 1.4);
+    const BirthReport told = driveThroughWalls(context, true, 3.5), untold = driveThroughWalls(context, false, 3.5);
     EXPECT_EQ(told.inSolids, 0);
     EXPECT_GT(told.births, 100'000);
     EXPECT_GT(untold.inSolids, 500);
