@@ -8,9 +8,9 @@
 
 #include "bench/claims/experiments.h"
 #include "bench/results/summary.h"
+#include "bench/suite/paper.h"
 #include "bench/suite/suite.h"
 #include "methods/contract/errors.h"
-#include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_reader.h"
 
 namespace dustbench::bench {
@@ -120,8 +120,8 @@ std::string Claim::expected() const {
 }
 
 std::vector<Claim> loadClaims(const std::string& paper) {
-    const std::filesystem::path file = files::dataFolder() / "papers" / paper / "claims.toml";
-    if (!std::filesystem::exists(file)) return {};
+    const std::filesystem::path file = paperFile(paper, "claims.toml");
+    if (file.empty()) return {};
     return readClaims(files::TomlReader::parseFile(file));
 }
 

@@ -1,6 +1,6 @@
 // What a paper says that can be measured, and the rule by which our results are held against it.
 //
-// `data/papers/<id>/claims.toml` has them; CONTRIBUTING.md names every key. A rule is a quantity of the rows of
+// `data/papers/<id>/claims.toml` has them; data/papers/README.md names every key. A rule is a quantity of the rows of
 // summary.csv, or what an experiment found, and the range of values in which the claim is true.
 #pragma once
 

@@ -9,7 +9,7 @@
 #include "bench/claims/claim_ledger.h"
 #include "bench/claims/result_rows.h"
 #include "bench/measure/statistics.h"
-#include "methods/kit/files/data_folder.h"
+#include "bench/suite/paper.h"
 
 namespace dustbench::bench {
 namespace {
@@ -56,8 +56,8 @@ TextRows tabulatePrinted(const files::CsvTable& published, const files::CsvTable
 }
 
 TextRows tabulatePrinted(const std::string& paper, const files::CsvTable& summary) {
-    const std::filesystem::path file = files::dataFolder() / "papers" / paper / "numbers.csv";
-    if (!std::filesystem::exists(file)) return {};
+    const std::filesystem::path file = paperFile(paper, "numbers.csv");
+    if (file.empty()) return {};
     return tabulatePrinted(files::CsvTable::parseFile(file), summary);
 }
 

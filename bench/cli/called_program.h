@@ -39,8 +39,10 @@ class Dustbench : public testing::Test {
     }
     void TearDown() override { fs::remove_all(folder_); }
 
-    [[nodiscard]] Called call(const std::string& arguments) const {
-        const std::string command = fmt::format("'{}' {} >'{}' 2>'{}'", DUSTBENCH_PROGRAM, arguments,
+    [[nodiscard]] Called call(const std::string& arguments) const { return callAs(DUSTBENCH_PROGRAM, arguments); }
+    /// A copy of the program.
+    [[nodiscard]] Called callAs(const std::string& program, const std::string& arguments) const {
+        const std::string command = fmt::format("'{}' {} >'{}' 2>'{}'", program, arguments,
                                                 (folder_ / "stdout").string(), (folder_ / "stderr").string());
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(folder_ / "stdout"),

@@ -34,7 +34,7 @@ struct CompareOptions {
 
 /// Throws where an option was given that only the other kind of comparison knows.
 void refuseOthers(const CompareOptions& options, bool folders) {
-    static const std::set<std::string> both{"--out", "--adapter"},
+    static const std::set<std::string> both{"--out", "--adapter", "--data"},
         ofFolders{"--columns", "--fail-on-regression", "--across-machines"};
     for (const std::string& name : options.given)
         if (!both.contains(name) && ofFolders.contains(name) != folders)
@@ -66,7 +66,7 @@ void writeSheet(const bench::Suite& suite, const bench::ResultsFolder& results) 
                             std::filesystem::exists(results.runFolder(id) / "metrics.csv")});
     }
     if (std::ranges::none_of(runs, &bench::SheetRun::judged)) {
-        std::cout << "no contact sheet: none of the runs could be held against exact pictures\n";
+        std::cout << "no contact sheet: no run could be compared with exact pictures\n";
         return;
     }
     const std::filesystem::path file = results.path() / "contact_sheet.png";
@@ -129,11 +129,11 @@ int compare(const CompareOptions& options) {
 
 Command compareCommand() {
     auto options = std::make_shared<CompareOptions>();
-    return {"compare", "Put methods, or two folders of results, side by side: times with intervals",
-            "Methods: frame times, metrics, and a contact sheet. A method may come with parameters of its own:\n"
-            "billboard:soft=true,sort=none. Runs whose results are there already are left alone.\n"
+    return {"compare", "Compare methods, or two folders of results: times with intervals",
+            "Methods: frame times, metrics and a contact sheet. A method may have parameters of its own:\n"
+            "billboard:soft=true,sort=none. Existing results are kept.\n"
             "reports/METRICS.md defines the metrics.\n"
-            "Two folders (written with a '/'): every run that is in both, times of the second over those of the\n"
+            "Two folders (written with a '/'): for every run in both, the times of the second over those of the\n"
             "first. Exit code 5: a regression; 6: not comparable.",
             [options](Arguments& arguments) {
                 arguments.requiredTexts("methods", "METHOD|DIR",
@@ -142,21 +142,21 @@ Command compareCommand() {
                 options->world.declareWorld(arguments);
                 arguments.integer("--frames", "frames to record", options->frames, 1, 10'000'000);
                 arguments.text("--moments", "A:B:STEP",
-                               "frames to judge and show, 5 or more, without B; five from first to last unless given",
+                               "frames to judge and show, 5 or more, without B; default: five from first to last",
                                options->moments);
-                arguments.integer("--repetitions", "of every run, each a fresh process; below 6 no verdict is given",
+                arguments.integer("--repetitions", "of every run, each in a new process; fewer than 6 give no verdict",
                                   options->repetitions, 1, 1000);
                 arguments.text("--out", "DIR",
-                               "folder for the results, out/compare unless given; of folders: for comparison.csv",
+                               "folder for the results, default: out/compare; for folders: where comparison.csv goes",
                                options->out);
                 arguments.text("--fail-on-regression", "PERCENT",
-                               "of folders: exit code 5 where the second is slower by more than this, or fails where "
+                               "for folders: exit code 5 if the second is slower by more than this, or fails where "
                                "the first does not",
                                options->failPercent);
                 arguments.text("--columns", "NAME,NAME…",
-                               "of folders: times or rates of summary.csv; frame_ms_median unless given",
+                               "for folders: times or rates of summary.csv; default: frame_ms_median",
                                options->columns);
-                arguments.flag("--across-machines", "of folders: compare runs of different machines or builds",
+                arguments.flag("--across-machines", "for folders: compare runs of different machines or builds",
                                options->acrossMachines);
                 arguments.givenOptions(options->given);
             },

@@ -40,7 +40,7 @@ TEST_F(CompareCommand, WritesMetricsSummaryAndContactSheetAndGoesOnWhereItWas) {
 
     const Called again = compare(both);
     EXPECT_EQ(again.code, 0);
-    EXPECT_THAT(again.err, HasSubstr("4 were there"));
+    EXPECT_THAT(again.err, HasSubstr("4 existing"));
     EXPECT_EQ(again.out, first.out);
 }
 

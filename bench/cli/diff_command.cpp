@@ -56,12 +56,12 @@ void printTable(const Differences& found, double pixelsPerDegree) {
     };
     std::cout << textTable(
         {{"metric", "value", "means"},
-         {"psnr_db", cell(found.error.psnrDb, 4), "the higher the nearer; none for identical pictures"},
-         {"ssim", cell(found.ssim.value, 6), "1: the same structure; none below 11x11 pixels"},
+         {"psnr_db", cell(found.error.psnrDb, 4), "higher is closer; none for identical pictures"},
+         {"ssim", cell(found.ssim.value, 6), "1: same structure; none below 11x11 pixels"},
          {"flip", cell(found.flip.value, 6),
-          fmt::format("0: no difference seen, 1: all; at {} pixels per degree", pixelsPerDegree)},
+          fmt::format("0: no visible difference, 1: maximum; at {} pixels per degree", pixelsPerDegree)},
          {"rmse_linear", cell(found.error.rmseLinear, 6), "of linear light; 0: no difference"},
-         {"identical", found.error.identical ? "1" : "0", "1: the display shows the same"}});
+         {"identical", found.error.identical ? "1" : "0", "1: a display shows the same"}});
 }
 
 int diff(const DiffOptions& options) {
@@ -84,15 +84,14 @@ Command diffCommand() {
     auto options = std::make_shared<DiffOptions>();
     return {
         "diff", "PSNR, SSIM, FLIP and RMSE of an image file against a reference, and a heat map",
-        "Takes what OpenImageIO reads; 8-bit files hold sRGB, .exr linear light. Both must be opaque, of one size.\n"
-        "reports/METRICS.md defines the numbers.",
+        "Reads all formats of OpenImageIO; 8-bit files are sRGB, .exr is linear. Both must be opaque and of one size.\n"
+        "reports/METRICS.md defines the metrics.",
         [options](Arguments& arguments) {
-            arguments.required("reference", "FILE", "the image that is right", options->reference);
+            arguments.required("reference", "FILE", "the reference image", options->reference);
             arguments.required("image", "FILE", "the image to judge", options->image);
             arguments.flag("--json", "an object with psnr_db, ssim, flip, rmse_linear, identical", options->json);
-            arguments.text("--out", "FILE.png", "a picture of FLIP's map: black for 0, pale yellow for 1",
-                           options->out);
-            arguments.number("--pixels-per-degree", "how finely the viewer sees the pixels, for FLIP",
+            arguments.text("--out", "FILE.png", "write FLIP's map: black for 0, pale yellow for 1", options->out);
+            arguments.number("--pixels-per-degree", "resolution at which the viewer sees the pixels, for FLIP",
                              options->pixelsPerDegree, bench::minimumPixelsPerDegree, bench::maximumPixelsPerDegree);
         },
         [options] { return diff(*options); }};

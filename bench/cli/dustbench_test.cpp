@@ -233,7 +233,7 @@ TEST_F(Dustbench, AKilledSuiteLeavesNoHalfRunAndResumes) {
     EXPECT_EQ(resumed.code, 0) << resumed.err;
     EXPECT_EQ(runs(out()).size(), 4u);
     EXPECT_EQ(files::CsvTable::parseFile(fs::path(out()) / "summary.csv").rows(), 4u);
-    EXPECT_THAT(call(fmt::format("suite {} --out {}", suite, out())).err, HasSubstr("4 were there"));
+    EXPECT_THAT(call(fmt::format("suite {} --out {}", suite, out())).err, HasSubstr("4 existing"));
 }
 
 TEST_F(Dustbench, CtrlCEndsWithTwoAndLeavesNoHalfRun) {

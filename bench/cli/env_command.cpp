@@ -34,10 +34,9 @@ void lookAtGpu(Found& found) {
         provenance.device = device.info();
         provenance.gpuTimersTrusted = gpu::timerQueriesAreTrue(device);
         if (device.isSoftware())
-            provenance.warnings.push_back(
-                "no GPU: pictures are drawn by the CPU, whose cores they share with the rest");
+            provenance.warnings.push_back("no GPU: the CPU draws the pictures, on the cores that everything else uses");
         if (!provenance.gpuTimersTrusted)
-            provenance.warnings.push_back("this OpenGL's timer queries are not true: gpu_ms stays empty");
+            provenance.warnings.push_back("timer queries of this OpenGL are wrong: gpu_ms stays empty");
     } catch (const InputError& error) {
         provenance.warnings.push_back(std::string("missing: ") + error.what());
     }
@@ -63,7 +62,7 @@ Found look() {
 /// What of the energy columns will be filled in.
 std::string energyText(const Found& found) {
     if (found.cpuEnergy) return found.gpuEnergy ? "CPU packages and GPU" : "CPU packages";
-    return found.gpuEnergy ? "GPU" : "not told by this machine: the energy columns stay empty";
+    return found.gpuEnergy ? "GPU" : "not available on this machine: the energy columns stay empty";
 }
 
 std::string json(const Found& found) {
@@ -104,11 +103,12 @@ void print(const Found& found) {
                                      provenance.device.platform));
     for (const gpu::Adapter& adapter : found.adapters) line("adapter", adapterText(adapter, provenance.device));
     line("energy", energyText(found));
-    line("clock",
-         fmt::format("{:.0f} ns a reading, {:.0f} ns a stage", provenance.clock.readingNs, provenance.clock.stageNs));
+    line("clock", fmt::format("{:.0f} ns per reading, {:.0f} ns per stage", provenance.clock.readingNs,
+                              provenance.clock.stageNs));
     if (found.harness)
-        line("harness", fmt::format("{:.1f} µs of a frame; null method {:.1f} ms a frame, {:.2f} s to the first one",
-                                    found.harness->harnessUs, found.harness->frameMs, found.harness->startSeconds));
+        line("harness",
+             fmt::format("{:.1f} µs per frame; null method: {:.1f} ms per frame, {:.2f} s to the first frame",
+                         found.harness->harnessUs, found.harness->frameMs, found.harness->startSeconds));
     line("program", fmt::format("dustbench {}{}{}", build.version, build.gitCommit.empty() ? "" : " " + build.gitCommit,
                                 build.gitDirty ? " with uncommitted changes" : ""));
     line("build", fmt::format("{} {} {}", build.buildType, build.compiler, build.flags));
@@ -119,7 +119,7 @@ void print(const Found& found) {
 
 Command envCommand() {
     auto asJson = std::make_shared<bool>(false);
-    return {"env", "What this machine is, what will disturb a measurement, what is missing", "",
+    return {"env", "Describe this machine: what it is, what disturbs measurements, what is missing", "",
             [asJson](Arguments& arguments) { arguments.flag("--json", "one object", *asJson); },
             [asJson] {
                 const Found found = look();

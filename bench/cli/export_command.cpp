@@ -50,11 +50,11 @@ int exportVolumes(const ExportOptions& options) {
     for (const std::filesystem::path& series : result.series) std::cout << series.string() << "\n";
     if (result.gridsDiffer)
         std::cerr
-            << "every frame has a grid of its own: open extinction.pvd; ParaView shows extinction.vti.series rightly "
-               "only where all grids are the same (--region)"
+            << "the frames have different grids: open extinction.pvd; ParaView shows extinction.vti.series correctly "
+               "only if all grids are the same (--region)"
             << std::endl;
     if (!result.aborted) return exitOk;
-    std::cerr << "aborted; the frames that are there are whole" << std::endl;
+    std::cerr << "aborted; the frames written so far are complete" << std::endl;
     return exitAborted;
 }
 
@@ -63,12 +63,12 @@ int exportVolumes(const ExportOptions& options) {
 Command exportCommand() {
     auto options = std::make_shared<ExportOptions>();
     return {"export", "Write a method's volumes for ParaView, Blender, Houdini …",
-            "The state at a frame is the very one that `run` has there. The files, and what they hold:\n"
-            "reports/SCHEMA.md. Prints the series: what to open.",
+            "The state in a frame is exactly the one that `run` has there. reports/SCHEMA.md describes the\n"
+            "files. Prints the series to open.",
             [options](Arguments& arguments) {
                 options->world.declare(arguments);
                 options->volumes.declareRequired(arguments);
-                arguments.required("--out", "DIR", "folder for the files; made where it is missing", options->out);
+                arguments.required("--out", "DIR", "folder for the files; created if missing", options->out);
             },
             [options] { return exportVolumes(*options); }};
 }

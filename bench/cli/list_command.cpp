@@ -62,7 +62,7 @@ int list(const ListOptions& options) {
             std::cout << kind << ":\n";
             for (const bench::CatalogueItem& item : items) printItem(item, !options.what.empty());
             if (kind == "methods" && !options.what.empty() && options.id.empty()) {
-                std::cout << "every method, from the world that it is shown:\n";
+                std::cout << "every method also has the parameters of the world:\n";
                 printParameters(bench::worldParameterList());
             }
         }
@@ -77,13 +77,12 @@ int list(const ListOptions& options) {
 Command listCommand() {
     auto options = std::make_shared<ListOptions>();
     return {
-        "list", "What there is: methods, scenes, drives, suites, experiments, metrics, parts of particle systems",
-        "`dustbench list methods` shows every parameter that -P sets, with its default and what is allowed. `dustbench "
+        "list", "List methods, scenes, drives, suites, experiments, metrics and parts of particle systems",
+        "`dustbench list methods` shows every parameter that -P sets, with its default and allowed values. `dustbench "
         "list parts` is the manual of particle systems, the files of data/particles: `size/linear` is a table [size] "
-        "with part = \"linear\" and any of the keys shown. Of life, shading and force there may be several: [[force]].",
+        "with part = \"linear\" and any of the keys shown. There may be several of life, shading and force: [[force]].",
         [options](Arguments& arguments) {
-            arguments.text("what", "",
-                           "methods, scenes, drives, suites, experiments, metrics or parts; all where left out",
+            arguments.text("what", "", "methods, scenes, drives, suites, experiments, metrics or parts; default: all",
                            options->what);
             arguments.text("id", "", "only this one", options->id);
             arguments.flag("--json", "an array of objects with `id`", options->json);

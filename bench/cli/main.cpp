@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <list>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "bench/cli/exit_codes.h"
 #include "bench/measure/provenance.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/data_folder.h"
 #include "methods/kit/gpu/device.h"
 
 namespace dustbench::cli {
@@ -21,17 +23,27 @@ std::string oneLine(std::string message) {
     return message;
 }
 
-/// `--adapter`, for this process and those that it starts.
+/// `--adapter` and `--data`, for this process and those that it starts.
 CommonOptions commonOptions() {
     auto adapter = std::make_shared<std::string>();
-    return {[adapter](Arguments& arguments) {
+    // Before the subcommand and after it: what stands first comes first.
+    auto data = std::make_shared<std::list<std::vector<std::string>>>();
+    return {[adapter, data](Arguments& arguments) {
+                arguments.texts("--data", "DIR",
+                                "folder of data to search before the delivered data; may be given several times, the "
+                                "first that has a name wins; replaces DUSTBENCH_DATA (folders separated by ':')",
+                                data->emplace_back());
                 arguments.text("--adapter", "N|NAME",
-                               "what to draw with: index or part of the name of one that `dustbench env` lists; the "
-                               "first hardware adapter unless given",
+                               "adapter to draw with: index or part of a name listed by `dustbench env`; default: the "
+                               "first hardware adapter",
                                *adapter);
             },
-            [adapter] {
+            [adapter, data] {
                 if (!adapter->empty()) gpu::askForAdapter(*adapter);
+                std::vector<std::string> folders;
+                for (const auto& given : *data) folders.insert(folders.end(), given.begin(), given.end());
+                if (!folders.empty()) files::useDataFolders("--data", folders);
+                (void)files::namedDataFolders();  // one that is missing is wrong whatever the command
             }};
 }
 

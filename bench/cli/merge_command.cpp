@@ -44,11 +44,11 @@ int mergeFolders(const MergeOptions& options) {
     bench::requireSpace(plan, results.path(), fs::space(results.path()).available);
     listenForInterruption();
     if (!bench::merge(plan, results, interrupted)) {
-        std::cerr << "aborted; the same command goes on from here" << std::endl;
+        std::cerr << "aborted; the same command resumes" << std::endl;
         return exitAborted;
     }
     sayWhereMachinesDiffer(results.runs());
-    std::cerr << fmt::format("{} copied, {} were there\n", plan.copies.size(), plan.there);
+    std::cerr << fmt::format("{} copied, {} existing\n", plan.copies.size(), plan.there);
     std::cout << (results.path() / "summary.csv").string() << "\n";
     return exitOk;
 }
@@ -57,11 +57,12 @@ int mergeFolders(const MergeOptions& options) {
 
 Command mergeCommand() {
     auto options = std::make_shared<MergeOptions>();
-    return {"merge", "Put the results of several machines into one folder",
-            "Runs that are there already are left alone; two different results of one run are refused.",
+    return {"merge", "Merge the results of several machines into one folder",
+            "Existing runs are kept; two different results of one run are refused.",
             [options](Arguments& arguments) {
-                arguments.required("--out", "DIR", "folder for all of them; made where it is missing", options->out);
-                arguments.requiredTexts("folders", "DIR", "of results: the shards of a suite", options->sources);
+                arguments.required("--out", "DIR", "folder for the merged results; created if missing", options->out);
+                arguments.requiredTexts("folders", "DIR", "folders of results: the shards of a suite",
+                                        options->sources);
             },
             [options] { return mergeFolders(*options); }};
 }

@@ -66,14 +66,14 @@ int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::
     ProgressPrinter printer;
     const bench::ExecutionResult result = bench::execute(plan, repetitions, results, execution, printer);
     if (result.aborted) {
-        std::cerr << "aborted; the same command goes on from here" << std::endl;
+        std::cerr << "aborted; the same command resumes" << std::endl;
         return exitAborted;
     }
     if (plan.size() > 1)
         std::cerr << result.done << " done, " << result.skipped << " skipped, " << result.failed << " failed, "
-                  << result.kept << " were there" << std::endl;
+                  << result.kept << " existing" << std::endl;
     if (result.outdated > 0)
-        std::cerr << "outdated: " << result.outdated << " of those that were there; --redo-outdated does them again ("
+        std::cerr << "outdated: " << result.outdated << " of the existing results; --redo-outdated re-runs them ("
                   << result.whyOutdated << ")" << std::endl;
     return result.failed > 0 ? exitRunFailed : exitOk;
 }

@@ -56,18 +56,18 @@ int report(const ReportOptions& options) {
 
 Command reportCommand() {
     auto options = std::make_shared<ReportOptions>();
-    return {"report", "Write the page of a results folder: charts, pictures, claims, machine",
-            "The page is DIR/index.html, one file; a chart is DIR/charts/ID.svg. Exit code 3 where DIR holds no run.",
+    return {"report", "Write the report of a result folder: charts, pictures, claims, machine",
+            "The report is DIR/index.html, one file; a chart is DIR/charts/ID.svg. Exit code 3 if DIR contains no run.",
             [options](Arguments& arguments) {
                 arguments.required("dir", "DIR", "a folder that `suite`, `run`, `compare` or `reproduce` wrote",
                                    options->folder);
-                arguments.flag("--text", "print the tables in place of the page", options->text);
+                arguments.flag("--text", "print the tables instead of writing the report", options->text);
                 arguments.text("--chart", "ID",
                                "one chart alone: a suite's id or its end (fig7), -stages or -quality "
                                "behind it, or frames",
                                options->chart);
-                arguments.text("--format", "svg|png|pdf", "of the chart; svg unless given", options->format);
-                arguments.number("--pictures", "megabytes of pictures in the page; those beyond are linked",
+                arguments.text("--format", "svg|png|pdf", "of the chart; default: svg", options->format);
+                arguments.number("--pictures", "megabytes of pictures in the report; further ones are linked",
                                  options->pictureMegabytes, 0, 1000);
             },
             [options] { return report(*options); }};

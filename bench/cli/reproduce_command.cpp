@@ -70,7 +70,7 @@ std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
 
 /// Says how long all that is left to do will take; false where it was interrupted.
 bool sayHowLong(std::vector<PaperWork>& work) {
-    std::cerr << "estimate: one run of each kind is begun" << std::endl;
+    std::cerr << "estimate: starting one run of each kind" << std::endl;
     std::size_t runs = 0;
     double seconds = 0;
     for (PaperWork& paper : work)
@@ -85,7 +85,7 @@ bool sayHowLong(std::vector<PaperWork>& work) {
             runs += forecast.runs;
             seconds += forecast.seconds;
         }
-    std::cerr << fmt::format("estimate: {} for {} runs; the papers' small experiments after them are not counted",
+    std::cerr << fmt::format("estimate: {} for {} runs; without the papers' small experiments that follow",
                              bench::durationText(seconds), runs)
               << std::endl;
     return true;
@@ -141,16 +141,15 @@ int reproduce(const ReproduceOptions& options) {
 
 Command reproduceCommand() {
     auto options = std::make_shared<ReproduceOptions>();
-    return {"reproduce", "Run the experiments of a paper and print what came out",
-            "Runs whose results are there already are left alone.",
+    return {"reproduce", "Run the experiments of a paper and print the results", "Existing results are kept.",
             [options](Arguments& arguments) {
-                arguments.text("--paper", "ID", "carr2006 …: a folder of data/papers; all of them unless given",
+                arguments.text("--paper", "ID", "carr2006 …: a folder of data/papers; default: all of them",
                                options->paper);
                 arguments.flag("--quick", "the suites' short forms: minutes instead of hours", options->quick);
-                arguments.flag("--full", "the whole suites (as without --quick); says first how long they will take",
+                arguments.flag("--full",
+                               "the whole suites (as without --quick); estimates first how long they will take",
                                options->full);
-                arguments.text("--out", "DIR", "folder for the results; reports/out/<paper> unless given",
-                               options->out);
+                arguments.text("--out", "DIR", "folder for the results; default: reports/out/<paper>", options->out);
             },
             [options] { return reproduce(*options); }};
 }

@@ -80,22 +80,22 @@ int run(const RunOptions& options) {
 Command runCommand() {
     auto options = std::make_shared<RunOptions>();
     return {"run", "Measure one method in one scene",
-            "Parameters with their defaults and what is allowed: `dustbench list methods`.\n"
-            "A list `a,b,c` or a range `a:b:step` (b included) makes one run of each value.",
+            "Parameters with defaults and allowed values: `dustbench list methods`.\n"
+            "A list `a,b,c` or a range `a:b:step` (including b) makes one run per value.",
             [options](Arguments& arguments) {
                 options->world.declare(arguments);
                 arguments.integer("--frames", "frames to record", options->frames, 1, 10'000'000);
                 arguments.text("--sync", "frame|stage|none",
-                               "wait for the GPU after every frame, after every stage, or keep two frames in flight",
+                               "wait for the GPU after every frame or after every stage, or keep two frames in flight",
                                options->sync);
                 arguments.integer("--images", "save every N-th frame from frame 0 on as PNG and EXR; 0: none",
                                   options->images, 0);
                 options->volumes.declareOptional(arguments);
                 arguments.flag("--metrics",
-                               "afterwards, hold five frames and the last 31 against exact pictures "
+                               "afterwards, compare five frames and the last 31 with exact pictures "
                                "(reports/METRICS.md)",
                                options->metrics);
-                arguments.required("--out", "DIR", "folder for the results; made where it is missing", options->out);
+                arguments.required("--out", "DIR", "folder for the results; created if missing", options->out);
             },
             [options] { return run(*options); }};
 }

@@ -42,10 +42,10 @@ TEST_F(Shards, MergedAreTheSuite) {
     }
     const Called merged = call(fmt::format("merge --out '{}' {}", out(), sources));
     ASSERT_EQ(merged.code, 0) << merged.err;
-    EXPECT_THAT(merged.err, HasSubstr("4 copied, 0 were there"));
+    EXPECT_THAT(merged.err, HasSubstr("4 copied, 0 existing"));
     EXPECT_EQ(files::CsvTable::parseFile(merged.out.substr(0, merged.out.size() - 1)).rows(), 4u);
-    EXPECT_THAT(call(fmt::format("merge --out '{}' {}", out(), sources)).err, HasSubstr("0 copied, 4 were there"));
-    EXPECT_THAT(call(fmt::format("{} --out '{}'", suite_, out())).err, HasSubstr("4 were there"));
+    EXPECT_THAT(call(fmt::format("merge --out '{}' {}", out(), sources)).err, HasSubstr("0 copied, 4 existing"));
+    EXPECT_THAT(call(fmt::format("{} --out '{}'", suite_, out())).err, HasSubstr("4 existing"));
 }
 
 TEST_F(Shards, BadInputIsOneLineAndExitCodeThree) {

@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include "bench/results/input_files.h"
 #include "bench/scene/world.h"
 #include "bench/suite/value_list.h"
 #include "methods/contract/errors.h"
@@ -27,9 +28,10 @@ bench::ParameterLists parseParameters(const std::vector<std::string>& texts) {
 void checkWorlds(const std::vector<bench::PlannedRun>& plan) {
     std::set<std::tuple<std::string, std::string, bench::ParameterTexts>> seen;
     for (const bench::PlannedRun& run : plan) {
-        const auto parameters = bench::resolveParameters(findMethod(run.spec.method), run.spec.parameters).world;
-        if (seen.emplace(run.spec.scene, run.spec.drive, parameters.canonical()).second)
-            const bench::World loads(run.spec.scene, run.spec.drive, parameters, run.spec.seed);
+        const auto parameters = bench::resolveParameters(findMethod(run.spec.method), run.spec.parameters);
+        (void)bench::dataFilesOf(parameters.method);
+        if (seen.emplace(run.spec.scene, run.spec.drive, parameters.world.canonical()).second)
+            const bench::World loads(run.spec.scene, run.spec.drive, parameters.world, run.spec.seed);
     }
 }
 

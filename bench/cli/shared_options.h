@@ -13,7 +13,8 @@ namespace dustbench::cli {
 /// `name=value` of every -P, in order; values may be lists and ranges. Throws InputError.
 [[nodiscard]] bench::ParameterLists parseParameters(const std::vector<std::string>& texts);
 
-/// Loads every scene and drive of the plan once, so that what is wrong with them shows before the first run.
+/// Loads every scene and drive of the plan once and finds the files that parameters name, so that what is wrong with
+/// them shows before the first run.
 /// Throws InputError.
 void checkWorlds(const std::vector<bench::PlannedRun>& plan);
 

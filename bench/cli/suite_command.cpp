@@ -133,27 +133,27 @@ Command suiteCommand() {
                 arguments.required("suite", "", "one of `dustbench list suites`, or a .toml file", options->suite);
                 arguments.required("--out", "DIR", "folder for the results; made where it is missing", options->out);
                 arguments.flag("--quick", "the suite's short form", options->quick);
-                arguments.integer("--repetitions", "of every run, each a fresh process; 0: as the suite says",
+                arguments.integer("--repetitions", "of every run, each in a new process; 0: as the suite says",
                                   options->repetitions, 0, 1000);
-                arguments.flag("--force", "do again what is there", options->force);
-                arguments.flag("--retry-failed", "do again what failed or ran out of time", options->retryFailed);
+                arguments.flag("--force", "re-run existing results", options->force);
+                arguments.flag("--retry-failed", "re-run what failed or timed out", options->retryFailed);
                 arguments.flag("--redo-outdated",
-                               "do again what another build measured, or whose input files have changed since",
+                               "re-run results of another build, or whose input files have changed since",
                                options->redoOutdated);
                 arguments.text("--order", "interleaved|batch",
-                               "repetitions as shuffled rounds over all runs, or all of a run together; as the suite "
-                               "says unless given",
+                               "repetitions in shuffled rounds over all runs, or all repetitions of a run together; "
+                               "default: as the suite says",
                                options->order);
-                arguments.number("--timeout", "seconds that one run may take; 0: as the suite says",
+                arguments.number("--timeout", "time limit of one run in seconds; 0: as the suite says",
                                  options->timeoutSeconds, 0, 1e6);
                 arguments.number("--cooldown", "seconds of rest between two runs; below 0: as the suite says",
                                  options->cooldownSeconds, -1, 3600);
                 options->volumes.declareOptional(arguments);
-                arguments.flag("--dry-run", "only print the list of runs, and what is there of them", options->dryRun);
+                arguments.flag("--dry-run", "print the list of runs and their state; run nothing", options->dryRun);
                 arguments.text("--shard", "I/N",
-                               "the I-th of N parts alone, from 1; `dustbench merge` puts their folders together",
+                               "only the I-th of N parts, from 1; `dustbench merge` joins their folders",
                                options->shard);
-                arguments.integer("--slurm", "print a script for Slurm that works through N shards and merges them",
+                arguments.integer("--slurm", "print a Slurm script that runs N shards and merges them",
                                   options->slurmShards, 0, bench::maximumShards);
             },
             [options] { return runSuite(*options); }};

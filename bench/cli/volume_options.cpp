@@ -17,12 +17,12 @@ void VolumeOptions::declareOptional(Arguments& arguments) {
 
 void VolumeOptions::declareRest(Arguments& arguments) {
     arguments.text("--format", "NAME,NAME…",
-                   "of volumes: vti (grid), htg (octree), vtp (particles), vdb (OpenVDB); vti unless given", formats_);
-    arguments.text("--resolution", "N", "cells along the longest edge of a grid, at most 2048; 128 unless given",
+                   "of volumes: vti (grid), htg (octree), vtp (particles), vdb (OpenVDB); default: vti", formats_);
+    arguments.text("--resolution", "N", "cells along the longest edge of a grid, at most 2048; default: 128",
                    resolution_);
     arguments.text("--region", "x0,y0,z0,x1,y1,z1",
-                   "what grids cover, metres; unless given, every frame's as far as its cloud reaches", region_);
-    arguments.text("--vdb-precision", "half|float", "of .vdb; half unless given", precision_);
+                   "box that the grids cover, in metres; default: the extent of each frame's cloud", region_);
+    arguments.text("--vdb-precision", "half|float", "of .vdb; default: half", precision_);
 }
 
 std::optional<bench::VolumeSettings> VolumeOptions::over(const std::optional<bench::VolumeSettings>& base) const {
@@ -32,7 +32,7 @@ std::optional<bench::VolumeSettings> VolumeOptions::over(const std::optional<ben
                                           {"--region", !region_.empty()},
                                           {"--vdb-precision", !precision_.empty()}})
             if (given)
-                throw InputError(std::string(name) + ": given without " + framesName_ + ", which says of which frames");
+                throw InputError(std::string(name) + ": given without " + framesName_ + ", which selects the frames");
         return std::nullopt;
     }
     bench::VolumeSettings settings = base.value_or(bench::VolumeSettings());

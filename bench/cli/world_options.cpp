@@ -12,13 +12,13 @@ void WorldOptions::declare(Arguments& arguments) {
 
 void WorldOptions::declareWorld(Arguments& arguments) {
     arguments.text("--scene", "ID", "one of `dustbench list scenes`, or a .toml file", scene);
-    arguments.text("--drive", "ID", "one of `dustbench list drives`, or a .csv file; the scene's own unless given",
-                   drive);
-    arguments.texts("-P", "name=value", "sets a parameter of the method or of the world", parameters);
-    arguments.integer("--warmup", "frames before frame 0, which are not recorded", warmup, 0, 10'000'000);
+    arguments.text("--drive", "ID", "one of `dustbench list drives`, or a .csv file; default: the scene's own", drive);
+    arguments.texts("-P", "name=value", "set a parameter of the method or of the world", parameters);
+    arguments.integer("--warmup", "unrecorded frames before frame 0", warmup, 0, 10'000'000);
     arguments.text("--size", "WxH", "of the picture, pixels", size);
     arguments.integer("--seed", "of all randomness", seed, 0);
-    arguments.integer("--threads", "CPU threads, a software rasteriser's too; 0: one a core", threads, 0, 1024);
+    arguments.integer("--threads", "CPU threads, including those of a software rasteriser; 0: one per core", threads, 0,
+                      1024);
 }
 
 bench::RunSpec WorldOptions::toSpec() const {

@@ -46,6 +46,16 @@ std::string ownBuildId() {
     return id;
 }
 
+/// Within a folder of data its path there, which is the same on every machine; else its absolute path.
+std::string nameOfInput(const std::filesystem::path& file) {
+    const auto whole = std::filesystem::absolute(file).lexically_normal();
+    for (const std::filesystem::path& folder : files::dataFolders()) {
+        const auto inside = whole.lexically_relative(folder.lexically_normal());
+        if (!inside.empty() && *inside.begin() != "..") return inside.generic_string();
+    }
+    return whole.generic_string();
+}
+
 }  // namespace
 
 BuildFacts buildFacts() {
@@ -73,9 +83,7 @@ std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& inpu
     std::vector<InputHash> hashes;
     const std::set<std::filesystem::path> files(inputs.begin(), inputs.end());  // a mesh may be used more than once
     for (const std::filesystem::path& file : files) {
-        const auto inside = file.lexically_normal().lexically_relative(files::dataFolder().lexically_normal());
-        const bool ours = !inside.empty() && *inside.begin() != "..";
-        hashes.push_back({ours ? inside.generic_string() : file.generic_string(), sha256OfFile(file)});
+        hashes.push_back({nameOfInput(file), sha256OfFile(file)});
     }
     return hashes;
 }

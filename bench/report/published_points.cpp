@@ -2,16 +2,16 @@
 
 #include <filesystem>
 
+#include "bench/suite/paper.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
-#include "methods/kit/files/data_folder.h"
 
 namespace dustbench::bench {
 
 std::map<std::string, std::vector<PublishedPoint>> readPublished(const std::string& paper) {
-    const std::filesystem::path file = files::dataFolder() / "papers" / paper / "published.csv";
+    const std::filesystem::path file = paperFile(paper, "published.csv");
     std::map<std::string, std::vector<PublishedPoint>> bySuite;
-    if (!std::filesystem::exists(file)) return bySuite;
+    if (file.empty()) return bySuite;
     const auto table = files::CsvTable::parseFile(file);
     for (std::size_t row = 0; row < table.rows(); ++row) {
         PublishedPoint point;

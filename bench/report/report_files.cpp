@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/shipped_folder.h"
 
 namespace dustbench::bench {
 namespace {
@@ -40,6 +41,10 @@ constexpr std::array<VegaModule, 20> vegaModules{{{"util", "util"},
                                                   {"parser", "parser"},
                                                   {"interpreter", "interpreter"}}};
 
+fs::path reportsFolder() {
+    return files::shippedFolder("reports", "share/dustbench/reports");
+}
+
 std::string textOf(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw InputError(fmt::format("'{}': cannot be read", file.string()));
@@ -49,11 +54,11 @@ std::string textOf(const fs::path& file) {
 }  // namespace
 
 std::string reportFile(std::string_view name) {
-    return textOf(fs::path(DUSTBENCH_REPORT_FOLDER) / name);
+    return textOf(reportsFolder() / "report" / name);
 }
 
 std::string schemaText() {
-    return textOf(fs::path(DUSTBENCH_REPORTS_FOLDER) / "SCHEMA.md");
+    return textOf(reportsFolder() / "SCHEMA.md");
 }
 
 std::string vegaLicence() {
@@ -64,7 +69,7 @@ std::string vegaLicence() {
 
 std::string chartSpecifications() {
     std::vector<fs::path> specifications;
-    for (const auto& entry : fs::directory_iterator(fs::path(DUSTBENCH_REPORT_FOLDER) / "charts"))
+    for (const auto& entry : fs::directory_iterator(reportsFolder() / "report" / "charts"))
         if (entry.path().extension() == ".json") specifications.push_back(entry.path());
     std::ranges::sort(specifications);
     std::string all;

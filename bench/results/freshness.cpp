@@ -10,7 +10,8 @@ namespace dustbench::bench {
 const std::string& Freshness::hashOf(const std::string& input) {
     const auto [entry, isNew] = hashes_.try_emplace(input);
     if (isNew) try {
-            entry->second = sha256OfFile(files::dataFolder() / input);  // an absolute name stays as it is
+            const std::filesystem::path file = files::dataPath(input);  // an absolute path stays as it is
+            if (!file.empty()) entry->second = sha256OfFile(file);
         } catch (const std::exception&) {
             entry->second.clear();
         }

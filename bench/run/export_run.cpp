@@ -6,6 +6,7 @@
 
 #include "bench/export/volume_exporter.h"
 #include "bench/export/whole_file.h"
+#include "bench/results/input_files.h"
 #include "bench/results/run_record.h"
 #include "bench/run/frame_runner.h"
 #include "bench/run/replay.h"
@@ -34,7 +35,7 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
     if (const std::string reason = info.cannotTake ? info.cannotTake(world.scene()) : ""; !reason.empty())
         throw InputError(fmt::format("method {} cannot take scene '{}': {}", spec.method, spec.scene, reason));
     record.drive = world.driveId();
-    record.provenance.inputs = hashInputs(world.inputFiles());
+    record.provenance.inputs = hashInputs(inputFilesOf(world, parameters.method));
 
     VolumeExporter exporter(*spec.volumes, folder);
     gpu::Device device;

@@ -9,6 +9,7 @@
 #include "bench/measure/memory_probe.h"
 #include "bench/measure/steadiness.h"
 #include "bench/results/frame_files.h"
+#include "bench/results/input_files.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/summary.h"
 #include "bench/run/frame_runner.h"
@@ -130,7 +131,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
     World world(spec.scene, spec.drive, parameters.world, spec.seed);
     record.drive = world.driveId();
-    record.provenance.inputs = hashInputs(world.inputFiles());
+    record.provenance.inputs = hashInputs(inputFilesOf(world, parameters.method));
     const int threads = oneapi::tbb::this_task_arena::max_concurrency();
 
     if (const std::string reason = info.cannotTake ? info.cannotTake(world.scene()) : ""; !reason.empty()) {

@@ -23,7 +23,7 @@ std::vector<DataEntry> listScenes() {
     std::vector<DataEntry> entries;
     for (const std::string& id : files::listData("scenes", ".toml"))
         entries.push_back({id, descriptionOr([&] {
-                               const auto file = files::dataFolder() / "scenes" / (id + ".toml");
+                               const auto file = files::findData("scene", "scenes", id, ".toml");
                                return files::TomlReader::parseFile(file).text("description");
                            })});
     return entries;
@@ -31,9 +31,10 @@ std::vector<DataEntry> listScenes() {
 
 std::vector<DataEntry> listDrives() {
     std::vector<DataEntry> entries;
-    const auto file = files::dataFolder() / "drives" / "drives.toml";
     for (const std::string& id : files::listData("drives", ".csv"))
         entries.push_back({id, descriptionOr([&]() -> std::string {
+                               const auto drive = files::findData("drive", "drives", id, ".csv");
+                               const auto file = drive.parent_path() / "drives.toml";
                                if (!std::filesystem::exists(file)) return "";
                                return files::TomlReader::parseFile(file).text(id, "");
                            })});

@@ -7,6 +7,7 @@
 #include "bench/scene/car_model.h"
 #include "bench/scene/height_image.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/meshes/mesh_file.h"
 
@@ -197,8 +198,8 @@ SceneFile readScene(const std::filesystem::path& file) {
     result.files.push_back(file);
     result.scene.id = file.stem().string();
     result.description = root.text("description");
-    result.drive = root.text("drive", "straight");
-    result.dust = root.text("dust", "wheel_dust");
+    result.drive = files::fromFile(file, root.text("drive", "straight"), ".csv");
+    result.dust = files::fromFile(file, root.text("dust", "wheel_dust"), ".toml");
     readTable(root, "terrain", [&](TomlReader& table) { readTerrain(table, folder, result); });
     readTable(root, "start", [&](TomlReader& table) {
         result.start.x = table.number("x", -far, far, 0);

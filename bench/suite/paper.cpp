@@ -1,7 +1,6 @@
 #include "bench/suite/paper.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
@@ -10,19 +9,21 @@
 namespace dustbench::bench {
 namespace fs = std::filesystem;
 
+fs::path paperFile(const std::string& id, const std::string& name) {
+    const fs::path folder = files::dataPath(fs::path("papers") / id);
+    return !folder.empty() && fs::exists(folder / name) ? folder / name : fs::path();
+}
+
 std::vector<std::string> listPapers() {
-    std::vector<std::string> ids;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(files::dataFolder() / "papers", error))
-        if (fs::exists(entry.path() / "paper.toml")) ids.push_back(entry.path().filename());
-    std::ranges::sort(ids);
+    std::vector<std::string> ids = files::listDataFolders("papers");
+    std::erase_if(ids, [](const std::string& id) { return paperFile(id, "paper.toml").empty(); });
     return ids;
 }
 
 Paper loadPaper(const std::string& id) {
     const std::vector<std::string> known = listPapers();
     if (std::ranges::find(known, id) == known.end()) throw unknownName("paper", id, known);
-    files::TomlReader file = files::TomlReader::parseFile(files::dataFolder() / "papers" / id / "paper.toml");
+    files::TomlReader file = files::TomlReader::parseFile(paperFile(id, "paper.toml"));
     Paper paper;
     paper.id = id;
     if (const std::string named = file.text("id"); named != id)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,11 @@ struct Paper {
     std::vector<std::string> experiments;  ///< statistical ones, by name
 };
 
-/// Ids of the papers in the data folder, sorted.
+/// A file of the paper's folder; empty where it has none. Papers do not mix: all files of one come from the first
+/// folder of data that has `papers/<id>`.
+[[nodiscard]] std::filesystem::path paperFile(const std::string& id, const std::string& name);
+
+/// Ids of the papers in the folders of data, sorted.
 [[nodiscard]] std::vector<std::string> listPapers();
 
 /// Throws InputError: an unknown id with the nearest, or what is wrong with its paper.toml.

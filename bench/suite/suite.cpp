@@ -6,6 +6,7 @@
 #include <map>
 
 #include "bench/suite/cell_groups.h"
+#include "bench/suite/paper.h"
 #include "bench/suite/suite_draft.h"
 #include "bench/suite/suite_fit.h"
 #include "bench/suite/suite_verdicts.h"
@@ -91,8 +92,9 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     return suite;
 }
 
-Suite readSuite(files::TomlReader file, std::string id, bool quick) {
+Suite readSuite(files::TomlReader file, const fs::path& place, std::string id, bool quick) {
     SuiteDraft draft;
+    draft.file = place;
     draft.read(file);
     Suite suite = multiplyOut(draft, true);
     if (file.has("quick")) {
@@ -140,36 +142,43 @@ std::vector<std::vector<std::size_t>> listGroups(const Suite& suite) {
 }  // namespace
 
 std::vector<SuiteFile> listSuites() {
-    std::vector<SuiteFile> suites;
-    const auto add = [&suites](const std::string& folder, const std::string& paper) {
-        for (const std::string& id : files::listData(folder, ".toml"))
-            suites.push_back({id, files::dataFolder() / folder / (id + ".toml"), paper});
+    std::map<std::string, SuiteFile> suites;  // the first of a name is the one that counts
+    const auto add = [&suites](const fs::path& folder, const std::string& paper) {
+        std::error_code error;
+        for (const auto& entry : fs::directory_iterator(folder, error)) {
+            const std::string id = entry.path().stem();
+            if (entry.path().extension() == ".toml") suites.try_emplace(id, SuiteFile{id, entry.path(), paper});
+        }
     };
-    add("suites", "");
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(files::dataFolder() / "papers", error)) {
-        const std::string paper = entry.path().filename();
-        add("papers/" + paper + "/suites", paper);
+    for (const fs::path& data : files::dataFolders()) {
+        add(data / "suites", "");
+        for (const std::string& paper : files::listDataFolders("papers"))
+            if (const fs::path folder = paperFile(paper, "suites");
+                folder.parent_path().parent_path() == data / "papers")
+                add(folder, paper);
     }
-    std::ranges::sort(suites, {}, &SuiteFile::id);
-    return suites;
+    std::vector<SuiteFile> list;
+    for (auto& [id, suite] : suites) list.push_back(std::move(suite));
+    return list;
 }
 
 Suite loadSuite(const std::string& idOrFile, bool quick) {
-    fs::path file = idOrFile;
-    if (idOrFile.find('/') == std::string::npos && !idOrFile.ends_with(".toml")) {
+    fs::path file;
+    if (files::isDataFile(idOrFile, ".toml")) {
+        file = files::findData("suite", "suites", idOrFile, ".toml");
+    } else {
         std::vector<std::string> known;
         for (const SuiteFile& suite : listSuites()) {
             known.push_back(suite.id);
             if (suite.id == idOrFile) file = suite.file;
         }
-        if (file == fs::path(idOrFile)) throw unknownName("suite", idOrFile, known);
+        if (file.empty()) throw unknownName("suite", idOrFile, known);
     }
-    return readSuite(files::TomlReader::parseFile(file), file.stem(), quick);
+    return readSuite(files::TomlReader::parseFile(file), file, file.stem(), quick);
 }
 
 Suite parseSuite(std::string_view text, const std::string& name, bool quick) {
-    return readSuite(files::TomlReader::parseText(text, name), name, quick);
+    return readSuite(files::TomlReader::parseText(text, name), {}, name, quick);
 }
 
 std::vector<PlannedRun> expandParameters(const RunSpec& base, const MethodInfo& method, const ParameterLists& lists) {

@@ -1,6 +1,6 @@
 // A list of runs from a TOML file: methods × scenes × drives × sizes × parameter values × repetitions.
 //
-// `data/suites/` and `data/papers/<id>/suites/` hold them; CONTRIBUTING.md names every key.
+// `data/suites/` and `data/papers/<id>/suites/` hold them; data/suites/README.md names every key.
 #pragma once
 
 #include <cstdint>
@@ -39,8 +39,8 @@ struct Suite {
     std::vector<PlannedFit> fits;
 };
 
-/// `id` of a suite in the data folder, or a path. `quick` takes the file's `[quick]` values. Throws InputError with
-/// file, line and what was expected.
+/// The id of a suite, or its file. Paths within a suite's file are relative to it. `quick` takes the file's `[quick]`
+/// values. Throws InputError with file, line and what was expected.
 [[nodiscard]] Suite loadSuite(const std::string& idOrFile, bool quick);
 [[nodiscard]] Suite parseSuite(std::string_view text, const std::string& name, bool quick);
 
@@ -59,7 +59,7 @@ struct SuiteFile {
     std::filesystem::path file;
     std::string paper;  ///< empty for our own
 };
-/// Every suite of the data folder, sorted by id.
+/// Every suite of the folders of data, sorted by id.
 [[nodiscard]] std::vector<SuiteFile> listSuites();
 
 }  // namespace dustbench::bench

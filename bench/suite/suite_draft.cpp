@@ -21,11 +21,20 @@ constexpr std::int64_t maximumRepetitions = 1000;
     return InputError(where + error.what());
 }
 
-std::vector<std::string> readValues(files::TomlReader& table, const std::string& name) {
+/// As it is used from the working directory: paths in a suite's file are relative to the file.
+std::string usable(const SuiteDraft& draft, const std::string& parameter, const std::string& value) {
+    for (const std::string& id : draft.methods)
+        if (const Parameter* declared = findMethod(id).parameters.find(parameter);
+            declared && !declared->fileExtension.empty())
+            return files::fromFile(draft.file, value, declared->fileExtension);
+    return value;
+}
+
+std::vector<std::string> readValues(const SuiteDraft& draft, files::TomlReader& table, const std::string& name) {
     try {
         std::vector<std::string> values;
         for (const std::string& text : table.scalars(name))
-            for (std::string& value : expandValues(name, text)) values.push_back(std::move(value));
+            for (const std::string& value : expandValues(name, text)) values.push_back(usable(draft, name, value));
         if (values.empty()) throw InputError("parameter " + name + ": no values");
         return values;
     } catch (const InputError& error) {
@@ -35,9 +44,10 @@ std::vector<std::string> readValues(files::TomlReader& table, const std::string&
 }
 
 /// Every value must suit each of the methods, or the file is wrong at this line.
-void readParameters(files::TomlReader& table, const std::vector<std::string>& methodIds, ParameterLists& lists) {
+void readParameters(const SuiteDraft& draft, files::TomlReader& table, const std::vector<std::string>& methodIds,
+                    ParameterLists& lists) {
     for (const std::string& name : table.keys()) {
-        const std::vector<std::string> values = readValues(table, name);
+        const std::vector<std::string> values = readValues(draft, table, name);
         for (const std::string& id : methodIds)
             for (const std::string& value : values) try {
                     (void)resolveParameters(findMethod(id), {{name, value}});
@@ -71,11 +81,21 @@ void readNames(files::TomlReader& table, const std::string& key, std::vector<std
     if (!table.has(key)) return;
     names = table.texts(key);
     if (names.empty()) throw InputError(table.where(key) + "key '" + key + "': got an empty array, expected names");
-    for (const std::string& name : names) try {
+    for (std::string& name : names) try {
             check(name);
         } catch (const InputError& error) {
             throw at(table.where(key), error);
         }
+}
+
+/// Names of data, or files.
+void readDataNames(const SuiteDraft& draft, files::TomlReader& table, const std::string& key,
+                   std::string_view extension, std::vector<std::string>& names) {
+    const std::string kind = key.substr(0, key.size() - 1);
+    readNames(table, key, names, [&](std::string& name) {
+        name = files::fromFile(draft.file, name, extension);
+        if (!name.empty()) (void)files::findData(kind, key, name, extension);
+    });
 }
 
 std::vector<std::string> allMethods() {
@@ -142,7 +162,7 @@ void readFinerSettings(files::TomlReader& table, SuiteDraft& draft) {
         files::TomlReader settings = perMethod.table(id);
         ParameterTexts& finer = draft.finerSettings[id];
         for (const std::string& name : settings.keys()) {
-            const std::vector<std::string> values = readValues(settings, name);
+            const std::vector<std::string> values = readValues(draft, settings, name);
             if (values.size() != 1)
                 throw InputError(
                     fmt::format("{}key '{}': got {} values, expected one", settings.where(name), name, values.size()));
@@ -165,22 +185,24 @@ void readExceptions(files::TomlReader& suite, SuiteDraft& draft) {
     for (files::TomlReader& table : suite.tables("except")) {
         Exception exception;
         exception.where = table.where("");
-        const auto names = [&](const std::string& key, const std::vector<std::string>& ofSuite) {
+        const auto names = [&](const std::string& key, const std::vector<std::string>& ofSuite,
+                               std::string_view extension = {}) {
             std::vector<std::string> chosen;
-            readNames(table, key, chosen, [&](const std::string& name) {
+            readNames(table, key, chosen, [&](std::string& name) {
+                if (!extension.empty()) name = files::fromFile(draft.file, name, extension);
                 if (std::ranges::find(ofSuite, name) == ofSuite.end())
                     throw unknownName(key.substr(0, key.size() - 1) + " of this suite", name, ofSuite);
             });
             return chosen;
         };
         exception.methods = names("methods", draft.methods);
-        exception.scenes = names("scenes", draft.scenes);
-        exception.drives = names("drives", draft.drives);
+        exception.scenes = names("scenes", draft.scenes, ".toml");
+        exception.drives = names("drives", draft.drives, ".csv");
         exception.sizes = names("sizes", draft.sizes);
         if (table.has("parameters")) {
             files::TomlReader parameters = table.table("parameters");
             for (const std::string& name : parameters.keys())
-                exception.parameters.emplace_back(name, readValues(parameters, name));
+                exception.parameters.emplace_back(name, readValues(draft, parameters, name));
             parameters.finish();
         }
         exception.afterRepetition =
@@ -197,11 +219,8 @@ void SuiteDraft::read(files::TomlReader& table) {
         if (id != "all") (void)findMethod(id);
     });
     if (std::ranges::find(methods, "all") != methods.end()) methods = allMethods();
-    readNames(table, "scenes", scenes,
-              [](const std::string& id) { (void)files::findData("scene", "scenes", id, ".toml"); });
-    readNames(table, "drives", drives, [](const std::string& id) {
-        if (!id.empty()) (void)files::findData("drive", "drives", id, ".csv");
-    });
+    readDataNames(*this, table, "scenes", ".toml", scenes);
+    readDataNames(*this, table, "drives", ".csv", drives);
     readNames(table, "sizes", sizes, [](const std::string& size) { (void)parseSize(size); });
 
     base.frames = table.integer("frames", 1, maximumFrames, base.frames);
@@ -222,7 +241,7 @@ void SuiteDraft::read(files::TomlReader& table) {
 
     if (table.has("parameters")) {
         files::TomlReader ofAll = table.table("parameters");
-        readParameters(ofAll, methods, parameters);
+        readParameters(*this, ofAll, methods, parameters);
         ofAll.finish();
     }
     if (table.has("method")) {
@@ -236,7 +255,7 @@ void SuiteDraft::read(files::TomlReader& table) {
                 methodParameters.emplace_back(id, ParameterLists{});
                 known = std::prev(methodParameters.end());
             }
-            readParameters(own, {id}, known->second);
+            readParameters(*this, own, {id}, known->second);
             own.finish();
         }
         perMethod.finish();

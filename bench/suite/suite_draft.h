@@ -1,6 +1,7 @@
 // What a suite's file says, before anything is multiplied out.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
@@ -20,6 +21,7 @@ struct Exception {
 };
 
 struct SuiteDraft {
+    std::filesystem::path file;  ///< that is read; empty: none, paths are as they are
     std::vector<std::string> methods{"all"};
     std::vector<std::string> scenes{"plain"};
     std::vector<std::string> drives{""};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 
@@ -41,6 +42,11 @@ std::optional<std::array<int, 3>> parseCells(const Parameter& parameter, std::st
     return cells;
 }
 
+bool isFile(const Parameter& parameter, std::string_view text) {
+    const std::string& extension = parameter.fileExtension;
+    return !extension.empty() && (text.find('/') != std::string_view::npos || text.ends_with(extension));
+}
+
 /// The canonical text of a value, or nothing where the declaration does not allow it.
 std::optional<std::string> canonicalText(const Parameter& parameter, std::string_view text) {
     switch (parameter.type) {
@@ -63,6 +69,7 @@ std::optional<std::string> canonicalText(const Parameter& parameter, std::string
             return std::nullopt;
         case ParameterType::choice:
             if (std::ranges::find(parameter.choices, text) != parameter.choices.end()) return std::string(text);
+            if (isFile(parameter, text)) return std::filesystem::path(text).lexically_normal().string();
             return std::nullopt;
         case ParameterType::cells: {
             const auto value = parseCells(parameter, text);
@@ -92,7 +99,7 @@ std::string Parameter::allowed() const {
     }
     std::string text;
     for (const std::string& option : choices) text += (text.empty() ? "" : "|") + option;
-    return text;
+    return fileExtension.empty() ? text : text + "|FILE" + fileExtension;
 }
 
 ParameterSet& ParameterSet::add(Parameter parameter) {
@@ -140,6 +147,12 @@ ParameterSet& ParameterSet::choice(std::string name, std::string initial, std::v
         {std::move(name), ParameterType::choice, std::move(initial), 0, 0, std::move(choices), "", std::move(help)});
 }
 
+ParameterSet& ParameterSet::dataFile(std::string name, std::string initial, std::string folder, std::string extension,
+                                     std::vector<std::string> names, std::string help) {
+    return add({std::move(name), ParameterType::choice, std::move(initial), 0, 0, std::move(names), "", std::move(help),
+                std::move(folder), std::move(extension)});
+}
+
 ParameterSet& ParameterSet::cells(std::string name, std::string initial, std::int64_t minimum, std::int64_t maximum,
                                   std::string help) {
     return add({std::move(name),
@@ -169,9 +182,12 @@ void ParameterValues::set(std::string_view name, std::string_view text) {
         throw unknownName("parameter", name, known);
     }
     const auto canonical = canonicalText(*parameter, text);
-    if (!canonical)
-        throw InputError("parameter " + std::string(name) + ": got '" + std::string(text) + "', allowed: " +
-                         parameter->allowed() + (parameter->unit.empty() ? "" : " " + parameter->unit));
+    if (!canonical) {
+        const std::string nearest = nearestName(text, parameter->choices);
+        throw InputError("parameter " + std::string(name) + ": got '" + std::string(text) + "'" +
+                         (nearest.empty() ? "" : " (did you mean '" + nearest + "'?)") +
+                         ", allowed: " + parameter->allowed() + (parameter->unit.empty() ? "" : " " + parameter->unit));
+    }
     values_.find(name)->second = *canonical;
 }
 

@@ -28,6 +28,8 @@ struct DUSTBENCH_API Parameter {
     std::vector<std::string> choices;
     std::string unit;
     std::string help;
+    /// Of a choice among files of data, which takes a file's path as well: where in data they lie, and their extension.
+    std::string dataFolder{}, fileExtension{};
 
     /// What may be given, for people: `integer 0..1000000`, `quicksort|radix|none`.
     [[nodiscard]] std::string allowed() const;
@@ -41,13 +43,16 @@ class DUSTBENCH_API ParameterSet {
     ParameterSet& real(std::string name, double initial, double minimum, double maximum, std::string unit,
                        std::string help);
     ParameterSet& boolean(std::string name, bool initial, std::string help);
-    /// One of some words, for what has no enumeration: names of files, say.
+    /// One of some words, for what has no enumeration.
     ParameterSet& choice(std::string name, std::string initial, std::vector<std::string> choices, std::string help);
     template <typename Enumeration>
     ParameterSet& choice(std::string name, std::type_identity_t<Enumeration> initial,
                          const Choices<Enumeration>& choices, std::string help) {
         return choice(std::move(name), std::string(choices.wordOf(initial)), choices.words(), std::move(help));
     }
+    /// One of the names of `data/<folder>/<name><extension>`, or a file by its path: it has a '/' or the extension.
+    ParameterSet& dataFile(std::string name, std::string initial, std::string folder, std::string extension,
+                           std::vector<std::string> names, std::string help);
     /// The size of a grid, `128x64x64`.
     ParameterSet& cells(std::string name, std::string initial, std::int64_t minimum, std::int64_t maximum,
                         std::string help);
@@ -74,6 +79,7 @@ class DUSTBENCH_API ParameterValues {
     [[nodiscard]] std::int64_t integer(std::string_view name) const;
     [[nodiscard]] double real(std::string_view name) const;
     [[nodiscard]] bool boolean(std::string_view name) const;
+    /// Of a data file too.
     [[nodiscard]] const std::string& choice(std::string_view name) const;
     [[nodiscard]] std::array<int, 3> cells(std::string_view name) const;
     /// What the choice stands for in the table that it is declared with.

@@ -1,36 +1,142 @@
 #include "methods/kit/files/data_folder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <set>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/shipped_folder.h"
 
 namespace dustbench::files {
 namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* variable = "DUSTBENCH_DATA";
+constexpr char separator = ':';
+/// What a folder of data may hold.
+constexpr std::array<const char*, 7> parts{"scenes", "drives", "particles", "textures", "shapes", "fluids", "suites"};
+
+/// Absolute, so that processes in other folders find it as well.
+fs::path checkedFolder(std::string_view option, const std::string& named) {
+    const fs::path folder = fs::absolute(named).lexically_normal();
+    if (!fs::exists(folder))
+        throw InputError(fmt::format("{}: '{}': no such folder{}", option, named, nearestBeside(folder)));
+    if (!fs::is_directory(folder))
+        throw InputError(fmt::format("{}: '{}': is a file, expected a folder of data", option, named));
+    const bool holdsData = fs::is_directory(folder / "papers") || std::ranges::any_of(parts, [&](const char* part) {
+                               return fs::is_directory(folder / part);
+                           });
+    if (!holdsData)
+        throw InputError(fmt::format("{}: '{}': holds no data, expected one or more of the folders {}, papers", option,
+                                     named, fmt::join(parts, ", ")));
+    return folder;
+}
+
+/// Calls `take` for every entry of `<folder>` in all folders of data.
+template <typename Take>
+void forEachEntry(std::string_view folder, const Take& take) {
+    for (const fs::path& data : dataFolders()) {
+        std::error_code error;
+        for (const auto& entry : fs::directory_iterator(data / folder, error)) take(entry);
+    }
+}
+
+}  // namespace
 
 fs::path dataFolder() {
-    if (const char* folder = std::getenv("DUSTBENCH_DATA"); folder && *folder) return folder;
-    return fs::path(DUSTBENCH_DATA_FOLDER);
+    return shippedFolder("data", "share/dustbench");
+}
+
+std::vector<fs::path> namedDataFolders() {
+    std::vector<fs::path> folders;
+    const char* named = std::getenv(variable);
+    std::string_view rest = named ? named : "";
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find(separator), rest.size());
+        if (end > 0) folders.push_back(checkedFolder(variable, std::string(rest.substr(0, end))));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return folders;
+}
+
+std::vector<fs::path> dataFolders() {
+    std::vector<fs::path> folders = namedDataFolders();
+    try {
+        folders.push_back(dataFolder());
+    } catch (const InputError&) {
+        if (folders.empty()) throw;
+    }
+    return folders;
+}
+
+void useDataFolders(std::string_view option, const std::vector<std::string>& folders) {
+    std::string joined;
+    for (const std::string& named : folders) {
+        const std::string folder = checkedFolder(option, named).string();
+        if (folder.find(separator) != std::string::npos)
+            throw InputError(fmt::format("{}: '{}': has a '{}' in its path, which separates folders; move or link it",
+                                         option, named, separator));
+        joined += (joined.empty() ? "" : std::string(1, separator)) + folder;
+    }
+    setenv(variable, joined.c_str(), 1);
+}
+
+fs::path dataPath(const fs::path& relative) {
+    for (const fs::path& folder : dataFolders())
+        if (fs::exists(folder / relative)) return folder / relative;
+    return {};
 }
 
 std::vector<std::string> listData(std::string_view folder, std::string_view extension) {
-    std::vector<std::string> ids;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(dataFolder() / folder, error))
-        if (entry.is_regular_file() && entry.path().extension() == extension) ids.push_back(entry.path().stem());
-    std::ranges::sort(ids);
-    return ids;
+    std::set<std::string> ids;
+    forEachEntry(folder, [&](const fs::directory_entry& entry) {
+        if (entry.is_regular_file() && entry.path().extension() == extension) ids.insert(entry.path().stem());
+    });
+    return {ids.begin(), ids.end()};
 }
 
-fs::path findData(std::string_view kind, std::string_view folder, std::string_view id, std::string_view extension) {
-    if (id.find('/') != std::string_view::npos || id.ends_with(extension)) {
-        if (!fs::is_regular_file(fs::path(id)))
-            throw InputError(std::string(kind) + " file '" + std::string(id) + "': no such file");
-        return fs::path(id);
+std::vector<std::string> listDataFolders(std::string_view folder) {
+    std::set<std::string> ids;
+    forEachEntry(folder, [&](const fs::directory_entry& entry) {
+        if (entry.is_directory()) ids.insert(entry.path().filename());
+    });
+    return {ids.begin(), ids.end()};
+}
+
+bool isDataFile(std::string_view nameOrFile, std::string_view extension) {
+    return nameOrFile.find('/') != std::string_view::npos || nameOrFile.ends_with(extension);
+}
+
+std::string fromFile(const fs::path& from, const std::string& nameOrFile, std::string_view extension) {
+    if (!isDataFile(nameOrFile, extension)) return nameOrFile;
+    return (from.parent_path() / nameOrFile).lexically_normal().string();
+}
+
+fs::path findData(std::string_view kind, std::string_view folder, std::string_view nameOrFile,
+                  std::string_view extension) {
+    if (isDataFile(nameOrFile, extension)) {
+        const fs::path file(nameOrFile);
+        if (!fs::is_regular_file(file))
+            throw InputError(fmt::format("{} file '{}': no such file{}", kind, nameOrFile, nearestBeside(file)));
+        return file;
     }
-    const std::vector<std::string> known = listData(folder, extension);
-    if (std::ranges::find(known, id) == known.end()) throw unknownName(kind, id, known);
-    return dataFolder() / folder / (std::string(id) + std::string(extension));
+    const fs::path file = dataPath(fs::path(folder) / fmt::format("{}{}", nameOrFile, extension));
+    if (file.empty()) throw unknownName(kind, nameOrFile, listData(folder, extension));
+    return file;
+}
+
+std::string nearestBeside(const fs::path& missing) {
+    std::vector<std::string> names;
+    std::error_code error;
+    const fs::path parent = missing.has_parent_path() ? missing.parent_path() : fs::path(".");
+    for (const auto& entry : fs::directory_iterator(parent, error))
+        if (entry.path().filename() != missing.filename()) names.push_back(entry.path().filename());
+    std::ranges::sort(names);
+    const std::string nearest = nearestName(missing.filename().string(), names);
+    return nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", (missing.parent_path() / nearest).string());
 }
 
 }  // namespace dustbench::files

@@ -1,0 +1,180 @@
+// Where the program finds its data: beside it, wherever it was moved, and in the folders and files that it is told.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "bench/cli/called_program.h"
+#include "bench/measure/provenance.h"
+#include "bench/results/stored_folder.h"
+
+namespace dustbench::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class Data : public Dustbench {
+ protected:
+    void SetUp() override {
+        Dustbench::SetUp();
+        unsetenv("DUSTBENCH_DATA");
+    }
+    void write(const std::string& name, const std::string& text) const {
+        fs::create_directories((folder_ / name).parent_path());
+        std::ofstream(folder_ / name) << text;
+    }
+    [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
+    /// The scene `name` in a folder of data, of another wind than any that is delivered.
+    void writeScene(const std::string& name) const { write(name, "description = \"of a test\"\nwind = [3, 0, 1]\n"); }
+    [[nodiscard]] bench::StoredRun onlyRun(const std::string& folder) const {
+        const bench::StoredRuns stored = bench::readStoredRuns(folder);
+        EXPECT_EQ(stored.size(), 1u);
+        return stored.begin()->second;
+    }
+};
+
+TEST_F(Data, OfAFolderAddNamesBeforeOrAfterTheSubcommandAndByTheEnvironment) {
+    writeScene("mine/scenes/hills.toml");
+    writeScene("theirs/scenes/lake.toml");
+    const auto expectBoth = [](const Called& listed) {
+        EXPECT_EQ(listed.code, 0) << listed.err;
+        EXPECT_THAT(listed.out, AllOf(HasSubstr("hills"), HasSubstr("lake"), HasSubstr("plain")));
+    };
+    const std::string mine = "--data " + at("mine"), theirs = "--data " + at("theirs");
+    expectBoth(call(mine + " " + theirs + " list scenes"));
+    expectBoth(call("list scenes " + mine + " " + theirs));
+    expectBoth(call(mine + " list scenes " + theirs));
+    setenv("DUSTBENCH_DATA", (at("mine") + ":" + at("theirs")).c_str(), 1);
+    expectBoth(call("list scenes"));
+    EXPECT_THAT(call("list scenes " + theirs).out, AllOf(HasSubstr("lake"), Not(HasSubstr("hills"))));
+    unsetenv("DUSTBENCH_DATA");
+}
+
+TEST_F(Data, OfAFolderReachTheProcessesOfRunsAndSuites) {
+    writeScene("mine/scenes/hills.toml");
+    write("mine/suites/hilly.toml", fmt::format("title = \"hilly\"\nmethods = [\"{}\"]\nscenes = [\"hills\"]\n"
+                                                "sizes = [\"64x48\"]\nframes = 1\nwarmup = 0\n[parameters]\n"
+                                                "preroll = 0\nparticles = 50\n",
+                                                methods().front().id));
+    const Called run = shortRun("--frames 1 --scene hills --data " + at("mine") + " --out " + at("run"));
+    ASSERT_EQ(run.code, 0) << run.err;
+    const Called suite = call("--data " + at("mine") + " suite hilly --out " + at("suite"));
+    ASSERT_EQ(suite.code, 0) << suite.err;
+    for (const char* folder : {"run", "suite"}) {
+        const bench::StoredRun stored = onlyRun(at(folder));
+        const auto isScene = [](const bench::InputHash& input) { return input.file == "scenes/hills.toml"; };
+        EXPECT_TRUE(std::ranges::any_of(stored.inputs, isScene)) << folder;
+    }
+}
+
+TEST_F(Data, OfAFolderThatIsMissingIsOneLineAndExitCodeThree) {
+    writeScene("mine/scenes/hills.toml");
+    for (const std::string& arguments :
+         {"list scenes --data " + at("mime"), "--data " + at("mime") + " list scenes",
+          "list suites --data " + at("mine") + " --data " + at("mime"), "env --data " + at("mime"),
+          "list scenes --data " + at("mine/scenes"), "list scenes --data " + at("mine/scenes/hills.toml")}) {
+        const Called called = call(arguments);
+        EXPECT_EQ(called.code, 3) << arguments;
+        EXPECT_EQ(called.out, "") << arguments;
+        EXPECT_EQ(std::ranges::count(called.err, '\n'), 1) << called.err;
+        EXPECT_THAT(called.err, HasSubstr("--data: '")) << arguments;
+    }
+    EXPECT_THAT(call("list scenes --data " + at("mime")).err, HasSubstr("did you mean '" + at("mine") + "'?"));
+    setenv("DUSTBENCH_DATA", at("mime").c_str(), 1);
+    const Called called = call("list scenes");
+    unsetenv("DUSTBENCH_DATA");
+    EXPECT_EQ(called.code, 3);
+    EXPECT_THAT(called.err, HasSubstr("DUSTBENCH_DATA: '"));
+}
+
+TEST_F(Data, LieBesideTheProgramWhereverBothAreMoved) {
+    const fs::path program = DUSTBENCH_PROGRAM, source = program.parent_path().parent_path().parent_path();
+    for (const auto& [bin, data] :
+         {std::pair{"tree/build/release", "tree/data"}, {"prefix/bin", "prefix/share/dustbench"}}) {
+        fs::create_directories(folder_ / bin);
+        for (const char* file : {"dustbench", "libdustbench_kit.so"})
+            if (fs::exists(program.parent_path() / file))
+                fs::copy_file(program.parent_path() / file, folder_ / bin / file);
+        fs::create_directories((folder_ / data).parent_path());
+        fs::copy(source / "data", folder_ / data, fs::copy_options::recursive);
+    }
+    fs::create_directories(folder_ / "tree/reports");
+    fs::copy(source / "reports" / "report", folder_ / "tree/reports/report", fs::copy_options::recursive);
+    fs::copy_file(source / "reports" / "SCHEMA.md", folder_ / "tree/reports/SCHEMA.md");
+    fs::rename(folder_ / "tree", folder_ / "moved");
+    writeScene("moved/data/scenes/only_here.toml");
+    writeScene("prefix/share/dustbench/scenes/only_here.toml");
+    for (const char* place : {"moved/build/release/dustbench", "prefix/bin/dustbench"}) {
+        const Called listed = callAs(at(place), "list scenes");
+        EXPECT_EQ(listed.code, 0) << listed.err;
+        EXPECT_THAT(listed.out, AllOf(HasSubstr("only_here"), HasSubstr("plain")));
+    }
+    const std::string moved = at("moved/build/release/dustbench");
+    const Called run = callAs(moved, "run --scene only_here --method " + methods().front().id +
+                                         " --size 64x48 --warmup 0 --frames 1 -P preroll=0 --out " + out());
+    EXPECT_EQ(run.code, 0) << run.err;
+    const Called report = callAs(moved, "report " + out());
+    EXPECT_EQ(report.code, 0) << report.err;
+    fs::remove_all(folder_ / "moved/data");
+    const Called without = callAs(moved, "list scenes");
+    EXPECT_EQ(without.code, 3);
+    EXPECT_THAT(without.err, HasSubstr("its files are missing, expected in '" + at("moved/data") + "'"));
+}
+
+TEST_F(Data, OfTheTreeAreNotNamedByTheProgramItself) {
+    if (bench::buildFacts().buildType != "Release") GTEST_SKIP() << "debug symbols name the sources";
+    const fs::path source = fs::path(DUSTBENCH_PROGRAM).parent_path().parent_path().parent_path();
+    const std::string program = contentOf(DUSTBENCH_PROGRAM);
+    const std::size_t at = program.find(source.string());
+    EXPECT_EQ(at, std::string::npos) << program.substr(at, 200).c_str();
+}
+
+TEST_F(Data, AFileStandsWhereverANameDoes) {
+    writeScene("suites/hills.toml");
+    std::ofstream(folder_ / "suites/hills.toml", std::ios::app) << "drive = \"loop.csv\"\n";
+    write("suites/loop.csv", "time_s,target_speed_mps,steer\n0,10,0\n60,10,0\n");
+    write("suites/mine.toml", fmt::format("title = \"mine\"\nmethods = [\"{}\"]\nscenes = [\"hills.toml\"]\n"
+                                          "drives = [\"\", \"./loop.csv\"]\nsizes = [\"64x48\"]\nframes = 1\n"
+                                          "warmup = 0\n[parameters]\npreroll = 0\nparticles = 50\n",
+                                          methods().front().id));
+    const Called suite = call("suite " + at("suites/mine.toml") + " --out " + out());
+    ASSERT_EQ(suite.code, 0) << suite.err;
+    EXPECT_EQ(runs(out()).size(), 2u);
+    const Called lost = call("suite " + at("suites/mime.toml") + " --out " + out());
+    EXPECT_EQ(lost.code, 3);
+    EXPECT_THAT(lost.err, AllOf(HasSubstr("no such file"), HasSubstr("mine.toml'?")));
+}
+
+/// Methods whose parameters name files of data, with such a parameter.
+std::vector<std::pair<std::string, Parameter>> fileParameters() {
+    std::vector<std::pair<std::string, Parameter>> found;
+    for (const MethodInfo& info : methods())
+        for (const Parameter& parameter : info.parameters.all())
+            if (!parameter.fileExtension.empty()) found.emplace_back(info.id, parameter);
+    return found;
+}
+
+TEST_F(Data, OfAMethodMayBeAFileThatTheRunKnowsByItsContent) {
+    const fs::path data = fs::path(DUSTBENCH_PROGRAM).parent_path().parent_path().parent_path() / "data";
+    for (const auto& [method, parameter] : fileParameters()) {
+        const fs::path delivered = data / parameter.dataFolder / (parameter.initial + parameter.fileExtension);
+        const std::string name = parameter.name + "/own" + parameter.fileExtension;
+        write(name, contentOf(delivered));
+        const std::string rest = " --size 64x48 --warmup 0 --frames 1 -P preroll=0 -P particles=50 --out ";
+        const std::string set = "run --method " + method + " -P " + parameter.name + "=";
+        const Called called = call(set + at(name) + rest + at(method));
+        ASSERT_EQ(called.code, 0) << called.err;
+        const bench::StoredRun run = onlyRun(at(method));
+        EXPECT_EQ(run.parameters.at(parameter.name), at(name));
+        const auto isFile = [&](const bench::InputHash& input) { return input.file == at(name); };
+        EXPECT_TRUE(std::ranges::any_of(run.inputs, isFile)) << method;
+        const Called lost = call(set + at(parameter.name + "/owm" + parameter.fileExtension) + rest + at("lost"));
+        EXPECT_EQ(lost.code, 3);
+        EXPECT_THAT(lost.err, AllOf(HasSubstr("no such file"), HasSubstr("own" + parameter.fileExtension)));
+        EXPECT_FALSE(fs::exists(at("lost"))) << "found before a folder is made";
+    }
+}
+
+}  // namespace
+}  // namespace dustbench::cli

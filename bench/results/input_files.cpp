@@ -1,0 +1,22 @@
+#include "bench/results/input_files.h"
+
+#include "methods/kit/files/data_folder.h"
+
+namespace dustbench::bench {
+
+std::vector<std::filesystem::path> dataFilesOf(const ParameterValues& parameters) {
+    std::vector<std::filesystem::path> files;
+    for (const Parameter& each : parameters.declared().all())
+        if (!each.fileExtension.empty())
+            files.push_back(
+                files::findData(each.name, each.dataFolder, parameters.choice(each.name), each.fileExtension));
+    return files;
+}
+
+std::vector<std::filesystem::path> inputFilesOf(const World& world, const ParameterValues& ofMethod) {
+    std::vector<std::filesystem::path> files = world.inputFiles();
+    for (std::filesystem::path& file : dataFilesOf(ofMethod)) files.push_back(std::move(file));
+    return files;
+}
+
+}  // namespace dustbench::bench

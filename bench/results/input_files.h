@@ -1,0 +1,18 @@
+// The files that a run reads.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "bench/scene/world.h"
+#include "methods/contract/parameters.h"
+
+namespace dustbench::bench {
+
+/// Files of data that a method's parameters name: a fluid, a shape. Throws InputError where one is missing.
+[[nodiscard]] std::vector<std::filesystem::path> dataFilesOf(const ParameterValues& parameters);
+
+/// The world's files and those of the method. Throws InputError where one is missing.
+[[nodiscard]] std::vector<std::filesystem::path> inputFilesOf(const World& world, const ParameterValues& ofMethod);
+
+}  // namespace dustbench::bench
