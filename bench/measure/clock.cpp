@@ -16,7 +16,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Median over rounds of the nanoseconds that one call takes.
+/// Median over several rounds of the nanoseconds per call.
 template <typename Call>
 double costNs(const Call& call) {
     constexpr int callsPerRound = 1000;
@@ -38,7 +38,7 @@ std::int64_t steadyNow() {
 
 double secondsSinceProcessStart() {
     std::ifstream file("/proc/self/stat");
-    // The second field is the program's name in brackets and may hold spaces; the 22nd is the start in ticks since
+    // The second field is the program's name in brackets and may contain spaces; the 22nd is the start in ticks since
     // boot.
     file.ignore(std::numeric_limits<std::streamsize>::max(), ')');
     std::string skipped;

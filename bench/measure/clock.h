@@ -1,23 +1,23 @@
-// The clock that everything is measured by, and what looking at it costs.
+// The clock used for all measurements, and the cost of reading it.
 //
-// Threads: pure, but for the clock itself.
+// Threads: pure, except for the clock itself.
 #pragma once
 
 #include <cstdint>
 
 namespace dustbench::bench {
 
-/// Nanoseconds of a steady clock: never set back, whatever happens to the time of day.
+/// Nanoseconds of a steady clock, unaffected by changes to the time of day.
 [[nodiscard]] std::int64_t steadyNow();
 
-/// Since this process began, in steps of the kernel's clock tick (10 ms). Throws std::runtime_error where the kernel
-/// does not tell.
+/// Age of this process, in steps of the kernel's clock tick (10 ms). Throws std::runtime_error if the kernel does not
+/// report it.
 [[nodiscard]] double secondsSinceProcessStart();
 
-/// What measuring costs here and now, median of several rounds.
+/// Overhead of measuring on this machine: the median of several rounds.
 struct ClockCost {
-    double readingNs = 0;  ///< one look at the clock
-    double stageNs = 0;    ///< one stage: its beginning and its end, without a fence
+    double readingNs = 0;  ///< one read of the clock
+    double stageNs = 0;    ///< one stage: its begin and end, without a fence
 };
 [[nodiscard]] ClockCost measureClockCost();
 

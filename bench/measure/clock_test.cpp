@@ -15,7 +15,7 @@ TEST(Clock, OneLookCostsLessThanAStage) {
 
 TEST(Clock, TheProcessGrowsOlderByWhatPasses) {
     using namespace std::chrono_literals;
-    constexpr double step = 0.011;  // the age comes in steps of 10 ms, rounded down
+    constexpr double step = 0.011;  // the process age has a resolution of 10 ms, rounded down
     const auto seconds = [](std::int64_t from, std::int64_t to) { return static_cast<double>(to - from) * 1e-9; };
     const std::int64_t beforeFirst = steadyNow();
     const double before = secondsSinceProcessStart();

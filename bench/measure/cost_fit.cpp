@@ -44,7 +44,7 @@ Line fitLine(std::span<const CostPoint> points, double k) {
     return line;
 }
 
-/// Where Σ residual² is minimum: a scan, then the golden section around its best place.
+/// The exponent that minimises Σ residual²: a scan, then a golden-section search around its best point.
 double bestExponent(std::span<const CostPoint> points) {
     const auto squares = [&](double k) { return fitLine(points, k).squares; };
     constexpr double step = 0.05;
@@ -74,7 +74,7 @@ double squaresOfConstant(std::span<const CostPoint> points) {
     return squares;
 }
 
-/// Whether two more parameters explain more than scatter would, by the F test at 5 %.
+/// F test at 5 %: whether the two extra parameters explain more than scatter.
 bool growthIsResolved(double constant, double curve, double freedom) {
     constexpr double roundOff = 1e-20;
     if (freedom < 1 || constant < roundOff * freedom) return false;
@@ -123,7 +123,7 @@ CostFit fitCost(std::span<const CostPoint> points) {
     if (!withFixed) normal[0][0] = 1;
     fit.relativeError = std::sqrt(line.squares / freedom);
 
-    // Scaled to a diagonal of ones before it is inverted: the three differ by orders of magnitude.
+    // Scaled to a unit diagonal before inversion, since the three parameters differ by orders of magnitude.
     glm::dvec3 scale;
     for (int i = 0; i < 3; ++i) scale[i] = 1 / std::sqrt(normal[i][i]);
     for (int i = 0; i < 3; ++i)

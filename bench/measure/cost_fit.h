@@ -1,12 +1,12 @@
-// How a cost grows with a load: ms = a + b·N^k, fitted to runs with several loads, with its uncertainty.
+// Fits the growth of a cost with a load, ms = a + b·N^k, to runs at several loads, with confidence intervals.
 //
-// Least squares of the relative residuals (ms_i − a − b·N_i^k) / ms_i, since times scatter in proportion to themselves;
-// a is kept at 0 or above. For a given exponent the fit is linear in a and b, so k is searched on a line. With the
-// Jacobian J at the solution, n runs and p parameters,
+// Least squares of the relative residuals (ms_i − a − b·N_i^k) / ms_i, since the scatter of times is proportional to
+// the times; a is kept at 0 or above. For a given exponent the fit is linear in a and b, so k is found by a
+// one-dimensional search. With the Jacobian J at the solution, n runs and p parameters,
 //
 //     s² = Σ residual² / (n − p),    interval of parameter i: ± t(0.975; n − p) · √(s² (JᵀJ)⁻¹_ii)
 //
-// Where the best fit has a = 0, a is no parameter (p = 2) and has no interval.
+// If the best fit has a = 0, a is not counted as a parameter (p = 2) and has no interval.
 // Units: times in ms, loads in any unit. Threads: pure. Source: Bates1988, chapter 2.
 #pragma once
 
@@ -22,7 +22,7 @@ struct CostPoint {
     double ms;
 };
 
-/// A number and half the width of its 95 % interval; NaN where there is none.
+/// A value and the half-width of its 95 % interval; NaN if undefined.
 struct Estimate {
     double value = std::numeric_limits<double>::quiet_NaN();
     double plusMinus = std::numeric_limits<double>::quiet_NaN();
@@ -35,16 +35,16 @@ struct CostFit {
     std::size_t loads = 0;
     std::size_t runs = 0;
     double relativeError = std::numeric_limits<double>::quiet_NaN();  ///< s
-    /// Why there is no fit, as a sentence without its end; empty where there is one.
+    /// Why there is no fit, as a clause without a full stop; empty if there is one.
     std::string reason{};
 };
 
-/// Exponents that are looked for; one at either end counts as none.
+/// Range of the exponent search. A best exponent at either end is rejected.
 inline constexpr double minimumExponent = 0.05;
 inline constexpr double maximumExponent = 4;
 
-/// Of any points: fewer than 4 different loads above 0, times that are no numbers above 0 and costs that do not grow
-/// with the load give a reason in place of a fit.
+/// Accepts any points. Fewer than 4 distinct loads above 0, times that are not positive numbers, or costs that do not
+/// grow with the load give a reason instead of a fit.
 [[nodiscard]] CostFit fitCost(std::span<const CostPoint> points);
 
 }  // namespace dustbench::bench

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int repetitions = 6;
 
-/// ms = a + b·N^k times a factor that scatters by `noise` as a standard deviation.
+/// ms = a + b·N^k times a random factor with standard deviation `noise`.
 std::vector<CostPoint> runs(double a, double b, double k, double noise = 0, std::uint32_t experiment = 0) {
     std::vector<CostPoint> points;
     for (const double load : {100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0, 20000.0})
@@ -51,7 +51,7 @@ TEST(CostFit, IntervalsCoverTheTruthAsOftenAsTheySay) {
         b += std::abs(fit.factor.value - 0.002) <= fit.factor.plusMinus;
         k += std::abs(fit.exponent.value - 1.05) <= fit.exponent.plusMinus;
     }
-    // 95 % of 600 is 570, with a standard deviation of 5.3; the linear approximation costs the factor a little.
+    // 95 % of 600 is 570, with a standard deviation of 5.3; b loses a little coverage to the linear approximation.
     EXPECT_NEAR(a, 570, 22);
     EXPECT_NEAR(k, 570, 22);
     EXPECT_NEAR(b, 564, 28);
@@ -78,7 +78,7 @@ TEST(CostFit, ScatterAloneIsNoGrowth) {
     int grown = 0;
     for (std::uint32_t experiment = 0; experiment < 300; ++experiment)
         grown += fitCost(runs(12, 0, 1, 0.03, experiment)).reason.empty() ? 1 : 0;
-    EXPECT_LE(grown, 30);  // the exponent is free, so a few more than 5 %
+    EXPECT_LE(grown, 30);  // the exponent is free, so slightly more than 5 %
 }
 
 TEST(CostFit, SaysWhyThereIsNone) {

@@ -12,13 +12,13 @@ namespace dustbench::bench {
 
 class EnergyMeter {
  public:
-    /// Counters may be null: the machine does not tell.
+    /// Counters may be null: not available on this machine.
     EnergyMeter(std::unique_ptr<EnergyCounter> cpu, std::unique_ptr<EnergyCounter> gpu);
 
     void resume();
     void pause();
 
-    /// Over all stretches between resume and pause; empty where the machine does not tell.
+    /// Sum over all intervals between resume and pause; empty if not available on this machine.
     [[nodiscard]] std::optional<double> cpuJoules() const { return cpu_.joules(); }
     [[nodiscard]] std::optional<double> gpuJoules() const { return gpu_.joules(); }
 

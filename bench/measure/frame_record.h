@@ -1,6 +1,6 @@
-// What is known of one recorded frame: one row of frames.csv and its rows of stages.csv.
+// The measurements of one recorded frame: one row of frames.csv and its rows of stages.csv.
 //
-// Units: as the names say.
+// Units: in the names.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@
 namespace dustbench::bench {
 
 struct FrameRecord {
-    std::int64_t frame = 0;  ///< 0 is the first recorded one
+    std::int64_t frame = 0;  ///< 0 is the first recorded frame
     double timeSeconds = 0;  ///< simulated
-    double frameMs = 0;      ///< by its own two timestamps, never the sum of the stages
+    double frameMs = 0;      ///< between the frame's own two timestamps, not the sum of the stages
     std::array<double, stageNames.size()> stageMs{};
     std::optional<double> gpuMs;
     std::int64_t particles = 0;
@@ -32,7 +32,7 @@ struct FrameRecord {
     };
     std::vector<Detail> details;
 
-    /// The part of the frame that lies in no stage: the harness's own.
+    /// The part of the frame outside all stages: the harness's own time.
     [[nodiscard]] double harnessMs() const {
         double rest = frameMs;
         for (const double ms : stageMs) rest -= ms;

@@ -8,7 +8,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// NVIDIA's management library, as far as it is needed here. It comes with the driver and is looked for at run time.
+/// The parts of NVIDIA's management library that are needed here. It comes with the driver and is loaded at run time.
 class Nvml {
  public:
     using Device = void*;
@@ -30,7 +30,7 @@ class Nvml {
     Nvml(const Nvml&) = delete;
     Nvml& operator=(const Nvml&) = delete;
 
-    /// The only device whose name the renderer contains; null where there is none or more than one.
+    /// The only device whose name the renderer contains; null if there is none or more than one.
     [[nodiscard]] Device deviceOf(const std::string& renderer) const {
         unsigned int devices = 0;
         if (!works_ || count_(&devices) != success) return nullptr;

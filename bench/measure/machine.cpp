@@ -37,7 +37,7 @@ bool hasHypervisor() {
     return false;
 }
 
-/// The eighth number of the first line: time in which the machine could have run and its host did not let it.
+/// The eighth number of the first line is steal time: the machine was runnable but the host did not run it.
 double stolenShareSinceBoot() {
     std::ifstream file("/proc/stat");
     std::string name;
@@ -50,7 +50,7 @@ double stolenShareSinceBoot() {
     return sum > 0 ? stolen / sum : 0;
 }
 
-/// As a container sees it, by either version of control groups.
+/// CPU quota of a container, from cgroups version 2 or 1.
 double quotaCores() {
     std::string quota;
     double allowed = 0, period = 0;

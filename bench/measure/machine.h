@@ -1,4 +1,4 @@
-// What this machine is, and what about it disturbs a measurement.
+// Describes this machine, and what may disturb measurements on it.
 #pragma once
 
 #include <cstdint>
@@ -7,23 +7,23 @@
 
 namespace dustbench::bench {
 
-/// Empty texts and zeros: the machine does not tell.
+/// Empty strings and zeros: unknown.
 struct Machine {
     std::string cpu;
-    std::string governor;  ///< of the first core's frequency: `performance`, `powersave` …
-    int cores = 0;         ///< that this process may use
+    std::string governor;  ///< cpufreq governor of the first core: `performance`, `powersave` …
+    int cores = 0;         ///< available to this process
     std::int64_t ramBytes = 0;
     std::string kernel;
-    double loadAverage = 0;  ///< over the last minute: runnable threads
+    double loadAverage = 0;  ///< over the last minute
     bool virtualMachine = false;
-    double stolenShare = 0;      ///< of the CPU time since boot: a virtual machine's host gave it to others
-    double quotaCores = 0;       ///< CPU time that a container may use, in cores; 0: no limit
-    std::int64_t throttled = 0;  ///< how often the first core was slowed down for its heat since boot
+    double stolenShare = 0;      ///< of the CPU time since boot, given by the host to other virtual machines
+    double quotaCores = 0;       ///< CPU limit of a container, in cores; 0: no limit
+    std::int64_t throttled = 0;  ///< number of thermal throttling events of the first core since boot
 };
 
 [[nodiscard]] Machine readMachine();
 
-/// One sentence each: what makes times measured here and now less trustworthy, and in brackets what helps.
+/// One sentence for each cause that makes timings on this machine less reliable, with a remedy in brackets.
 [[nodiscard]] std::vector<std::string> disturbances(const Machine& machine);
 
 }  // namespace dustbench::bench

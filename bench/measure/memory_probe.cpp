@@ -17,7 +17,7 @@ std::int64_t residentBytes() {
 }
 
 std::int64_t peakResidentBytes() {
-    // VmHWM belongs to this program's memory; ru_maxrss survives exec and would show the parent's peak.
+    // VmHWM is this program's own peak; ru_maxrss survives exec and would show the parent's.
     if (const auto bytes = bytesInKernelFile("/proc/self/status", "VmHWM:")) return *bytes;
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);

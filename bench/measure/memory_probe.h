@@ -1,14 +1,14 @@
-// How much memory the process holds, as the kernel counts it.
+// Memory use of this process, as counted by the kernel.
 #pragma once
 
 #include <cstdint>
 
 namespace dustbench::bench {
 
-/// Resident set of this process now, bytes.
+/// Current resident set size, in bytes.
 [[nodiscard]] std::int64_t residentBytes();
 
-/// Largest resident set of this process so far, bytes.
+/// Peak resident set size so far, in bytes.
 [[nodiscard]] std::int64_t peakResidentBytes();
 
 }  // namespace dustbench::bench

@@ -20,14 +20,14 @@ std::optional<Value> readFirst(const fs::path& file) {
     return std::nullopt;
 }
 
-/// `intel-rapl:0` is a package, `intel-rapl:0:1` a part of it, `intel-rapl-mmio:0` the same package once more.
+/// `intel-rapl:0` is a package, `intel-rapl:0:1` a part of one, `intel-rapl-mmio:0` the same package again.
 bool isZone(const std::string& name) {
     constexpr std::string_view prefix = "intel-rapl:";
     return name.starts_with(prefix) && name.size() > prefix.size() &&
            std::all_of(name.begin() + prefix.size(), name.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
-/// One package's count, which starts again at 0 when its range is full.
+/// Counter of one package; it wraps to 0 at the end of its range.
 struct Package {
     fs::path counter;
     std::int64_t range;
@@ -63,7 +63,7 @@ std::unique_ptr<EnergyCounter> packageEnergy(const fs::path& powercap) {
         if (!isZone(entry.path().filename()) || !name || !name->starts_with("package")) continue;
         const auto range = readFirst<std::int64_t>(entry.path() / "max_energy_range_uj");
         const auto now = readFirst<std::int64_t>(entry.path() / "energy_uj");
-        if (!range || !now) return nullptr;  // some packages without the others would be half the truth
+        if (!range || !now) return nullptr;  // a sum over some of the packages would be wrong
         packages.push_back({entry.path() / "energy_uj", *range, *now});
     }
     return packages.empty() ? nullptr : std::make_unique<PackageEnergy>(std::move(packages));

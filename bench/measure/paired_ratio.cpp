@@ -63,7 +63,7 @@ PairedRatio comparePaired(std::span<const double> of, std::span<const double> wi
         for (const double time : {of[i], with[i]})
             if (!(time > 0) || !std::isfinite(time))
                 throw InputError(fmt::format("paired times: got {} in pair {}, expected a number above 0", time, i));
-        // Not the logarithm of the quotient: a quotient can overflow.
+        // Not the logarithm of the quotient, which can overflow.
         logRatios.push_back(std::log(of[i]) - std::log(with[i]));
     }
     return judgeLogRatios(logRatios);

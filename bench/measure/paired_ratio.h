@@ -1,18 +1,18 @@
-// Which of two ways takes less time, judged from paired runs: the ratio of their times, its interval and a verdict.
+// Compares the times of two alternatives from paired runs: their ratio, its interval and a verdict.
 //
-// The i-th times of both were measured in the same round, so that a drift of the machine hits both and cancels in their
+// The i-th times of both were measured in the same round, so drift of the machine affects both and cancels in their
 // ratio. With x_i = ln(of_i / with_i), mean x̄ and standard deviation s over n pairs, the 95 % interval of the ratio is
 //
 //     exp( x̄ ± t(0.975; n − 1) · s / √n )
 //
-// The margin δ = 2 % reaches from 1/(1 + δ) to 1 + δ, which is ± ln(1 + δ) for x: exchanging the two mirrors
-// everything.
+// The margin δ = 2 % reaches from 1/(1 + δ) to 1 + δ, which is ± ln(1 + δ) for x: the verdicts are symmetric under
+// exchange of the two.
 //     FASTER       the interval lies wholly below 1/(1 + δ): `of` takes less time
 //     SLOWER       wholly above 1 + δ
 //     SAME         wholly within the margin, its ends included
-//     UNRESOLVED   anything else, and whatever fewer than 6 pairs show
-// Of two ways that take the same time, one is called FASTER in at most 1 of 20 comparisons however noisy they are; in
-// fewer than 1 of 40 where the single ratios scatter by 5 % or less.
+//     UNRESOLVED   anything else, and always for fewer than 6 pairs
+// Two alternatives of equal speed give FASTER in at most 1 of 20 comparisons, however noisy they are, and in fewer than
+// 1 of 40 if the single ratios scatter by 5 % or less.
 //
 // Units: times in any unit, the same for both. Threads: pure. Source: Student1908.
 #pragma once
@@ -40,14 +40,13 @@ struct PairedRatio {
     Verdict verdict = Verdict::unresolved;
 };
 
-/// Times of one way against those of the other, pair by pair. Throws InputError where they are not equally many, or a
-/// time is not a number above 0.
+/// Compares times pair by pair. Throws InputError if the counts differ, or a time is not a positive number.
 [[nodiscard]] PairedRatio comparePaired(std::span<const double> of, std::span<const double> with);
 
-/// The same from the pairs' ln(of / with).
+/// The same, given ln(of / with) of each pair.
 [[nodiscard]] PairedRatio judgeLogRatios(std::span<const double> logRatios);
 
-/// From the logarithms of an interval's ends and the margin, as above; how many times stand behind it is not asked.
+/// Verdict from the logarithms of an interval's ends and the margin, as above. Does not check the number of pairs.
 [[nodiscard]] Verdict judgeInterval(double lowLog, double highLog);
 
 /// The p-quantile (0 < p < 1) of Student's t distribution.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int experiments = 2000;
 
-/// A standard normal number (Box and Muller's transform) of a simulated experiment.
+/// A standard normal number (Box–Muller) of a simulated experiment.
 double normal(std::uint32_t stream, int experiment, std::size_t serial) {
     const auto words = maths::randomWords(11, stream, serial, static_cast<std::uint32_t>(experiment));
     const double u = (words[0] + 0.5) * 0x1p-32;
@@ -29,8 +29,8 @@ struct Times {
     std::vector<double> of, with;
 };
 
-/// `pairs` rounds of a slow machine and a fast one: each round drifts by a factor of its own, each time scatters, the
-/// ratio of a pair by `noise` as a standard deviation of its logarithm.
+/// `pairs` rounds of two alternatives. Each round drifts by its own factor, each time scatters; the logarithm of a
+/// pair's ratio has standard deviation `noise`.
 Times simulate(int experiment, std::size_t pairs, double ratio, double noise, double drift = 0.3) {
     Times times;
     for (std::size_t i = 0; i < pairs; ++i) {
@@ -88,7 +88,7 @@ TEST(PairedRatio, EqualsTheClosedFormOfKnownLogRatios) {
 
 TEST(PairedRatio, TheVerdictFollowsFromIntervalAndMargin) {
     const auto verdictOf = [](double low, double high) {
-        // Six logarithms whose interval has just these ends: mean ± h, three of each, so that s/√6 = h/√5.
+        // Six logarithms whose interval has exactly these ends: mean ± h, three of each, so that s/√6 = h/√5.
         const double mean = (std::log(low) + std::log(high)) / 2;
         const double h = (std::log(high) - std::log(low)) / 2 * std::sqrt(5.0) / studentQuantile(0.975, 5);
         return judgeLogRatios(std::vector{mean - h, mean + h, mean - h, mean + h, mean - h, mean + h}).verdict;
@@ -158,7 +158,7 @@ TEST(PairedRatio, TheIntervalHoldsTheTruthInNineteenOfTwenty) {
         const int held = countExperiments(pairs, truth, 0.1, [truth](const PairedRatio& result) {
             return result.low <= truth && truth <= result.high;
         });
-        // Three standard deviations of a count of 2000 with p = 0.95 are 29.
+        // Three standard deviations of a binomial count of 2000 with p = 0.95 are 29.
         EXPECT_NEAR(held, 0.95 * experiments, 29) << pairs << " pairs";
     }
 }
@@ -169,7 +169,7 @@ TEST(PairedRatio, AMethodAgainstItselfIsSeldomCalledFasterOrSlower) {
     };
     for (const double noise : {0.002, 0.01, 0.02, 0.05})
         EXPECT_LE(countExperiments(6, 1, noise, wrong), experiments / 40) << noise;
-    // However noisy: at most 1 of 20, and three standard deviations of the count.
+    // At any noise: at most 1 of 20, plus three standard deviations of the count.
     EXPECT_LE(countExperiments(6, 1, 0.5, wrong), experiments / 20 + 29);
 }
 

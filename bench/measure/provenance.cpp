@@ -17,7 +17,7 @@ namespace dustbench::bench {
 
 namespace {
 
-/// The note NT_GNU_BUILD_ID that the linker left in the program.
+/// The NT_GNU_BUILD_ID note that the linker wrote into the program.
 std::string ownBuildId() {
     std::string id;
     const auto lookAt = [](dl_phdr_info* object, std::size_t, void* result) {

@@ -1,4 +1,4 @@
-// Where a result comes from: the program, the machine, the inputs and the hour.
+// Provenance of a result: the program, the machine, the inputs and the time.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace dustbench::bench {
 
-/// How this program was built. The commit is empty where it was built outside git.
+/// How this program was built. The commit is empty if it was built outside git.
 struct BuildFacts {
     std::string version;
     std::string gitCommit;
@@ -20,7 +20,7 @@ struct BuildFacts {
     std::string compiler;
     std::string flags;
     std::string buildType;
-    std::string buildId;  ///< of the program file, hexadecimal: another build, another id; empty: the linker gave none
+    std::string buildId;  ///< of the program file, hexadecimal, unique to each build; empty if the linker wrote none
 };
 [[nodiscard]] BuildFacts buildFacts();
 
@@ -33,7 +33,7 @@ struct Provenance {
     std::vector<std::string> argv;
     BuildFacts build;
     Machine machine;
-    gpu::DeviceInfo device;  ///< empty texts where no device was made
+    gpu::DeviceInfo device;  ///< empty strings if no device was created
     bool gpuTimersTrusted = false;
     ClockCost clock;
     std::vector<InputHash> inputs;
@@ -41,10 +41,10 @@ struct Provenance {
     std::vector<std::string> warnings;
 };
 
-/// Now, for this process; device, timers and inputs are added by whoever knows them.
+/// Facts known at the start of this process. The caller adds device, timers and inputs.
 [[nodiscard]] Provenance startProvenance(std::vector<std::string> argv);
 
-/// Paths inside the data folder are named relative to it, so that results of two checkouts compare equal.
+/// Paths inside the data folder are stored relative to it, so that results from two checkouts compare equal.
 [[nodiscard]] std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& files);
 
 /// The command line of this process.

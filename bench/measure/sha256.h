@@ -1,4 +1,4 @@
-// SHA-256, to name inputs and runs by their content: what `sha256sum` prints.
+// SHA-256, to identify inputs and runs by their content: the digest that `sha256sum` prints.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@ namespace dustbench::bench {
 /// 64 hexadecimal digits.
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
-/// Of a file's content; empty where it cannot be read.
+/// Digest of a file's content; empty if it cannot be read.
 [[nodiscard]] std::string sha256OfFile(const std::filesystem::path& file);
 
 }  // namespace dustbench::bench

@@ -1,4 +1,4 @@
-// Measures the stages of one frame after the other: each stage's own time, without that of the stages nested in it.
+// Measures the stages of a frame: each stage's own time, excluding the stages nested in it.
 //
 // Units: nanoseconds of a steady clock. Threads: the one that runs the frame.
 #pragma once
@@ -17,17 +17,17 @@ namespace dustbench::bench {
 class StageRecorder : public StageListener {
  public:
     struct Detail {
-        Stage stage;  ///< within which it was measured first
+        Stage stage;  ///< in which it was first measured
         std::string_view name;
-        std::int64_t ns = 0;  ///< summed over the frame, without the details nested in it
+        std::int64_t ns = 0;  ///< summed over the frame, excluding the details nested in it
     };
 
     explicit StageRecorder(std::function<std::int64_t()> now = steadyNow) : now_(std::move(now)) {}
 
-    /// Called before the time of every transition is taken, so that queued work counts for the stage that queued it.
+    /// Called before the timestamp of each transition, so that queued work counts for the stage that queued it.
     void setFence(std::function<void()> fence) { fence_ = std::move(fence); }
 
-    /// Forgets the last frame.
+    /// Discards the last frame.
     void clear();
 
     void begin(Stage stage) override;

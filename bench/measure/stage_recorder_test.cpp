@@ -7,7 +7,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// A clock that stands still unless told to go on.
+/// A clock that only advances when told to.
 struct FakeTime {
     std::int64_t now = 1'000;
     StageRecorder recorder{[this] { return now; }};
@@ -35,7 +35,7 @@ TEST(StageRecorder, GivesANestedStageItsOwnTimeAlone) {
         }
         time.now += 6;
     }
-    time.now += 1'000;  // between stages: nobody's
+    time.now += 1'000;  // between stages: not counted
     {
         const auto draw = time.clock.measure(Stage::draw);
         time.now += 3;

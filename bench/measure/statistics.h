@@ -1,6 +1,6 @@
-// What a run's frame times are summed up to.
+// Summary statistics of a run's frame times.
 //
-// All functions give NaN for no values.
+// All functions return NaN for no values.
 #pragma once
 
 #include <span>
@@ -16,12 +16,12 @@ namespace dustbench::bench {
 [[nodiscard]] double minimum(std::span<const double> values);
 [[nodiscard]] double maximum(std::span<const double> values);
 
-/// FPS = n·1000 / Σms: frames over the time they took, not the mean of their rates.
+/// FPS = n·1000 / Σms: frames divided by the time they took, not the mean of their rates.
 [[nodiscard]] double averageFps(std::span<const double> frameMs);
 
-/// 1 % low, weighted by time: 1000 / t, where the frames of t ms and longer take up 1 % of the time. Slowest first, t
-/// is the frame with which the running sum reaches `share` of Σms. (By count, one long stall among thousands would not
-/// show.)
+/// 1 % low, weighted by time: 1000 / t, where the frames of t ms and longer take 1 % of the total time. Counting from
+/// the slowest frame, t is the frame at which the running sum reaches `share` of Σms. (Weighted by count, one long
+/// stall among thousands of frames would not show.)
 [[nodiscard]] double lowFps(std::span<const double> frameMs, double share = 0.01);
 
 }  // namespace dustbench::bench

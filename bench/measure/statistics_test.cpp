@@ -32,7 +32,7 @@ TEST(Statistics, OnePercentLowWeighsByTime) {
     std::vector<double> frames(9'900, 10.0);
     frames.push_back(1'000);
     EXPECT_DOUBLE_EQ(lowFps(frames), 1);
-    // Half as long: 0.5 % of the time, so that the 1 % reaches into the ordinary frames.
+    // Half as long: 0.5 % of the time, so the 1 % includes ordinary frames.
     frames.back() = 500;
     EXPECT_DOUBLE_EQ(lowFps(frames), 100);
     // Equal frames: the low is the average.

@@ -28,7 +28,7 @@ double standardDeviation(std::span<const double> values, double middle) {
     return 1.4826 * median(distances);
 }
 
-/// Leaves the frames that are no stalls.
+/// Removes stalled frames from `frames`.
 std::optional<std::string> takeStalls(std::vector<double>& frames) {
     const double middle = median(frames);
     const double limit = std::max(1.5 * middle, middle + 8 * standardDeviation(frames, middle));
@@ -53,7 +53,7 @@ std::optional<std::string> warmUp(std::span<const double> first, std::span<const
 }
 
 std::optional<std::string> drift(std::span<const double> frames) {
-    // At most so many, evenly.
+    // At most `maximumRanked` frames, evenly spaced.
     std::vector<double> y;
     const std::size_t step = (frames.size() + maximumRanked - 1) / maximumRanked;
     for (std::size_t i = 0; i < frames.size(); i += step) y.push_back(frames[i]);
@@ -76,7 +76,7 @@ std::optional<std::string> twoSpeeds(std::span<const double> frames) {
     std::ranges::sort(sorted);
     const double total = std::accumulate(sorted.begin(), sorted.end(), 0.0);
     const auto n = static_cast<double>(sorted.size());
-    // The minimum sum of squares within is the maximum between: n₁·n₂·(μ₁ − μ₂)².
+    // Minimising the sum of squares within groups maximises that between them: n₁·n₂·(μ₁ − μ₂)².
     std::size_t split = 1;
     double best = -1, below = 0;
     for (std::size_t k = 1; k < sorted.size(); ++k) {

@@ -31,7 +31,7 @@ UnpairedRatio compareUnpairedLogs(std::span<const double> ofLogs, std::span<cons
 
     const auto n = static_cast<double>(ofLogs.size()), m = static_cast<double>(withLogs.size());
     const double a = squaredError(ofLogs, x), b = squaredError(withLogs, y);
-    // Times that do not scatter at all have no ν, and need none: their interval is a point.
+    // Times without any scatter have no ν and need none: their interval is a point.
     result.degreesOfFreedom = a + b > 0 ? (a + b) * (a + b) / (a * a / (n - 1) + b * b / (m - 1)) : n + m - 2;
     const double half = studentQuantile((1 + intervalConfidence) / 2, result.degreesOfFreedom) * std::sqrt(a + b);
     result.low = std::exp(x - y - half);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int experiments = 10'000;
 
-/// `count` normal logarithms (Box and Muller's transform) of a simulated experiment.
+/// `count` normal logarithms (Box–Muller) of a simulated experiment.
 std::vector<double> simulate(std::uint32_t stream, int experiment, std::size_t count, double mean, double deviation) {
     std::vector<double> logs(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -73,15 +73,15 @@ TEST(UnpairedRatio, TheIntervalHoldsTheTruthInNineteenOfTwenty) {
         const double held = shareOfExperiments(design, truth, [truth](const UnpairedRatio& result) {
             return std::log(result.low) <= truth && truth <= std::log(result.high);
         });
-        // Welch's interval is an approximation: within 0.5 % of 95 % for six and more, and three standard deviations of
-        // a share of 10,000 are 0.65 %.
+        // Welch's interval is an approximation: its coverage is within 0.5 % of 95 % for six times or more, and three
+        // standard deviations of a share of 10,000 are 0.65 %.
         EXPECT_NEAR(held, 0.95, 0.0115) << design.n << " " << design.m << " " << design.withDeviation;
     }
 }
 
 TEST(UnpairedRatio, PoolingTheScatterWouldNotHoldTheTruth) {
-    // Why Welch's interval and not Student's of two means: with few noisy times against many steady ones, the pooled
-    // deviation is far too small.
+    // Why Welch's interval and not the pooled Student interval: with few noisy times against many steady ones, the
+    // pooled deviation is far too small.
     int held = 0;
     for (int experiment = 0; experiment < experiments; ++experiment) {
         const std::vector<double> of = simulate(1, experiment, 6, 0, 0.1), with = simulate(2, experiment, 20, 0, 0.02);

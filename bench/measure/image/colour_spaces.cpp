@@ -10,10 +10,10 @@ glm::dvec3 whole(double x, double y) {
     return {x / y, 1, (1 - x - y) / y};
 }
 
-/// D65 by its five-digit chromaticity.
+/// D65, from its five-digit chromaticity.
 const glm::dvec3 white = whole(0.31271, 0.32902);
 
-/// The primaries' brightnesses are those that add up to white: M = P·diag(P⁻¹·w).
+/// The primaries' luminances sum to white: M = P·diag(P⁻¹·w).
 glm::dmat3 xyzOfPrimaries() {
     const glm::dmat3 primaries(whole(0.64, 0.33), whole(0.30, 0.60), whole(0.15, 0.06));
     const glm::dvec3 brightness = glm::inverse(primaries) * white;

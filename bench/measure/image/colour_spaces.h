@@ -1,4 +1,4 @@
-// Colour as the eye orders it: CIELAB of linear sRGB, and the linear opponent space in which FLIP blurs.
+// Perceptual colour spaces: CIELAB from linear sRGB, and the linear opponent space in which FLIP blurs.
 //
 //     X, Y, Z = M · (R, G, B)       M from the primaries of sRGB and the white point D65
 //     CIELAB:   L* = 116 f(Y/Yw) − 16,  a* = 500 (f(X/Xw) − f(Y/Yw)),  b* = 200 (f(Y/Yw) − f(Z/Zw))

@@ -1,4 +1,4 @@
-// The flaw metrics where their value can be told by hand.
+// The flaw metrics in cases whose value can be computed by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ Plane even(int width, int height, double value) {
     return planeOf(width, height, [=](int, int) { return value; });
 }
 
-/// A picture of even encoded brightness.
+/// A picture with uniform encoded brightness.
 Picture greyPicture(float encoded) {
     return pictureOf(20, 10, [=](int, int, int) { return maths::decodeSrgb(encoded); });
 }
@@ -39,7 +39,7 @@ TEST(FlawMetrics, AreEmptyWhereNoDustIsInView) {
 }
 
 TEST(Popping, IsTheJumpThatTheReferenceHasNot) {
-    // The method's picture jumps by 0.3, the reference's by 0.1, dust covers a part of it.
+    // The method's picture jumps by 0.3, the reference's by 0.1; dust covers part of the picture.
     const Plane dust = planeOf(20, 10, [](int x, int) { return x < 5 ? 0.5 : 0.0; }), none(20, 10);
     const Picture a = greyPicture(0.4f), b = greyPicture(0.7f), c = greyPicture(0.5f);
     const Measured jump = popping({a, a, dust, dust}, {b, c, dust, dust});
@@ -48,7 +48,7 @@ TEST(Popping, IsTheJumpThatTheReferenceHasNot) {
     EXPECT_EQ(jump.map.at(5, 3), 0);
     // Dust in one of the four alphas is enough.
     EXPECT_NEAR(*popping({a, a, none, none}, {b, c, none, dust}).value, 0.2, 1e-6);
-    // What both do alike is motion.
+    // A change that both share is motion, not popping.
     EXPECT_EQ(popping({a, a, dust, dust}, {b, b, dust, dust}).value, 0);
 }
 
@@ -98,7 +98,7 @@ TEST(Components, CountsPartsThatTouchByEdgesOrCorners) {
     // Two squares of 5×5 that share a corner, and the same with a pixel between them.
     EXPECT_EQ(parts([](int x, int y) { return x < 10 && y < 10 && x / 5 == y / 5; }), 1);
     EXPECT_EQ(parts([](int x, int y) { return (x < 5 && y < 5) || (x > 5 && x < 11 && y >= 5 && y < 10); }), 2);
-    // A ring round a disc.
+    // A ring around a disc.
     EXPECT_EQ(parts([](int x, int y) {
                   const double b = std::hypot(x - 20, y - 10);
                   return b < 4 || (b > 6 && b < 9);
@@ -119,15 +119,15 @@ TEST(Components, NumbersThePartsAndCountsTheReferencesOwn) {
 }
 
 TEST(Cutoff, OfAHardStepIsItsHeightOverTheRootOfTheRows) {
-    // Dust of α = 0.6 everywhere; the method cuts it off from row 12 on, the reference leaves it. One row of the 19
-    // that have a lower neighbour holds the step: RMS = 0.6·√(1/19).
+    // Dust of α = 0.6 everywhere; the method cuts it off from row 12 on, the reference does not. Of the 19 rows that
+    // have a lower neighbour, one holds the step: RMS = 0.6·√(1/19).
     const Plane whole = even(30, 20, 0.6);
     const Plane cut = planeOf(30, 20, [](int, int y) { return y < 12 ? 0.6 : 0.0; });
     const Measured edge = cutoff(cut, whole, whole, whole);
     EXPECT_NEAR(*edge.value, 0.6 * std::sqrt(1.0 / 19), 1e-6);
     EXPECT_NEAR(edge.map.at(4, 11), 0.6, 1e-6);
     EXPECT_EQ(edge.map.at(4, 10), 0);
-    // Empty picture around it changes nothing.
+    // An empty border has no effect.
     const auto within = [](int width, const Plane& plane) {
         return planeOf(width, 60, [&](int x, int y) { return x < 30 && y < 20 ? plane.at(x, y) : 0.0f; });
     };
@@ -136,7 +136,7 @@ TEST(Cutoff, OfAHardStepIsItsHeightOverTheRootOfTheRows) {
         return cutoff(within(width, cut), free, free, free).value;
     };
     EXPECT_EQ(valueIn(40), valueIn(400));
-    // An edge that the reference has too is none.
+    // An edge that the reference also has does not count.
     EXPECT_EQ(cutoff(cut, whole, cut, whole).value, 0);
 }
 
@@ -159,7 +159,7 @@ double similarityOf(const std::vector<TestPuff>& drawn, std::uint64_t seed = 1) 
 }
 
 TEST(SelfSimilarity, IsNearOneForOneTextureAtAnySizeAndPlace) {
-    // Shifted frames share a little of the same detail, at random: what they take off is small.
+    // Shifted frames contain some of the same detail by chance, so they subtract a little.
     EXPECT_NEAR(similarityOf(grid(16, 3)), 1, 0.1);
     std::vector<TestPuff> sizes = grid(16, 3);
     for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -194,7 +194,7 @@ TEST(SelfSimilarity, TakesPuffsThatAreLargeEnoughAndWhollyInView) {
 }
 
 TEST(SelfSimilarity, DrawsLotsAmongMany) {
-    // Every third of 6,000 primitives shows the texture: 1 of 9 pairs of any fair sample is alike.
+    // Every third of 6,000 primitives shows the texture: in any fair sample, 1 of 9 pairs is alike.
     const std::vector<TestPuff> puffs = grid(16, 3);
     std::vector<TestPuff> plain = grid(16, -1);
     std::vector<ScreenPrimitive> many;

@@ -55,9 +55,9 @@ Opponent opponentOf(const Picture& picture) {
     return result;
 }
 
-/// What the eye still tells apart. All kernels reach as far as 3σ of the widest. That of blue and yellow is a sum of
-/// two Gaussians; each is a product of a row and a column, so with w their weights and S the sums of their samples
-/// along a row: k = Σ wS²·(g ⊗ g) / Σ wS², with g summing to 1.
+/// The visible part of a picture. All kernels extend to 3σ of the widest. The blue–yellow kernel is a sum of two
+/// Gaussians; each is separable, so with w their weights and S the sums of their samples along a row: k = Σ wS²·(g ⊗ g)
+/// / Σ wS², with g summing to 1.
 Opponent seen(const Opponent& picture, double pixelsPerDegree) {
     const int radius = static_cast<int>(std::ceil(3 * blueYellowNarrow.sigmaDegrees() * pixelsPerDegree));
     const auto kernel = [&](const Sensitivity& term) {
@@ -80,7 +80,7 @@ Opponent seen(const Opponent& picture, double pixelsPerDegree) {
             std::move(blueYellow)};
 }
 
-/// CIELAB with chroma scaled by lightness: colours look less colourful in the dark (Hunt's effect).
+/// CIELAB with chroma scaled by lightness: colours look less colourful in the dark (Hunt effect).
 glm::vec3 huntLab(glm::vec3 linear) {
     const glm::vec3 lab = labFromLinear(linear);
     return {lab.x, 0.01f * lab.x * lab.y, 0.01f * lab.x * lab.z};
@@ -92,9 +92,9 @@ float colourDistance(glm::vec3 a, glm::vec3 b) {
     return std::pow(distance, static_cast<float>(colourExponent));
 }
 
-/// ΔE_c of two blurred colours: the large differences, which few pixels have, get the upper 5 % of the range.
+/// ΔE_c of two blurred colours. Large differences, which few pixels have, map to the upper 5 % of the range.
 float colourError(glm::vec3 referenceOpponent, glm::vec3 pictureOpponent) {
-    if (referenceOpponent == pictureOpponent) return 0;  // most of a frame: spares its cube roots and powers
+    if (referenceOpponent == pictureOpponent) return 0;  // most of a frame: saves cube roots and powers
     static const float largest = colourDistance(huntLab({0, 1, 0}), huntLab({0, 0, 1}));
     constexpr auto top = static_cast<float>(kneeOfError);
     const float knee = static_cast<float>(kneeOfColour) * largest;
@@ -104,7 +104,7 @@ float colourError(glm::vec3 referenceOpponent, glm::vec3 pictureOpponent) {
     return std::min(1.0f, top + (distance - knee) / (largest - knee) * (1 - top));
 }
 
-/// A Gaussian's samples, and those of its first two derivatives, of which the positive ones sum to 1 and the negative
+/// Samples of a Gaussian and its first two derivatives; the positive samples of a derivative sum to 1, the negative
 /// ones to −1.
 struct FeatureKernels {
     std::vector<float> gauss, first, second;
@@ -131,7 +131,7 @@ FeatureKernels featureKernels(double pixelsPerDegree) {
     return {gaussianKernel<float>(sigma, radius), balanced(first), balanced(second)};
 }
 
-/// Lengths of the gradient (edges) and of the second derivatives (points) of brightness, which runs from 0 to 1.
+/// Lengths of the gradient (edges) and of the second derivatives (points) of brightness, which ranges from 0 to 1.
 struct Features {
     Plane edge, point;
 };

@@ -11,7 +11,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Chroma and hue (CIELAB, degrees) at even steps of lightness. As colourful as sRGB allows at each, rounded down.
+/// Chroma and hue (CIELAB, degrees) at equal steps of lightness. Chroma is the maximum in sRGB, rounded down.
 struct Tint {
     float chroma, hueDegrees;
 };

@@ -1,7 +1,7 @@
-// A metric's map as a picture: the more, the brighter.
+// Renders a metric's map as a picture: larger values are brighter.
 //
-// From black over violet, red and orange to pale yellow. Lightness L* rises evenly with the value, so that the order
-// holds for readers who tell colours apart badly, and in print without colour.
+// From black over violet, red and orange to pale yellow. Lightness L* rises linearly with the value, so the order stays
+// readable for colour-blind readers and in greyscale print.
 // Units: the picture is linear light, opaque. Threads: pure.
 #pragma once
 
@@ -12,10 +12,10 @@
 
 namespace dustbench::bench {
 
-/// The colour of a share in [0, 1], which is clamped; linear light.
+/// Linear light. `share` is clamped to [0, 1].
 [[nodiscard]] glm::vec3 heatColour(float share);
 
-/// `minimum` is black, `maximum` pale yellow. Throws std::invalid_argument where `maximum` is not above `minimum`.
+/// `minimum` maps to black, `maximum` to pale yellow. Throws std::invalid_argument if `maximum` is not above `minimum`.
 [[nodiscard]] pictures::Image heatMap(const Plane& map, float minimum = 0, float maximum = 1);
 
 }  // namespace dustbench::bench

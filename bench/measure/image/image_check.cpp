@@ -10,7 +10,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Throws where `isBad(index)` holds for any pixel: how many, and which is the first.
+/// Throws if `isBad(index)` holds for any pixel; reports how many, and the first.
 template <typename IsBad>
 void refuse(int width, int height, std::size_t pixels, std::string_view name, std::string_view what,
             const IsBad& isBad) {

@@ -1,7 +1,6 @@
-// What every image must be before a metric may look at it: some pixels, all finite, the sizes equal, opaque or with an
-// alpha as is expected.
+// Checks of images before metrics use them: at least one pixel, all finite, equal sizes, opaque or with a valid alpha.
 //
-// All throw InputError with one line that names the image: a file, or the part that it plays.
+// All throw InputError with one line that names the image: a file, or its role.
 #pragma once
 
 #include <string_view>
@@ -11,10 +10,10 @@
 
 namespace dustbench::bench {
 
-/// Alpha may differ from 1, or leave [0, 1], by so much: a layer over a scene adds up to 1 only within rounding.
+/// Tolerance of alpha around 1, and outside [0, 1]: a layer over a scene sums to 1 only within rounding.
 inline constexpr float alphaTolerance = 1e-3f;
 
-/// Pixels that are not finite in any of the four channels are counted, and the first is named.
+/// The message gives the number of pixels with a non-finite channel, and the first such pixel.
 void requireFinite(const pictures::Image& image, std::string_view name);
 void requireFinite(const Plane& plane, std::string_view name);
 
@@ -24,7 +23,7 @@ void requireSameSize(int width, int height, std::string_view name, int otherWidt
                      std::string_view otherName);
 void requireSameSize(const Plane& plane, std::string_view name, const Plane& other, std::string_view otherName);
 
-/// The alpha of a layer, checked to lie in [0, 1] but for the tolerance, and clamped.
+/// The alpha of a layer: checked to lie in [0, 1] within the tolerance, then clamped.
 [[nodiscard]] Plane alphaOf(const pictures::Image& layer, std::string_view name);
 
 }  // namespace dustbench::bench

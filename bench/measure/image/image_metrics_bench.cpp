@@ -1,4 +1,4 @@
-// What judging one frame costs: 640×480, two pictures of dust, all image metrics. Aim: 0.5 s on two cores.
+// Cost of judging one frame: 640×480, two pictures of dust, all image metrics. Target: 0.5 s on two cores.
 #include <benchmark/benchmark.h>
 
 #include "bench/measure/image/cutoff.h"
@@ -68,7 +68,7 @@ void allMetricsOfAFrame(benchmark::State& state) {
 }
 BENCHMARK(allMetricsOfAFrame)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// One of those that compare two pictures.
+/// A metric that compares two pictures.
 template <auto metric>
 void onPictures(benchmark::State& state) {
     const Picture reference = preparePicture(Frame::get().referenceImage, "the reference");

@@ -1,5 +1,5 @@
-// Every metric sees the flaw that it is there for and is blind to those that it must not see: held against the table in
-// reports/METRICS.md, so that the two cannot drift apart.
+// Each metric responds to the flaw that it measures and ignores those that it must ignore, as stated in the table in
+// reports/METRICS.md. The test keeps table and code consistent.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -28,10 +28,11 @@ using Puffs = std::vector<TestPuff>;
 using Scores = std::map<std::string, std::optional<double>>;
 
 constexpr int frames = 31;
-constexpr double speedPixels = 0.7;  // a frame
+constexpr double speedPixels = 0.7;  // per frame
 
 /// A trail of puffs `spacing` apart that runs to the right, each up to `scatter` off its line and `jitter` spacings
-/// along it. With `parts` 64 it is the continuum: as many puffs for each one, of a 64th of its depth, evenly spread.
+/// along it. With `parts` 64 it is the continuum: each puff is replaced by 64 evenly spread ones with a 64th of its
+/// depth.
 struct Trail {
     int puffs = 50;
     double spacing = 7, scatter = 20, jitter = 0.5, depthRange = 0;
@@ -53,7 +54,7 @@ struct Trail {
     }
 };
 
-/// What a method draws of a frame's puffs at a level of the flaw. Level 0 is none, but for `textures`.
+/// How a method draws a frame's puffs at each level of a flaw. Level 0 has no flaw, except for `textures`.
 struct Flaw {
     std::string name;
     int levels;
@@ -76,7 +77,7 @@ double exact(int) {
     return 1;
 }
 
-/// To the middles of ever larger cells, as voxels are.
+/// Snaps puffs to the centres of larger and larger cells, as voxels are.
 Puffs snapped(int level, Puffs puffs) {
     const double edge = 2.0 * level;
     if (level > 0)
@@ -87,7 +88,7 @@ Puffs snapped(int level, Puffs puffs) {
     return puffs;
 }
 
-/// The same puffs along an ever longer trail.
+/// The same number of puffs along a longer and longer trail.
 Trail strung(int level) {
     return {16, 10.0 + 9 * level, 1, 0.4, 0};
 }
@@ -99,7 +100,7 @@ double hardness(int level) {
     return std::array{1.0, 0.6, 0.3, 0.1, 0.0}[static_cast<std::size_t>(level)];
 }
 
-/// All different, 16, 4, 1; other textures and other lots for each cloud.
+/// All different, 16, 4 or 1 textures; each cloud has its own textures and random choices.
 Puffs texturedAs(int cloud, int level, Puffs puffs) {
     const int textures = std::array{0, 16, 4, 1}[static_cast<std::size_t>(level)];
     for (std::size_t i = 0; i < puffs.size(); ++i) {
@@ -131,7 +132,7 @@ Scores scoresOf(const Flaw& flaw, int level) {
     const auto puffs = [&](int frame) { return trail.at(frame, 65); };
     Scores scores;
 
-    // What needs consecutive frames.
+    // Metrics that need consecutive frames.
     PoppingSummary summary;
     std::vector<Plane> alphas, references;
     std::vector<Picture> images, referenceImages;
@@ -148,7 +149,7 @@ Scores scoresOf(const Flaw& flaw, int level) {
     scores["popping"] = summary.mean();
     scores["popping_max"] = summary.maximum();
 
-    // The rest, of the frame in the middle.
+    // The others, for the middle frame.
     const std::size_t middle = frames / 2;
     const Puffs drawn = flaw.drawn(level, puffs(middle));
     const PictureError error = pictureError(referenceImages[middle], images[middle]);
@@ -164,7 +165,7 @@ Scores scoresOf(const Flaw& flaw, int level) {
         cutoff(alphas[middle], testAlpha(drawn, free), references[middle], testAlpha(puffs(middle), free)).value;
     scores["self_similarity"] = selfSimilarity(alphas[middle], references[middle], testPrimitives(drawn), 1).value;
     scores["quads_per_pixel"] = quadsPerPixel(static_cast<std::int64_t>(drawn.size()), references[middle]);
-    // Textures and cuts are in the picture alone: the method hands over its puffs as they are.
+    // Textures and cuts affect the picture only: the method hands over its puffs unchanged.
     Puffs handedOver = drawn;
     for (TestPuff& puff : handedOver) puff.texture = -1;
     const Plane grid = testDepth(handedOver, free), referenceGrid = testDepth(puffs(middle), free);
@@ -173,7 +174,7 @@ Scores scoresOf(const Flaw& flaw, int level) {
     return scores;
 }
 
-/// The table's cells by row, then column: both as they stand there, without back quotes.
+/// The table's cells by row, then column: as written there, without back quotes.
 using Responses = std::map<std::string, std::map<std::string, std::string>>;
 
 std::vector<std::string> cellsOf(const std::string& line) {
@@ -206,10 +207,10 @@ const Responses& documented() {
     return table;
 }
 
-/// Of a metric, level by level.
+/// Values of a metric by level.
 using Series = std::vector<std::optional<double>>;
 
-/// By flaw, then metric: computed once for all tests.
+/// By flaw, then metric; computed once for all tests.
 const std::map<std::string, std::map<std::string, Series>>& responses() {
     static const auto found = [] {
         std::map<std::string, std::map<std::string, Series>> all;
@@ -221,7 +222,7 @@ const std::map<std::string, std::map<std::string, Series>>& responses() {
     return found;
 }
 
-/// Identical pictures have no PSNR: it is beyond all numbers.
+/// Identical pictures have no PSNR; they rank above any value.
 double comparable(const std::optional<double>& value) {
     return value.value_or(std::numeric_limits<double>::infinity());
 }
@@ -230,7 +231,7 @@ bool isCounted(const std::string& metric) {
     return metric == "components" || metric == "identical";
 }
 
-/// Largest minus minimum of those that are there.
+/// Maximum minus minimum of the present values.
 double spanOf(const Series& series) {
     double minimum = std::numeric_limits<double>::infinity(), maximum = -minimum;
     for (const auto& value : series)
@@ -241,7 +242,7 @@ double spanOf(const Series& series) {
     return maximum < minimum ? 0 : maximum - minimum;
 }
 
-/// The most by which a metric moves under a flaw for which the table lets it rise or fall.
+/// The largest span of a metric over the flaws for which the table says that it rises or falls.
 double ownSpan(const std::string& metric) {
     double maximum = 0;
     for (const auto& [flaw, word] : documented().at(metric))
@@ -314,15 +315,15 @@ TEST(MetricResponse, IsPerfectForTheReferenceItself) {
 }
 
 TEST(MetricResponse, SelfSimilarityIsTheShareOfPairsThatLookAlike) {
-    // 50 puffs, each with one of k textures by lot: 1 of k pairs are alike, and overlap leaves about 0.8 of their
-    // correlation. Mean over ten clouds; a single one scatters by some 0.02.
+    // 50 puffs, each with one of k textures at random: 1 of k pairs is alike, and overlap leaves about 0.8 of their
+    // correlation. Mean over ten clouds; a single one scatters by about 0.02.
     const Flaw& flaw = flaws().back();
     std::array<double, 4> mean{};
     constexpr int clouds = 10;
     for (std::size_t level = 0; level < mean.size(); ++level)
         for (int cloud = 0; cloud < clouds; ++cloud) {
             const Trail trail = flaw.trail(0);
-            // Another stretch of an endless trail.
+            // A different section of an endless trail.
             Puffs puffs;
             for (TestPuff puff : Trail{50 * (cloud + 1), trail.spacing, trail.scatter, trail.jitter, 0}.at(0, 65)) {
                 puff.x -= trail.spacing * 50 * cloud;

@@ -1,7 +1,7 @@
-// An opaque picture made ready for the metrics: checked once, encoded for the display once.
+// An opaque picture prepared for the metrics: checked and display-encoded once.
 //
-// Units: display-encoded sRGB values in [0, 1]; `linear` as it was given, so it may be below 0 or above 1.
-// Threads: preparing uses the current oneTBB arena; the result is the same, bit for bit, at any number of threads.
+// Units: display-encoded sRGB values in [0, 1]; `linear` is as given, so it may be below 0 or above 1.
+// Threads: preparation uses the current oneTBB arena; the result is bit-identical at any number of threads.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace dustbench::bench {
 
 struct Picture {
-    std::string name;  ///< for messages: a file, or the part that it plays
+    std::string name;  ///< for messages: a file, or its role
     int width = 0;
     int height = 0;
     std::array<Plane, 3> linear;   ///< red, green, blue
@@ -21,7 +21,7 @@ struct Picture {
     Plane luma;                    ///< 0.2126 R + 0.7152 G + 0.0722 B of the encoded values (Rec. 709)
 };
 
-/// Throws InputError where it has no pixels, or some are not finite or not opaque.
+/// Throws InputError if it has no pixels, or some are not finite or not opaque.
 [[nodiscard]] Picture preparePicture(const pictures::Image& image, const std::string& name);
 
 /// Throws InputError.

@@ -6,7 +6,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Mean over the channels of the squared difference, at each pixel and over all.
+/// Squared difference averaged over the channels: per pixel and over the picture.
 struct SquaredError {
     Plane rootPerPixel;
     double mean = 0;

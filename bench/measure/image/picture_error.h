@@ -1,4 +1,4 @@
-// How far two pictures are apart, pixel by pixel: PSNR on what the display gets, RMSE on linear light.
+// Per-pixel error between two pictures: PSNR of display-encoded values, RMSE of linear light.
 //
 //     psnr_db = −10 log₁₀ MSE       MSE over the three display-encoded channels of all pixels, whose peak is 1
 //     rmse_linear = √ mean (I − R)²  over the three linear channels of all pixels
@@ -13,14 +13,14 @@
 namespace dustbench::bench {
 
 struct PictureError {
-    std::optional<double> psnrDb;  ///< 0 or more; empty for identical pictures, whose MSE is 0
+    std::optional<double> psnrDb;  ///< 0 or more; empty for identical pictures, where MSE is 0
     bool identical = false;        ///< no display-encoded value differs
-    double rmseLinear = 0;         ///< 0 or more. Above 0 for identical pictures that differ beyond [0, 1] only
+    double rmseLinear = 0;         ///< 0 or more. Above 0 for `identical` pictures only if they differ outside [0, 1]
     Plane encodedRms;              ///< √ mean over the channels of the squared encoded difference: 0..1
-    Plane linearRms;               ///< the same of linear light: 0 or more
+    Plane linearRms;               ///< the same for linear light: 0 or more
 };
 
-/// Throws InputError for different sizes.
+/// Throws InputError if the sizes differ.
 [[nodiscard]] PictureError pictureError(const Picture& reference, const Picture& picture);
 
 }  // namespace dustbench::bench

@@ -1,4 +1,4 @@
-// Properties of the metrics that compare two pictures, and of the map's colours.
+// Properties of the metrics that compare two pictures, and of the heat map's colours.
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
@@ -33,7 +33,7 @@ TEST(PictureMetrics, IdenticalPicturesScorePerfectly) {
 }
 
 TEST(PictureMetrics, AConstantOffsetHasItsClosedForm) {
-    // Encoded values c and c + d everywhere: PSNR = −20 log₁₀ d, and SSIM has nothing but its brightness term.
+    // Encoded values c and c + d everywhere: PSNR = −20 log₁₀ d, and only the brightness term of SSIM differs from 1.
     const auto even = [](float encoded) {
         return pictureOf(40, 30, [=](int, int, int) { return maths::decodeSrgb(encoded); });
     };
@@ -76,7 +76,7 @@ TEST(PictureMetrics, AreEvenInTheirArguments) {
 }
 
 TEST(PictureMetrics, FlipAtItsLargestIsOneBetweenGreenAndBlue) {
-    // Far from edges, where no feature raises it.
+    // No edges, so features do not raise the error.
     const Picture green = pictureOf(30, 30, [](int, int, int c) { return c == 1 ? 1.0 : 0.0; });
     const Picture blue = pictureOf(30, 30, [](int, int, int c) { return c == 2 ? 1.0 : 0.0; });
     EXPECT_NEAR(*flip(green, blue).value, 1, 1e-5);
@@ -86,7 +86,7 @@ TEST(PictureMetrics, APictureSmallerThanAWindowHasNoSsim) {
     const auto grey = [](int, int, int) { return 0.5; };
     EXPECT_FALSE(ssim(pictureOf(10, 40, grey), pictureOf(10, 40, grey)).value);
     EXPECT_TRUE(ssim(pictureOf(11, 11, grey), pictureOf(11, 11, grey)).value);
-    // The others are there down to a single pixel.
+    // The other metrics are defined down to a single pixel.
     const auto white = [](int, int, int) { return 1.0; };
     EXPECT_GT(*flip(pictureOf(1, 1, grey), pictureOf(1, 1, white)).value, 0);
 }

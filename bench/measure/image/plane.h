@@ -1,4 +1,4 @@
-// One number a pixel: a channel of a picture, an alpha, or the map of a metric.
+// One number per pixel: a channel of a picture, an alpha, or the map of a metric.
 //
 // Frame: rows from the top, x to the right.
 #pragma once
@@ -32,10 +32,10 @@ struct PlaneOf {
 
 using Plane = PlaneOf<float>;
 
-/// What a metric says of one frame, and where it comes from.
+/// The value of a metric for one frame, and its distribution over the picture.
 struct Measured {
-    std::optional<double> value;  ///< empty where the metric is not defined; never NaN
-    Plane map;                    ///< what `value` sums up; each metric says which range it has
+    std::optional<double> value;  ///< empty if the metric is undefined; never NaN
+    Plane map;                    ///< the per-pixel values behind `value`; each metric documents their range
 };
 
 }  // namespace dustbench::bench

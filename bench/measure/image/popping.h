@@ -1,8 +1,8 @@
-// Popping: what jumps from one frame to the next in a method's pictures but not in the reference's.
+// Popping: jumps from one frame to the next in a method's pictures that the reference does not have.
 //
 //     popping = RMS of (Iₜ − Iₜ₋₁) − (Rₜ − Rₜ₋₁)
 //
-// over the three display-encoded channels of all pixels where there is dust: α or R > 0.01 in either frame.
+// over the three display-encoded channels of all pixels with dust: α or R > 0.01 in either frame.
 // Units: display-encoded values; range 0..2. Threads: pure.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace dustbench::bench {
 
-/// One moment, over the scene, and the alphas of dust alone.
+/// One frame: the pictures over the scene, and the alphas of the dust alone.
 struct DustFrame {
     const Picture& image;
     const Picture& reference;
@@ -20,24 +20,24 @@ struct DustFrame {
     const Plane& referenceAlpha;
 };
 
-/// Empty where neither frame has dust in view. The map is the root of the mean over the channels, 0 where there is no
-/// dust. Throws InputError for different sizes.
+/// Empty if neither frame has dust in view. The map is the RMS over the channels, 0 where there is no dust. Throws
+/// InputError if the sizes differ.
 [[nodiscard]] Measured popping(const DustFrame& before, const DustFrame& now);
 
-/// The number for a run: mean and maximum over pairs of consecutive frames.
+/// Popping over a run: mean and maximum over pairs of consecutive frames.
 ///
-/// Only unbroken stretches of at least `minimumPairs` pairs count, so that a jump that comes every now and then has its
-/// chance to be seen.
+/// Only uninterrupted stretches of at least `minimumPairs` pairs count, so that occasional jumps are likely to be
+/// included.
 class PoppingSummary {
  public:
     static constexpr std::int64_t minimumPairs = 30;
 
-    /// The next pair; an empty one (no dust in view) ends the stretch.
+    /// Adds the next pair. An empty one (no dust in view) ends the stretch.
     void add(const std::optional<double>& pair);
-    /// The next pair does not follow upon the last.
+    /// Ends the stretch: the next pair does not follow the last.
     void endStretch();
 
-    /// Empty where no stretch is long enough.
+    /// Empty if no stretch is long enough.
     [[nodiscard]] std::optional<double> mean() const;
     [[nodiscard]] std::optional<double> maximum() const;
 

@@ -1,4 +1,4 @@
-// PSNR, SSIM and FLIP against other programs that were shown the same pictures (test_images.h).
+// PSNR, SSIM and FLIP against other programs' results for the same pictures (test_images.h).
 //
 // How the figures were obtained. Each pair was computed by its formula with numpy, in double precision, rounded to
 // 32-bit floats and clamped to [0, 1].

@@ -24,7 +24,7 @@ std::optional<double> quadsPerPixel(std::int64_t primitives, const Plane& refere
 }
 
 Plane overdrawMap(std::span<const ScreenPrimitive> primitives, int width, int height) {
-    // Each quad adds 1 at its first corner and takes it back at the next ones; running sums then fill it.
+    // Each quad adds ±1 at its four corners; running sums then fill it (a summed-area table).
     Plane corners(width + 1, height + 1);
     for (const ScreenPrimitive& primitive : primitives) {
         const double half = quadHalfSide * primitive.radiusPixels;

@@ -1,4 +1,4 @@
-// How many primitives a method draws for each pixel of dust: the price of its picture.
+// Primitives drawn per pixel of dust: the cost of the picture.
 //
 // Units: primitives per pixel. Threads: pure.
 #pragma once
@@ -12,11 +12,11 @@
 
 namespace dustbench::bench {
 
-/// Primitives by pixels with R > 0.01: 0 or more. Empty where there are none. All primitives count that were handed to
-/// the GPU, those out of view too.
+/// Primitives divided by the number of pixels with R > 0.01: 0 or more. Empty if there are no such pixels. Counts all
+/// primitives handed to the GPU, including those out of view.
 [[nodiscard]] std::optional<double> quadsPerPixel(std::int64_t primitives, const Plane& referenceAlpha);
 
-/// Its map: how many quads (half side 1.5 r) cover a pixel's centre.
+/// The map: the number of quads (half side 1.5 r) that cover each pixel's centre.
 [[nodiscard]] Plane overdrawMap(std::span<const ScreenPrimitive> primitives, int width, int height);
 
 }  // namespace dustbench::bench

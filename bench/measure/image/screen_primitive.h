@@ -1,4 +1,4 @@
-// Where on the screen a method drew one primitive: a billboard, a voxel, a puff.
+// Screen position and size of one drawn primitive: a billboard, a voxel, a puff.
 //
 // Units: pixels. Frame: the picture's upper left corner is (0, 0); the first pixel's centre is (0.5, 0.5).
 #pragma once
@@ -8,7 +8,7 @@ namespace dustbench::bench {
 struct ScreenPrimitive {
     double xPixels = 0;
     double yPixels = 0;
-    double radiusPixels = 0;  ///< of the puff (DESIGN: optics), not of the quad that holds it
+    double radiusPixels = 0;  ///< of the puff (DESIGN: optics), not of the quad around it
 };
 
 }  // namespace dustbench::bench

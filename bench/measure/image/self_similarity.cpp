@@ -29,14 +29,14 @@ double sampleAt(const Plane& plane, double x, double y) {
     return (1 - fy) * ((1 - fx) * value(0, 0) + fx * value(1, 0)) + fy * ((1 - fx) * value(0, 1) + fx * value(1, 1));
 }
 
-/// All samples lie between pixel centres.
+/// Whether all samples lie between pixel centres.
 bool isInside(const Plane& plane, const ScreenPrimitive& frame) {
     const double half = reach * frame.radiusPixels + 0.5;
     return frame.xPixels >= half && frame.yPixels >= half && frame.xPixels <= plane.width - half &&
            frame.yPixels <= plane.height - half && plane.width > 1 && plane.height > 1;
 }
 
-/// Of mean 0 and length 1; 0 where there is nothing to see.
+/// Samples with mean 0 and length 1; all 0 if there is no visible detail.
 Patch patchAt(const Plane& detail, const ScreenPrimitive& frame) {
     Patch patch;
     double sum = 0, squares = 0;
@@ -56,7 +56,7 @@ Patch patchAt(const Plane& detail, const ScreenPrimitive& frame) {
     return patch;
 }
 
-/// Σ over pairs of p_i·p_j without going through the pairs: |Σ p|² = Σ |p|² + 2 Σ_{i<j} p_i·p_j.
+/// Mean of p_i·p_j over pairs, without iterating over pairs: |Σ p|² = Σ |p|² + 2 Σ_{i<j} p_i·p_j.
 class PairMean {
  public:
     void add(const Patch& patch) {
@@ -66,7 +66,7 @@ class PairMean {
             ownSquares_ += patch[i] * patch[i];
         }
     }
-    /// 0 where there is no pair.
+    /// 0 if there are no pairs.
     [[nodiscard]] double value() const {
         if (count_ < 2) return 0;
         double squares = 0;
@@ -80,7 +80,7 @@ class PairMean {
     double count_ = 0;
 };
 
-/// At most `maximumPrimitives` of them, drawn by lot, in their order.
+/// Indices of a random sample of at most `maximumPrimitives`, in their order.
 std::vector<std::size_t> sampleOf(const Plane& detail, std::span<const ScreenPrimitive> primitives,
                                   std::uint64_t seed) {
     std::vector<std::pair<std::uint32_t, std::size_t>> lots;
@@ -98,7 +98,7 @@ std::vector<std::size_t> sampleOf(const Plane& detail, std::span<const ScreenPri
     return chosen;
 }
 
-/// Its centre moved by N(0, r) (Box–Muller).
+/// The primitive with its centre moved by N(0, r) (Box–Muller).
 ScreenPrimitive shifted(const ScreenPrimitive& primitive, std::uint64_t seed, std::size_t index, int attempt) {
     const auto uniform = maths::uniform4(seed, shiftStream, index, static_cast<std::uint32_t>(attempt));
     const double length = primitive.radiusPixels * std::sqrt(-2 * std::log(1 - static_cast<double>(uniform[0])));

@@ -1,14 +1,14 @@
-// Self-similarity: the same puff again and again, which the eye finds where the reference has none of it.
+// Self-similarity: visible repetition of the same puff that the reference does not show.
 //
-// The detail is α − R: alpha, because what the scene shows through the dust is the same behind all puffs and none of
-// their doing. Around each primitive it is sampled at 17×17 points within ±0.8 r of its centre, and the mean is taken
-// off. With p_i these 289 numbers, scaled to length 1, the number is the mean over all pairs of
+// The detail is α − R. Alpha is used because the scene behind the dust is the same for all puffs and is not theirs.
+// Around each primitive the detail is sampled at 17×17 points within ±0.8 r of the centre, and the mean is subtracted.
+// With p_i these 289 numbers, normalised to length 1, the value is the mean over all pairs of
 //
 //     p_i · p_j       (normalised cross-correlation)
 //
-// minus the same around centres that are shifted by N(0, r) along x and y. What neighbours share because they overlap
-// is in both; what belongs to the primitive is in the first alone. Detail of an RMS below half a step of an 8-bit
-// picture cannot be seen: its p is 0, so it resembles nothing.
+// minus the same for centres shifted by N(0, r) along x and y. Similarity of neighbours due to overlap is in both
+// terms; similarity of the primitives themselves is in the first only. Detail with an RMS below half a step of an 8-bit
+// picture is invisible: its p is 0, so it resembles nothing.
 //
 // Units: none; frames in pixels. Threads: pure.
 #pragma once
@@ -21,15 +21,15 @@
 
 namespace dustbench::bench {
 
-/// Smaller ones show no detail to compare.
+/// Smaller primitives show no detail to compare.
 inline constexpr double minimumRadiusPixels = 4;
 inline constexpr std::size_t minimumPrimitives = 8;
-/// Of more, as many are drawn by lot: of a seed, the same ones each time.
+/// If there are more, a random sample of this size is used; it depends only on the seed.
 inline constexpr std::size_t maximumPrimitives = 2048;
 
-/// −1..1, about 0 where no two look alike, 1 where all do and nothing hides them. Empty for fewer than 8 primitives of
-/// at least 4 pixels' radius whose ±0.8 r lie wholly within the picture. The map is |α − R|: 0..1.
-/// Throws InputError for different sizes.
+/// −1..1: about 0 if no two are alike, 1 if all are and nothing hides them. Empty for fewer than 8 primitives with a
+/// radius of at least 4 pixels and ±0.8 r wholly inside the picture. The map is |α − R|: 0..1. Throws InputError if the
+/// sizes differ.
 [[nodiscard]] Measured selfSimilarity(const Plane& alpha, const Plane& referenceAlpha,
                                       std::span<const ScreenPrimitive> primitives, std::uint64_t seed);
 

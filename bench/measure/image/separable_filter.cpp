@@ -19,7 +19,7 @@ void forEachRow(int height, const Work& work) {
     });
 }
 
-/// out += weight · in. The weights take their turns outside: the loop inside runs along memory.
+/// out += weight · in. The loop over the weights is outside: the inner loop runs along memory.
 template <typename Number>
 void addWeighted(Number weight, const Number* in, Number* out, int count) {
     for (int x = 0; x < count; ++x) out[x] += weight * in[x];

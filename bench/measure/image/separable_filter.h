@@ -1,7 +1,7 @@
-// Weighted sums along rows and along columns, for filters that are products of the two.
+// Separable filters: weighted sums along rows and along columns.
 //
-// Beyond the edge the edge's own pixels are repeated. Threads: uses the current oneTBB arena; the result is the same,
-// bit for bit, at any number of threads.
+// Pixels beyond the edge repeat the edge pixel. Threads: uses the current oneTBB arena; the result is bit-identical at
+// any number of threads.
 #pragma once
 
 #include <span>
@@ -21,7 +21,7 @@ template <typename Number>
 template <typename Number>
 [[nodiscard]] std::vector<Number> gaussianKernel(double sigmaPixels, int radius);
 
-/// Along both.
+/// Filters rows, then columns.
 template <typename Number>
 [[nodiscard]] PlaneOf<Number> blur(const PlaneOf<Number>& plane, std::span<const Number> kernel) {
     return filterColumns(filterRows(plane, kernel), kernel);

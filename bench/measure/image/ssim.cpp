@@ -10,7 +10,7 @@ namespace {
 constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
 constexpr int radius = ssimWindow / 2;
 
-/// Double precision: variances of nearly even windows are differences of nearly equal numbers.
+/// Double precision: variances of nearly uniform windows are differences of nearly equal numbers.
 using Values = PlaneOf<double>;
 
 Values product(const Plane& a, const Plane& b) {

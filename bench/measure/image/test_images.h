@@ -1,4 +1,4 @@
-// For tests: pictures that a formula gives, so that other programs can be shown the very same.
+// Test fixture: pictures defined by a formula, so that other programs can be given identical ones.
 //
 // Frame: x to the right, y down, both from 0 at the first pixel; c is the channel, 0..2. Values are linear light.
 #pragma once
@@ -41,7 +41,7 @@ struct TestPair {
 };
 inline constexpr int pairWidth = 120, pairHeight = 90;
 
-/// Smooth waves; the other one paler, with a tint below, a brighter box and dark stripes one pixel wide.
+/// Smooth waves. `image` is paler, with a tint in the lower part, a brighter box and dark stripes one pixel wide.
 inline TestPair waves() {
     const auto wave = [](int x, int y, int c) {
         return 0.5 + 0.4 * std::sin(0.13 * x + 0.5 * c) * std::cos(0.09 * y - 0.3 * c);
@@ -53,7 +53,7 @@ inline TestPair waves() {
             }};
 }
 
-/// A checkerboard with fields of 8 pixels; the other one is shifted by one.
+/// A checkerboard with fields of 8 pixels; `image` is shifted by one pixel.
 inline TestPair checkers() {
     const auto board = [](int shift) {
         return [shift](int x, int y, int c) { return ((x + shift) / 8 + y / 8) % 2 == 0 ? 0.8 : 0.05 + 0.1 * c; };
@@ -61,13 +61,13 @@ inline TestPair checkers() {
     return {board(0), board(1)};
 }
 
-/// All green; the right half of the other one is blue. No two colours are farther apart for FLIP.
+/// All green; the right half of `image` is blue. These two colours have the maximum distance in FLIP.
 inline TestPair greenAndBlue() {
     return {[](int, int, int c) { return c == 1 ? 1.0 : 0.0; },
             [](int x, int, int c) { return c == (x < 60 ? 1 : 2) ? 1.0 : 0.0; }};
 }
 
-/// Two puffs of dust over a gradient; in the other one, one of them has moved by a pixel and there is a third.
+/// Two puffs of dust over a gradient. In `image` one of them has moved by a pixel and there is a third.
 inline TestPair puffs() {
     const auto dust = [](int moved) {
         return [moved](int x, int y, int c) {

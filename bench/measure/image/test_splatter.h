@@ -1,4 +1,4 @@
-// For tests: dust in a picture by its closed form, seen by parallel rays, with one flaw planted at a time.
+// Test fixture: dust in closed form, seen by parallel rays, with one deliberate flaw at a time.
 //
 // A puff of radius r and optical depth τ adds τ·exp(−b²/2s²), s = r/2, to the depth of a pixel at distance b from its
 // centre; α = 1 − exp(−Σ). The ground is a plane that cuts the rays of row y at depth (horizon − y)·slope.
@@ -24,7 +24,7 @@ struct TestPuff {
     int texture = -1;  ///< −1: none
 };
 
-/// How far behind the ground a puff shows through: `softness` 1 is exact, 0 a hard cut.
+/// How gradually a puff fades into the ground: `softness` 1 is exact, 0 a hard cut.
 struct TestGround {
     double horizon = 0, slope = 1, softness = 1;
 };
@@ -40,7 +40,7 @@ inline std::array<double, 2> testUniform(std::uint32_t stream, std::uint64_t ser
     return {static_cast<double>(uniform[0]), static_cast<double>(uniform[1])};
 }
 
-/// Waves of four directions that the texture's number gives, 0 on average; u, v in radii from the centre.
+/// A sum of four waves, chosen by the texture's number, with mean 0; u, v in radii from the centre.
 class TestTexture {
  public:
     explicit TestTexture(int number) {
@@ -60,14 +60,14 @@ class TestTexture {
     std::array<std::array<double, 3>, 4> waves_;
 };
 
-/// What is left of a puff in front of the ground: ½ [1 + erf((t₁ − t_c)/(√2 s))], the width of the fade times softness.
+/// The share of a puff in front of the ground: ½ [1 + erf((t₁ − t_c)/(√2 s))], the width of the fade times softness.
 inline double testFade(const TestGround& ground, const TestPuff& puff, double y) {
     const double in = (ground.horizon - y) * ground.slope - puff.depth;
     if (ground.softness == 0) return in > 0 ? 1 : 0;
     return 0.5 * (1 + std::erf(in / (std::numbers::sqrt2 * puff.radius / 2 * ground.softness)));
 }
 
-/// Σ of the puffs' depths: also the extinction of a grid one cell deep.
+/// Sum of the puffs' depths; also the extinction of a grid one cell deep.
 inline Plane testDepth(const std::vector<TestPuff>& puffs, const TestView& view) {
     PlaneOf<double> depth(view.width, view.height);
     for (const TestPuff& puff : puffs) {

@@ -15,7 +15,7 @@ bool isCovered(const Plane& alpha, const Plane& reference, std::size_t i) {
     return isTrail(reference, i) && alpha.values[i] >= reference.values[i] / 2;
 }
 
-/// Numbers the connected parts of the pixels that hold −1; specks become 0. Gives how many parts there are.
+/// Numbers the connected components of the pixels marked −1; specks become 0. Returns the number of components.
 int numberParts(Plane& map) {
     int parts = 0;
     std::vector<std::pair<int, int>> members;
