@@ -6,10 +6,10 @@
 namespace dustbench::bench {
 namespace {
 
-/// No camera comes nearer to the ground than this.
+/// Minimum height of a camera above the ground.
 constexpr double groundClearance = 0.5;
 
-/// A point of the level frame that turns with a heading, in the world.
+/// Transforms a point from the level frame with the given heading to the world.
 glm::dvec3 turned(const glm::dvec3& point, double heading, const glm::dvec3& origin) {
     const glm::dvec3 ahead(std::cos(heading), 0, -std::sin(heading));
     const glm::dvec3 right(-ahead.z, 0, ahead.x);
@@ -29,7 +29,7 @@ CameraLag CameraLag::at(const scene::VehicleState& vehicle) {
 }
 
 CameraLag CameraLag::followed(const scene::VehicleState& vehicle, double lagSeconds, double dt) const {
-    // The exact solution of dh/dt = (h* − h)/τ for a resting h*.
+    // The exact solution of dh/dt = (h* − h)/τ for constant h*.
     const double share = lagSeconds > 0 ? 1 - std::exp(-dt / lagSeconds) : 1;
     return {heading + share * (vehicle.heading - heading), height + share * (vehicle.position.y - height)};
 }

@@ -1,7 +1,6 @@
-// The cameras of a scene: one that stands, one that chases the vehicle, one that circles it. Pure functions of state
-// and time.
+// The cameras of a scene: fixed, chasing the vehicle, or orbiting it. Pure functions of state and time.
 //
-// Units: SI, radians. Frame: world, or the vehicle's heading frame (+X forward, +Y up, +Z right) where said.
+// Units: SI, radians. Frame: world, or the vehicle's heading frame (+X forward, +Y up, +Z right) where stated.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -21,7 +20,7 @@ struct FixedCamera {
     double verticalFieldOfView = 0.9;
 };
 
-/// Moves with the vehicle's smoothed heading and height; looks behind it, where the dust is.
+/// Follows the vehicle's smoothed heading and height; looks at the area behind it, where the dust is.
 struct ChaseCamera {
     glm::dvec3 offset{6.8, 2.5, 9.4};
     glm::dvec3 lookAt{-4.2, 1.2, 0};
@@ -44,14 +43,14 @@ struct CameraSet {
     OrbitCamera orbit;
 };
 
-/// The vehicle's heading and height as a chasing camera sees them: a first-order lag behind the true ones.
+/// The vehicle's heading and height as seen by the chase camera: a first-order lag behind the true ones.
 struct CameraLag {
     double heading = 0;
     double height = 0;
 
-    /// At rest with the vehicle.
+    /// No lag: at the vehicle's heading and height.
     [[nodiscard]] static CameraLag at(const scene::VehicleState& vehicle);
-    /// `dt` seconds later, while the vehicle is as given.
+    /// The lag `dt` seconds later, with the vehicle held at the given state.
     [[nodiscard]] CameraLag followed(const scene::VehicleState& vehicle, double lagSeconds, double dt) const;
 };
 

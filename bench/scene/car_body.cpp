@@ -1,4 +1,4 @@
-// The hatchback's body. Two lofts along X (lower body, cabin), whose sections are superellipses; details lie on them.
+// The hatchback's body: two lofts along X (lower body, cabin) with superellipse sections, and details on top of them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,7 +33,7 @@ constexpr float shoulder = 0.58f;     ///< section coordinate where the side end
 constexpr float hairline = 2e-5f;     ///< between the sections before and behind an arch's end
 constexpr float stripeEdge = 0.975f;  ///< section coordinate of the stripe's edge on bonnet and roof
 
-/// A curve through points with rising x: cubic Hermite whose slopes are harmonic means, so that it never overshoots.
+/// A curve through points with increasing x: cubic Hermite with harmonic-mean slopes, so it never overshoots.
 float curve(std::span<const vec2> points, float x) {
     if (x <= points.front().x) return points.front().y;
     if (x >= points.back().x) return points.back().y;
@@ -52,8 +52,8 @@ float curve(std::span<const vec2> points, float x) {
            (3 * t2 - 2 * t3) * points[i + 1].y + (t3 - t2) * width * slope(i + 1);
 }
 
-/// A quarter of a superellipse |z|ⁿ + |y|ⁿ = 1 from (z 1, y 0) to (z 0, y 1): even in height up to `bend`, then even in
-/// angle.
+/// A quarter of a superellipse |z|ⁿ + |y|ⁿ = 1 from (z 1, y 0) to (z 0, y 1), parametrised evenly in height up to
+/// `bend`, then evenly in angle.
 vec2 superellipse(float q, float n, float bend) {
     constexpr float sideShare = 0.55f;  // of q, for the side
     const float quarter = std::numbers::pi_v<float> / 2;
@@ -63,7 +63,7 @@ vec2 superellipse(float q, float n, float bend) {
     return {std::pow(std::max(0.0f, std::cos(angle)), 2 / n), std::pow(std::sin(angle), 2 / n)};
 }
 
-/// The measures of one car, and its two lofts: position over x (along the car) and q (0 at the bottom, 1 on the centre
+/// Dimensions of one car, and its two lofts: position over x (along the car) and q (0 at the bottom, 1 on the centre
 /// line).
 class Shape {
  public:
@@ -131,7 +131,7 @@ class Shape {
         const float tuck = 1 - 0.05f * (1 - section.y) * (1 - section.y);
         return {x, sill + (bodyTop(x) - sill) * section.y, bodyHalfWidth(x) * section.x * tuck};
     }
-    /// q at which the side of the body has the height y.
+    /// The q at which the side of the body has height y.
     [[nodiscard]] float bodyAtHeight(float x, float y) const {
         float low = 0, high = 1;
         for (int i = 0; i < 24; ++i) {
@@ -169,7 +169,7 @@ class Shape {
         const float height = (curve(roof, along) - beltLine) * section.y;
         const float scale = halfWidth_ / 0.887f;
         const float z = curve(width, along) * scale * section.x * (1 - 0.40f * height);  // tumblehome
-        // Screens are curved in plan: their edges lie further back in front, further forward at the rear.
+        // The screens are curved in plan: the windscreen's edges lie further back, the rear screen's further forward.
         const float bow = z * z *
                           (along > 1.4f    ? -0.16f * std::min(1.0f, (along - 1.4f) / 0.3f)
                            : along < -0.2f ? 0.10f * std::min(1.0f, (-0.2f - along) / 0.2f)
@@ -187,7 +187,7 @@ void sortLines(std::vector<float>& values) {
                  values.end());
 }
 
-/// Stations along the body, finer round the wheel arches and at the ends; a run ends where the lower edge jumps to an
+/// Stations along the body, finer around the wheel arches and at the ends; a run ends where the lower edge jumps to an
 /// arch.
 std::vector<std::vector<float>> bodyStations(const Shape& shape) {
     std::vector<float> stations{rearEnd, -0.735f, -0.70f, -0.64f, -0.54f};
@@ -212,7 +212,7 @@ std::vector<std::vector<float>> bodyStations(const Shape& shape) {
 
 void addLowerBody(SurfaceBuilder& builder, const Shape& shape, const CarColours& colours) {
     const std::vector<float> rows{0, 0.05f, 0.17f, 0.32f, 0.47f, 0.58f, 0.66f, 0.74f, 0.82f, 0.90f, stripeEdge, 1};
-    // Rows up to the shoulder share what the wheel arch leaves of the section; those above keep their place.
+    // Rows up to the shoulder share the part of the section above the wheel arch; rows above keep their place.
     const auto q = [&](float x, float t) {
         const float low = std::min(shape.bodyAtHeight(x, shape.lowerEdge(x)), 0.9f * shoulder);
         return t < shoulder ? low + (shoulder - low) * t / shoulder : t;
@@ -230,7 +230,7 @@ void addLowerBody(SurfaceBuilder& builder, const Shape& shape, const CarColours&
         builder.patch(
             xs, rows, [&](float x, float t) { return shape.body(x, q(x, t)); },
             [&](float x, float t) { return shape.bodyNormal(x, q(x, t)); }, colour);
-        // Under the edge, inwards: wheel wells and floor.
+        // Inwards from the lower edge: wheel wells and floor.
         builder.facets(
             xs, std::array{0.0f, 1.0f},
             [&](float x, float v) {
@@ -263,7 +263,7 @@ void addEnd(SurfaceBuilder& builder, const Shape& shape, bool front, const CarCo
         if (u > 0.64f && v > 0.36f && v < 0.52f) return v > 0.46f ? tailRed : indicator;
         return colours.paint;
     };
-    // Outside is ahead in front and behind at the rear: run u the other way there.
+    // The outside faces forward at the front and backward at the rear, so u runs in opposite directions.
     if (front) {
         const std::vector<float> reversed(us.rbegin(), us.rend());
         builder.patch(reversed, vs, position, colour);
@@ -292,7 +292,7 @@ void addCabin(SurfaceBuilder& builder, const Shape& shape, const CarColours& col
         xs, rows, [&](float x, float q) { return shape.cabin(x, q); }, colour);
 }
 
-/// What lies on the right side of the lower body, `lift` above its surface.
+/// Details on the right side of the lower body, `lift` above its surface.
 class Decals {
  public:
     Decals(SurfaceBuilder& builder, const Shape& shape) : builder_(builder), shape_(shape) {}
@@ -352,7 +352,7 @@ void addSideDetails(SurfaceBuilder& builder, const Shape& shape, const CarColour
 
 void addCentreDetails(SurfaceBuilder& builder, const Shape& shape, const CarColours& colours) {
     const float nose = shape.nose(), axle = shape.frontAxle();
-    // What one sees between the wheels.
+    // Chassis visible between the wheels.
     builder.box({axle / 2 + 0.05f, 0.46f, 0}, {axle / 2 + 0.66f, 0.25f, shape.halfWidth() - 0.36f}, chassisColour);
     builder.box({nose + 0.045f, 0.34f, 0}, {0.012f, 0.055f, 0.26f}, plateWhite);
     builder.box({nose - 0.04f, 0.205f, 0}, {0.09f, 0.012f, 0.62f}, blackPlastic);                 // lip

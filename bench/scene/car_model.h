@@ -1,7 +1,7 @@
-// The car that is drawn: a hatchback and its wheel, built from simple lofted parts to fit the vehicle's measures.
+// The car's mesh: a hatchback and its wheel, built from simple lofted parts to the vehicle's dimensions.
 //
 // Frame: the vehicle's own (+X forward, +Y up, +Z right, origin on the ground under the rear axle); the wheel's axis is
-// +Z, its outer face looks to +Z. Units: metres. Colours: linear RGB.
+// +Z, its outer face points to +Z. Units: metres. Colours: linear RGB.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,4 +1,4 @@
-// The car's wheel: tyre with a lettered side, dished rim, five spokes, so that one sees it turn.
+// The car's wheel: tyre with a lettered side, dished rim and five spokes, which make its rotation visible.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -27,7 +27,7 @@ scene::Mesh carWheel(const scene::VehicleParameters& parameters) {
     const float half = static_cast<float>(parameters.wheelWidthMetres) / 2;
     SurfaceBuilder builder;
 
-    // From the hub's outer face outwards over the tread to the inner face: the outside is to the left.
+    // From the hub's outer face outwards over the tread to the inner face; the outside is to the left.
     const std::array<glm::vec2, 12> profile{{{0, 0.40f * half},
                                              {0.58f * radius, 0.25f * half},
                                              {0.60f * radius, 0.85f * half},
@@ -53,7 +53,7 @@ scene::Mesh carWheel(const scene::VehicleParameters& parameters) {
     for (int spoke = 0; spoke < spokes; ++spoke) {
         const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(spoke) / spokes;
         const vec3 along(std::cos(angle), std::sin(angle), 0), across(-along.y, along.x, 0);
-        // Round the spoke's section: back, side, face, side, back.
+        // Around the spoke's section: back, side, face, side, back.
         const auto position = [&](float u, float v) {
             const float wide = (u > 0.5f ? 0.085f : 0.15f) * radius;
             const vec3 middle = along * (u > 0.5f ? outer : inner);

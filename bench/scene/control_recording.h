@@ -1,6 +1,6 @@
-// The controls of a world's steps, kept as they come, as the drive file that repeats them.
+// Records the controls of a world's steps and writes them as a drive file.
 //
-// Played from the same start, the file gives the same controls to the last bit, and so the same state hash.
+// Played from the same start, the file gives bit-identical controls, and so the same state hash.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace dustbench::bench {
 
 class ControlRecording {
  public:
-    /// Of the next step, the first from time 0 on.
+    /// Adds the controls of the next step; the first step begins at time 0.
     void add(const Controls& controls) { steps_.push_back(controls); }
     [[nodiscard]] std::size_t steps() const { return steps_.size(); }
-    /// `time_s,throttle,brake,steer`. A drive's pedals count from the beginning of a step, its steering is what the
-    /// step ends with. Throws std::logic_error where nothing was recorded.
+    /// `time_s,throttle,brake,steer`. A drive's pedals apply from the beginning of a step; its steering is the value at
+    /// the end of the step. Throws std::logic_error if nothing was recorded.
     [[nodiscard]] std::string csv() const;
 
  private:

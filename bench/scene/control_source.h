@@ -1,4 +1,4 @@
-// Who drives: for each step the pedals and the wheel, from a drive's file, a recording or a keyboard.
+// Source of the controls of each step: a drive file, a recording or a keyboard.
 //
 // Units: SI; controls as in vehicle_dynamics.h.
 #pragma once
@@ -12,14 +12,15 @@ namespace dustbench::bench {
 class ControlSource {
  public:
     virtual ~ControlSource() = default;
-    /// For the step that begins at `nowSeconds`; asked once a step, in order. The preroll's steps begin before 0.
+    /// Controls for the step that begins at `nowSeconds`; called once per step, in order. The preroll's steps begin
+    /// before 0.
     [[nodiscard]] virtual Controls decide(const scene::VehicleParameters& parameters,
                                           const scene::VehicleState& vehicle, double nowSeconds) = 0;
-    /// With which the vehicle enters the preroll.
+    /// Speed of the vehicle at the start of the preroll.
     [[nodiscard]] virtual double initialSpeed() const { return 0; }
-    /// How long it has something to say; infinite where it never ends.
+    /// Duration; infinite if it does not end.
     [[nodiscard]] virtual double seconds() const = 0;
-    /// A copy that decides alike from here on, to drive ahead with.
+    /// A copy that makes the same decisions from here on, used to drive ahead.
     [[nodiscard]] virtual std::unique_ptr<ControlSource> clone() const = 0;
 };
 

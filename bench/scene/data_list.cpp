@@ -7,7 +7,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// What `read` says, or why it cannot: one broken file must not hide the others.
+/// The result of `read`, or the reason it failed: one broken file must not hide the others.
 template <typename Read>
 std::string descriptionOr(const Read& read) {
     try {

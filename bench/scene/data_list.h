@@ -1,4 +1,4 @@
-// The scenes and drives that data/ offers, each with one line that says what it is.
+// Lists the scenes and drives in data/, each with a one-line description.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@ namespace dustbench::bench {
 
 struct DataEntry {
     std::string id;
-    std::string description;  ///< of a file that cannot be read: why
+    std::string description;  ///< for an unreadable file: the reason
 };
 
-/// Sorted by id; the description is the scene's own key.
+/// Sorted by id; the description is a key of the scene file.
 [[nodiscard]] std::vector<DataEntry> listScenes();
-/// Sorted by id; the descriptions stand in data/drives/drives.toml.
+/// Sorted by id; the descriptions are in data/drives/drives.toml.
 [[nodiscard]] std::vector<DataEntry> listDrives();
 
 }  // namespace dustbench::bench

@@ -7,7 +7,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Fastest target that a drive may ask for; a typo in km/h or mm/s should be noticed.
+/// Maximum target speed in a drive; catches values given in km/h or mm/s.
 constexpr double fastestTarget = 100;
 
 const std::vector<std::string> pedalColumns{"time_s", "throttle", "brake", "steer"};

@@ -1,4 +1,4 @@
-// A drive: what the driver does over time, by pedals or by target speed, read from CSV.
+// A drive: the driver's input over time, by pedals or by target speed, read from CSV.
 //
 // Units: s, m/s; throttle and brake 0..1, steering −1..1 of the vehicle's limit (positive: left).
 #pragma once
@@ -12,8 +12,8 @@
 
 namespace dustbench::bench {
 
-/// Columns `time_s,throttle,brake,steer` or `time_s,target_speed_mps,steer`; linear between rows, held before the first
-/// and after the last.
+/// Columns `time_s,throttle,brake,steer` or `time_s,target_speed_mps,steer`; linear between rows, constant before the
+/// first and after the last.
 class Drive {
  public:
     /// Throws InputError with file, line and what was expected.
@@ -29,7 +29,7 @@ class Drive {
     [[nodiscard]] double throttleAt(double timeSeconds) const { return at(throttles_, timeSeconds); }
     [[nodiscard]] double brakeAt(double timeSeconds) const { return at(brakes_, timeSeconds); }
 
-    /// Every target speed above 0 becomes `speed`.
+    /// Replaces every target speed above 0 by `speed`.
     void replaceSpeeds(double speed);
 
  private:

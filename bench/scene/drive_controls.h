@@ -1,6 +1,6 @@
-// Drives as a drive's file says: by its pedals, or by a driver who follows its target speed.
+// Controls from a drive file: its pedals, or a driver that follows its target speed.
 //
-// Owns: the drive and the driver. The drive's controls of time 0 hold before it, those of its last row after it.
+// Owns: the drive and the driver. The controls of the first row hold before it, those of the last row after it.
 #pragma once
 
 #include <memory>

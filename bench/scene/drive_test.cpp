@@ -21,7 +21,7 @@ Drive builtIn(const std::string& id) {
     return Drive::parseFile(files::findData("drive", "drives", id, ".csv"));
 }
 
-/// ∫ of the target speed over the whole drive, metres: exact where rows lie at multiples of half a second.
+/// ∫ of the target speed over the whole drive, metres: exact if all rows lie at multiples of half a second.
 double targetDistance(const Drive& drive) {
     constexpr double step = 0.5;
     double distance = 0;
@@ -30,7 +30,7 @@ double targetDistance(const Drive& drive) {
     return distance;
 }
 
-/// Drives the default vehicle on level ground; `each` sees every state.
+/// Drives the default vehicle on level ground and calls `each` with every state.
 template <typename Each>
 void driveIt(const Drive& drive, const Each& each) {
     const scene::VehicleParameters p;
@@ -107,7 +107,7 @@ TEST(BuiltInDrives, Ece15IsThePublishedUrbanCycle) {
     double fastest = 0;
     for (double t = 0; t <= 195; t += 0.5) fastest = std::max(fastest, drive.targetSpeedAt(t));
     EXPECT_NEAR(fastest, 50 / 3.6, 1e-5);
-    // The operations joined by straight lines: 3652.5 km/h·s. Published: 1013 m (theoretical), mean 18.7 km/h.
+    // The segments joined by straight lines: 3652.5 km/h·s. Published: 1013 m (theoretical), mean 18.7 km/h.
     EXPECT_NEAR(targetDistance(drive), 3652.5 / 3.6, 0.01);
     EXPECT_NEAR(targetDistance(drive), 1013, 0.002 * 1013);
     EXPECT_NEAR(targetDistance(drive) / 195 * 3.6, 18.7, 0.05);

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double proportionalPerSecond = 1.5;
 constexpr double integralPerSquareSecond = 0.3;
-/// Below this speed a driver who is to stand brakes to a halt and holds the car.
+/// Below this speed, with a target of 0, the driver brakes to a halt and holds the car.
 constexpr double haltSpeed = 0.3;
 constexpr double haltBrake = 0.3;
 

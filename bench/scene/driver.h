@@ -1,4 +1,5 @@
-// Follows a target speed with throttle and brake: feed-forward of what the vehicle needs, and PI control of the rest.
+// Follows a target speed with throttle and brake: feed-forward of the required acceleration plus PI control of the
+// error.
 //
 // Units: SI. Owns: the integral of the speed error.
 #pragma once
@@ -9,8 +10,8 @@ namespace dustbench::bench {
 
 class Driver {
  public:
-    /// Throttle and brake for the step from a moment with target `targetNow` to one with `targetNext`.
-    /// `steer` is passed through. The integral rests while the pedals are at their stops (no wind-up).
+    /// Throttle and brake for a step that starts at target `targetNow` and ends at `targetNext`. `steer` is passed
+    /// through. The integral is frozen while the pedals are at their limits (anti-windup).
     [[nodiscard]] Controls decide(const scene::VehicleParameters& parameters, const scene::VehicleState& state,
                                   double targetNow, double targetNext, double steer, double dt);
 

@@ -7,8 +7,8 @@
 
 namespace dustbench::bench {
 
-/// The first channel, taken as stored (no colour encoding): black at `baseMetres`, white `heightMetres` above. One
-/// sample a pixel, `spacingMetres` apart, the image's middle at the world's origin, its top row at the minimum z.
+/// Uses the first channel as stored (no colour decoding): black is `baseMetres`, white is `heightMetres` above. One
+/// sample per pixel, `spacingMetres` apart, with the image's centre at the world's origin and its top row at minimum z.
 /// Throws InputError with the file and the reason.
 [[nodiscard]] scene::Terrain readHeightImage(const std::filesystem::path& file, double spacingMetres,
                                              double heightMetres, double baseMetres);

@@ -16,9 +16,9 @@ namespace {
 
 using files::TomlReader;
 
-constexpr double far = 1e5;  ///< metres: the largest coordinate that a file may give
+constexpr double far = 1e5;  ///< metres: the maximum coordinate in a file
 
-/// Reads the table under a key where there is one, and refuses what it does not know.
+/// Reads the table under a key if present, and rejects unknown keys in it.
 template <typename Read>
 void readTable(TomlReader& parent, std::string_view key, const Read& read) {
     if (!parent.has(key)) return;
@@ -67,7 +67,8 @@ void readTerrain(TomlReader& table, const std::filesystem::path& folder, SceneFi
     }
 }
 
-/// All copies of one `[[solid]]` table: as one mesh in the world where there are several, else posed.
+/// Reads all copies of one `[[solid]]` table: several are merged into one mesh in world coordinates, a single one gets
+/// a pose.
 void readSolid(TomlReader& table, const std::filesystem::path& folder, SceneFile& result) {
     const std::string name = table.text("name");
     const std::filesystem::path file = folder / table.text("mesh");

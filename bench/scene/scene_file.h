@@ -1,5 +1,4 @@
-// Reads a scene from TOML: ground, solids, light, wind, vehicle, cameras. `data/scenes/plain.toml` is the manual of its
-// keys.
+// Reads a scene from TOML: ground, solids, light, wind, vehicle, cameras. `data/scenes/plain.toml` documents the keys.
 //
 // Units in the file: SI, degrees; colours linear RGB.
 #pragma once
@@ -13,7 +12,7 @@
 
 namespace dustbench::bench {
 
-/// Where the vehicle is when the drive begins.
+/// Position and heading of the vehicle at the start of the drive.
 struct Start {
     double x = 0;
     double z = 0;
@@ -25,15 +24,15 @@ struct SceneFile {
     CameraSet cameras;
     Start start;
     std::string description;
-    std::string drive;                         ///< id of the drive that is used where no other is named
-    std::string dust;                          ///< id of the particle system of the wheels
-    std::vector<std::filesystem::path> files;  ///< this file and all that it names
+    std::string drive;                         ///< id of the default drive
+    std::string dust;                          ///< id of the particle system for the wheels
+    std::vector<std::filesystem::path> files;  ///< this file and all files that it references
 };
 
 /// Throws InputError with file, line and what was expected.
 [[nodiscard]] SceneFile readScene(const std::filesystem::path& file);
 
-/// Unit vector to a sun at an elevation above the horizon and an azimuth counted like headings: 0 at +X, growing
+/// Unit vector to a sun at an elevation above the horizon. The azimuth is measured like headings: 0 at +X, increasing
 /// towards −Z.
 [[nodiscard]] glm::vec3 sunDirection(double elevation, double azimuth);
 

@@ -34,7 +34,7 @@ TEST(SceneFile, ReadsTheBuiltInScenes) {
     EXPECT_EQ(dunes.scene.terrain.rows(), 257);
 }
 
-/// What a closed surface encloses, by the flux of (x, 0, 0), (0, y, 0) and (0, 0, z) out of it.
+/// Volume enclosed by a closed surface, by the flux of (x, 0, 0), (0, y, 0) and (0, 0, z) through it.
 glm::dvec3 volumes(const scene::Mesh& mesh) {
     glm::dvec3 sum(0);
     for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
@@ -134,7 +134,7 @@ TEST(SceneFile, TurnsASolidAboutXThenZThenY) {
     folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const SceneFile file = readScene(folder.write(
         "s.toml", "description=\"d\"\n[[solid]]\nname=\"s\"\nmesh=\"t.obj\"\nrotation_degrees=[90,90,0]\n"));
-    // Y → Z by the turn about X, then Z → X by the turn about Y.
+    // Y → Z by the rotation about X, then Z → X by the rotation about Y.
     const glm::vec3 turned(file.scene.solidPoses[0].toWorld * glm::vec4(0, 1, 0, 0));
     EXPECT_LT(glm::distance(turned, glm::vec3(1, 0, 0)), 1e-6f);
 }

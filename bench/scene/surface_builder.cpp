@@ -6,7 +6,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// ∂P/∂u × ∂P/∂v, by differences that stay within the lines' range.
+/// ∂P/∂u × ∂P/∂v, by differences within the range of the lines.
 glm::vec3 smoothNormal(const SurfaceBuilder::Position& position, std::span<const float> us, std::span<const float> vs,
                        float u, float v) {
     const float du = 0.01f * (us.back() - us.front()), dv = 0.01f * (vs.back() - vs.front());
@@ -38,7 +38,7 @@ void SurfaceBuilder::quad(const glm::vec3 (&corners)[4], const glm::vec3 (&norma
     }
     const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const glm::vec3 area = glm::cross(corners[b] - corners[a], corners[c] - corners[a]);
-        if (glm::dot(area, area) < 1e-16f) return;  // a quad that ends in a point
+        if (glm::dot(area, area) < 1e-16f) return;  // a quad that degenerates to a triangle
         mesh_.indices.insert(mesh_.indices.end(), {first + a, first + b, first + c});
     };
     triangle(0, 1, 2);
@@ -107,7 +107,7 @@ void SurfaceBuilder::turned(std::span<const glm::vec2> profile, int segments,
                 corners[k] = {point.x * std::cos(angle), point.x * std::sin(angle), point.y};
                 normals[k] = {across.x * std::cos(angle), across.x * std::sin(angle), across.y};
             }
-            // With the radius growing and the outside towards +z the angle must run the other way round.
+            // With the radius increasing and the outside towards +z, the angle must run in the opposite direction.
             quad({corners[0], corners[3], corners[2], corners[1]}, {normals[0], normals[3], normals[2], normals[1]},
                  colour(static_cast<int>(part), segment));
         }
@@ -118,7 +118,7 @@ void SurfaceBuilder::lamp(const glm::vec3& centre, float radius, float depth, bo
                           const glm::vec3& rim) {
     SurfaceBuilder part;
     const glm::vec2 profile[] = {{radius, -depth}, {radius, 0}, {0.82f * radius, 0.15f * radius}, {0, 0.15f * radius}};
-    // The profile runs up and inwards, so its left is the inside: give it backwards.
+    // The profile runs upwards and inwards, so its left is the inside: reverse it.
     const glm::vec2 outward[] = {profile[3], profile[2], profile[1], profile[0]};
     part.turned(outward, 14, [&](int k, int) { return k == 0 ? glass : rim; });
     glm::mat4 turn(0);  // z → ±x

@@ -12,7 +12,7 @@ using scene::VehicleParameters;
 using scene::VehicleState;
 using scene::Wheel;
 
-/// A wheel's place in the vehicle's frame: `ahead` of the rear axle and to the `right`.
+/// A wheel's position in the vehicle's frame: `ahead` of the rear axle and to the `right`.
 struct WheelPlace {
     double ahead, right;
 };
@@ -23,8 +23,8 @@ WheelPlace wheelPlace(const VehicleParameters& p, std::size_t wheel) {
     return {front ? p.wheelbaseMetres : 0, (right ? 0.5 : -0.5) * p.trackMetres};
 }
 
-/// Velocity of a wheel's hub as shares of the vehicle's speed, forwards and to the right, at the path's curvature κ:
-/// v + ω × r with ω = κ v  ⇒  (1 + κ·right, −κ·ahead).
+/// Velocity of a wheel's hub relative to the vehicle's speed, forward and right, at path curvature κ: v + ω × r with ω
+/// = κ v ⇒ (1 + κ·right, −κ·ahead).
 struct Motion {
     double forward, right;
 };
@@ -42,7 +42,7 @@ double groundHeight(const Terrain& terrain, double x, double z) {
     return static_cast<double>(terrain.heightAt(static_cast<float>(x), static_cast<float>(z)));
 }
 
-/// Puts body and wheels on the ground, at the state's x, z, heading, speed and steering. Spin angles are kept.
+/// Places body and wheels on the ground, at the state's x, z, heading, speed and steering. Spin angles are kept.
 void settle(const VehicleParameters& p, const Terrain& terrain, VehicleState& state) {
     const glm::dvec3 ahead(std::cos(state.heading), 0, -std::sin(state.heading));
     const glm::dvec3 right(-ahead.z, 0, ahead.x);
@@ -53,7 +53,7 @@ void settle(const VehicleParameters& p, const Terrain& terrain, VehicleState& st
         ground[i] = groundHeight(terrain, below.x, below.z);
     }
     using enum Wheel;
-    // The plane of least squares through four corners of a rectangle.
+    // Least-squares plane through the four corners of a rectangle.
     const double climb =
         (ground[frontLeft] + ground[frontRight] - ground[rearLeft] - ground[rearRight]) / (2 * p.wheelbaseMetres);
     const double bank =
@@ -135,7 +135,7 @@ VehicleState step(const VehicleParameters& p, const VehicleState& state, const C
     if (state.speed + gain * dt >= 0) {
         next.speed = state.speed + gain * dt;
         distance = (state.speed + next.speed) / 2 * dt;
-    } else {  // comes to rest within the step, and stays
+    } else {  // stops within the step and stays at rest
         next.speed = 0;
         distance = state.speed * state.speed / (-2 * gain);
         gain = -state.speed / dt;
@@ -147,7 +147,7 @@ VehicleState step(const VehicleParameters& p, const VehicleState& state, const C
     const double limit = steerAngleLimit(p, next.speed);
     next.steerAngle = std::clamp(std::clamp(wanted, state.steerAngle - reach, state.steerAngle + reach), -limit, limit);
 
-    // An arc of the mean curvature: exact where the steering rests. Δψ = κ s, chord = s·sinc(Δψ/2) at ψ + Δψ/2.
+    // An arc of the mean curvature: exact for constant steering. Δψ = κ s, chord = s·sinc(Δψ/2) at ψ + Δψ/2.
     const double curvature = (curvatureOf(p, state.steerAngle) + curvatureOf(p, next.steerAngle)) / 2;
     const double turn = curvature * distance;
     const double chord = distance * std::hypot(ahead.x, ahead.z) * sinc(turn / 2);

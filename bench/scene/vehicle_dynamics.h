@@ -1,6 +1,6 @@
-// How the vehicle moves: a kinematic bicycle that drives, brakes, steers and follows the ground. Pure functions.
+// Vehicle motion: a kinematic bicycle that drives, brakes, steers and follows the ground. Pure functions.
 //
-// Units: SI, radians. Frame: world; positive steering turns left (the heading grows).
+// Units: SI, radians. Frame: world; positive steering turns left (the heading increases).
 // Source: Rajamani2012, 2.2 (kinematic bicycle model) and 4.1 (longitudinal forces).
 // Departs: no slip; the wheels follow the ground without springs; resistance never drives the vehicle backwards.
 #pragma once
@@ -13,27 +13,27 @@ namespace dustbench::bench {
 inline constexpr double gravity = 9.80665;   ///< m/s²
 inline constexpr double airDensity = 1.204;  ///< kg/m³ at 20 °C and 1013 hPa
 
-/// What the driver does. Throttle and brake 0..1, steering −1..1 of the limit (positive: left).
+/// The driver's input. Throttle and brake 0..1, steering −1..1 of the limit (positive: left).
 struct Controls {
     double throttle = 0;
     double brake = 0;
     double steer = 0;
 };
 
-/// Acceleration at full throttle: what the tyres carry, or the engine's power gives.
+/// Acceleration at full throttle, limited by tyre grip or engine power.
 [[nodiscard]] double fullThrottleAcceleration(const scene::VehicleParameters& parameters, double speed);
 
-/// Deceleration by the air and the rolling tyres on level ground.
+/// Deceleration by air drag and rolling resistance on level ground.
 [[nodiscard]] double resistanceDeceleration(const scene::VehicleParameters& parameters, double speed);
 
-/// Largest steering angle of the bicycle at a speed: the limit of the linkage or of the lateral acceleration.
+/// Maximum steering angle of the bicycle at a speed: the limit of the linkage or of the lateral acceleration.
 [[nodiscard]] double steerAngleLimit(const scene::VehicleParameters& parameters, double speed);
 
 /// Steering angle of one wheel, such that all four turn about one centre (Ackermann).
 [[nodiscard]] double wheelSteerAngle(const scene::VehicleParameters& parameters, double bicycleAngle,
                                      scene::Wheel wheel);
 
-/// The vehicle standing on the ground at (x, z), rolling at `speed`.
+/// The vehicle on the ground at (x, z), rolling at `speed`.
 [[nodiscard]] scene::VehicleState placeVehicle(const scene::VehicleParameters& parameters,
                                                const scene::Terrain& terrain, double x, double z, double heading,
                                                double speed);

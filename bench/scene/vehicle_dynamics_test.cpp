@@ -100,7 +100,7 @@ TEST(VehicleDynamics, ConvergesAtSecondOrderInTheStep) {
         VehicleState state = placeVehicle(p, {}, 0, 0, 0.3, 35);
         const double dt = 4.0 / steps;
         for (int n = 0; n < steps; ++n) {
-            // The steering at the end of each step, moved more slowly than its limit.
+            // Steering at the end of each step, changing more slowly than its rate limit.
             state = step(p, state, {0.8, 0, 0.02 * std::sin((n + 1) * dt)}, {}, dt);
         }
         return state;
@@ -181,7 +181,7 @@ TEST(VehicleDynamics, StandsWithAllWheelsOnTheGround) {
             EXPECT_EQ(wheel.contact.y, static_cast<double>(terrain.heightAt(static_cast<float>(wheel.contact.x),
                                                                             static_cast<float>(wheel.contact.z))));
             EXPECT_NEAR(glm::distance(wheel.hub, wheel.contact), p.wheelRadiusMetres, 1e-12);
-            // The body's plane lies between its wheels: no further off than they are apart.
+            // The body's plane lies between the ground heights under its wheels.
             EXPECT_LT(std::abs(glm::dot(wheel.contact - state.position, state.up)), 0.1);
         }
         EXPECT_NEAR(glm::length(state.up), 1, 1e-12);

@@ -37,7 +37,7 @@ Drive readDrive(const std::filesystem::path& file, const std::string& id, const 
     return drive;
 }
 
-/// Where the preroll must begin so that it ends at `start`: the way it drives, taken back. Exact on level ground.
+/// Where the preroll must begin to end at `start`: the path that it drives, reversed. Exact on level ground.
 VehicleState placeBefore(const VehicleParameters& parameters, const scene::Terrain& terrain, const Start& start,
                          const ControlSource& controls, std::int64_t steps) {
     const std::unique_ptr<ControlSource> ahead = controls.clone();
@@ -46,8 +46,8 @@ VehicleState placeBefore(const VehicleParameters& parameters, const scene::Terra
     for (std::int64_t n = -steps; n < 0; ++n)
         to = step(parameters, to, ahead->decide(parameters, to, static_cast<double>(n) * stepSeconds), terrain,
                   stepSeconds);
-    // The rigid motion from → to, in the plane: heading turns by `turn`, the way in the frame of `from` is (forwards,
-    // right).
+    // The rigid motion from → to in the plane: the heading turns by `turn`, the displacement in the frame of `from` is
+    // (forwards, right).
     const double turn = to.heading - from.heading;
     const glm::dvec2 moved(to.position.x - from.position.x, to.position.z - from.position.z);
     const double forwards = moved.x * std::cos(from.heading) - moved.y * std::sin(from.heading);

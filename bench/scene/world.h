@@ -1,4 +1,4 @@
-// A scene with its vehicle on its drive and its dust: what every method is shown, stepped at the fixed rate.
+// A scene with its vehicle, drive and dust, stepped at a fixed rate: the input of every method.
 //
 // Units: SI. Threads: one at a time; the dust uses the current oneTBB arena.
 #pragma once
@@ -26,12 +26,12 @@ struct SceneFile;
 
 class World {
  public:
-    /// `sceneId` and `driveId` name files of data/ or are paths; an empty drive is the scene's own.
-    /// `particlesPerPuff` (1 or more) particles are born in the place of each one, for the `continuum` reference.
-    /// Throws InputError for whatever is wrong with the files, std::invalid_argument for fewer than 1.
+    /// `sceneId` and `driveId` are names of files in data/ or paths; an empty drive selects the scene's own. Each
+    /// particle is replaced by `particlesPerPuff` (1 or more) particles, for the `continuum` reference. Throws
+    /// InputError for any error in the files, std::invalid_argument for fewer than 1.
     World(const std::string& sceneId, const std::string& driveId, const ParameterValues& parameters, std::uint64_t seed,
           std::int64_t particlesPerPuff = 1);
-    /// The same with somebody else at the wheel; `driveId()` is empty, and the parameter `speed` has no effect.
+    /// The same with controls from `source`; `driveId()` is empty, and the parameter `speed` has no effect.
     World(const std::string& sceneId, std::unique_ptr<ControlSource> source, const ParameterValues& parameters,
           std::uint64_t seed);
     ~World();
@@ -44,28 +44,28 @@ class World {
     [[nodiscard]] Puffs dust() const;
     [[nodiscard]] scene::View view(int width, int height) const;
 
-    /// The seed, and the number of particles asked for.
+    /// The seed and the requested number of particles.
     [[nodiscard]] RunSetup setup() const;
 
-    /// Steps of the untimed preroll, so that the cloud is there when recording begins.
+    /// Number of steps of the untimed preroll, which builds up the cloud before recording begins.
     [[nodiscard]] std::int64_t prerollSteps() const;
-    /// Length of the drive; after it its last row holds.
+    /// Length of the drive; after it the last row holds.
     [[nodiscard]] double driveSeconds() const;
     [[nodiscard]] const std::string& driveId() const;
 
-    /// The driver decides for the next step (stage `input`).
+    /// Gets the controls of the next step (stage `input`).
     void readInput();
-    /// What was decided last.
+    /// Controls of the last decision.
     [[nodiscard]] const Controls& controls() const;
-    /// Vehicle, then dust, one step on (stage `simulate`).
+    /// Advances the vehicle, then the dust, by one step (stage `simulate`).
     void simulate();
-    /// Both.
+    /// readInput() and simulate().
     void step() {
         readInput();
         simulate();
     }
 
-    /// Of vehicle and dust: the same for every method, thread count and build.
+    /// Hash of vehicle and dust: the same for every method, thread count and build.
     [[nodiscard]] std::uint64_t stateHash() const;
     [[nodiscard]] MemoryReport memory() const;
     /// Every file that the world was read from, for provenance.

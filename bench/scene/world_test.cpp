@@ -49,7 +49,7 @@ TEST(World, GivesAnotherStateForAnotherSeedSceneOrMoment) {
 }
 
 TEST(World, ARecordingPlayedAgainEndsInTheSameState) {
-    for (const char* drive : {"acceleration", "stop_and_go"}) {  // from rest, as a file of pedals begins
+    for (const char* drive : {"acceleration", "stop_and_go"}) {  // start at rest, as a pedal file does
         World world("plain", drive, with({{"preroll", "0"}}), 5);
         ControlRecording recording;
         for (int step = 0; step < 300; ++step) {
@@ -110,7 +110,7 @@ TEST(World, RaisesManyParticlesInThePlaceOfEachForTheContinuum) {
         World many("plain", "", with({{"particles", particles}, {"preroll", "2"}}), 3, 64);
         run(one, 120);
         run(many, 120);
-        // None has died yet, so only the births count, and they are even in time.
+        // No particle has died yet, so only births count, and they are evenly spaced in time.
         EXPECT_NEAR(static_cast<double>(many.dust().size()), 64 * static_cast<double>(one.dust().size()), 64);
         EXPECT_EQ(many.state().vehicle.position, one.state().vehicle.position);
     }
