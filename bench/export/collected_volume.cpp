@@ -77,7 +77,7 @@ void CollectedVolume::grid(const GridVolume& volume) {
 
 namespace {
 
-/// What holds all cells of a grid with extinction.
+/// Bounding box of all cells of a grid with extinction.
 std::optional<Box> boundsOf(const CollectedGrid& grid) {
     glm::ivec3 minimum(grid.cells), maximum(-1);
     for (int k = 0; k < grid.cells.z; ++k)

@@ -1,4 +1,4 @@
-// What a method handed over of one frame's cloud, kept: its parts are wanted several times.
+// Keeps a copy of the cloud that a method handed over for one frame, because it is used several times.
 //
 // Units: metres, seconds, extinction per metre. Frame: world. Owns: copies.
 #pragma once
@@ -23,7 +23,7 @@ struct CollectedOctree {
     glm::dvec3 originMetres;
     double edgeMetres;
     int depth;
-    std::vector<OctreeVoxel> voxels;  ///< in pre-order, as OctreeVolume says
+    std::vector<OctreeVoxel> voxels;  ///< in pre-order, as specified by OctreeVolume
 
     [[nodiscard]] double cellEdgeMetres(int level) const { return edgeMetres / static_cast<double>(1u << level); }
     [[nodiscard]] glm::dvec3 minimumCorner(const OctreeVoxel& voxel) const {
@@ -44,7 +44,7 @@ struct CollectedGrid {
     std::vector<float> extinctionPerMetre;  ///< x fastest
     std::vector<CollectedField> fields;
 
-    /// Over the rows (j, k) of the grid: where the row lies in memory.
+    /// Index in memory of the first cell of row (j, k).
     [[nodiscard]] std::size_t row(int j, int k) const {
         return (static_cast<std::size_t>(k) * static_cast<std::size_t>(cells.y) + static_cast<std::size_t>(j)) *
                static_cast<std::size_t>(cells.x);
@@ -53,32 +53,32 @@ struct CollectedGrid {
 
 class CollectedVolume final : public VolumeVisitor {
  public:
-    /// Throws std::runtime_error with the particle's serial where a puff is not made of finite numbers.
+    /// Throws std::runtime_error with the particle's serial if a puff has a non-finite number.
     void puffs(const Puffs& puffs) override;
-    /// Throws std::runtime_error with the voxel where it lies outside the tree or its extinction is no finite number.
+    /// Throws std::runtime_error with the voxel if it lies outside the tree or its extinction is not finite.
     void octree(const OctreeVolume& volume) override;
-    /// Throws std::runtime_error with the field where it has another size than the grid, or with the cell where a
-    /// number is not finite.
+    /// Throws std::runtime_error with the field if its size differs from the grid's, or with the cell if a number is
+    /// not finite.
     void grid(const GridVolume& volume) override;
 
     [[nodiscard]] const std::vector<CollectedPuff>& puffs() const { return puffs_; }
-    /// The particles that were handed over last, as their owner keeps them: valid until its next step. Empty: none
-    /// were.
+    /// The particles handed over last, as a view of their owner's storage: valid until its next step. Empty if there
+    /// were none.
     [[nodiscard]] const std::optional<Puffs>& particles() const { return particles_; }
     [[nodiscard]] const std::vector<CollectedOctree>& octrees() const { return octrees_; }
     /// Nothing was handed over, not even an empty cloud.
     [[nodiscard]] bool isNothing() const { return !anyPuffs_ && octrees_.empty() && grids_.empty(); }
-    /// A tree can be written as a tree where it is the whole cloud.
+    /// The cloud is exactly one tree, so it can be written as one.
     [[nodiscard]] bool isOneOctree() const { return octrees_.size() == 1 && !anyPuffs_ && grids_.empty(); }
     [[nodiscard]] const std::vector<CollectedGrid>& grids() const { return grids_; }
-    /// What holds the cloud: voxels whole, puffs to 4s around their centres (where 0.006 % of a puff's mass is left
-    /// out along each axis). None: there is no extinction anywhere.
+    /// Bounding box of the cloud: whole voxels, and puffs to 4s around their centres (which omits 0.006 % of a puff's
+    /// mass along each axis). Empty if there is no extinction.
     [[nodiscard]] std::optional<Box> bounds() const;
 
  private:
     bool anyPuffs_ = false;
     std::optional<Puffs> particles_;
-    std::vector<CollectedPuff> puffs_;  ///< those with a mass
+    std::vector<CollectedPuff> puffs_;  ///< those with mass
     std::vector<CollectedOctree> octrees_;
     std::vector<CollectedGrid> grids_;
 };

@@ -1,4 +1,5 @@
-// What exporting costs: grids from puffs, and a 256³ .vti beside a plain call of VTK's writer with the same compressor.
+// Cost of exporting: grids from puffs, and a 256³ .vti compared with a plain call of VTK's writer with the same
+// compressor.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 #include <vtkCellData.h>
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr int edgeCells = 256;
 
-/// A cubic grid of a cloud that fills most of it.
+/// A cubic grid that the cloud mostly fills.
 const ExtinctionGrid& cubeGrid() {
     static const ExtinctionGrid grid = [] {
         const TestDust dust(5000, 10, 0.2f, 1);
@@ -33,7 +34,7 @@ fs::path someFile(const char* extension) {
     return fs::temp_directory_path() / ("export_bench_" + std::to_string(getpid()) + extension);
 }
 
-/// What one would write without us: the same array, all else as VTK has it; or the numbers behind the XML, as we do.
+/// A plain VTK export of the same array with all defaults, or with the data appended after the XML, as we do.
 void writePlainly(const ExtinctionGrid& grid, const fs::path& file, bool appendedRaw) {
     vtkNew<vtkFloatArray> extinction;
     extinction->SetName("extinction");
@@ -49,7 +50,7 @@ void writePlainly(const ExtinctionGrid& grid, const fs::path& file, bool appende
     writer->Write();
 }
 
-/// Both in turn, so that a drift of the machine hits them alike. `ratio`: ours by VTK's plain call.
+/// Interleaved, so that drift of the machine affects both alike. `ratio`: our time divided by VTK's plain call.
 void vtiBesideAPlainCall(benchmark::State& state) {
     using Clock = std::chrono::steady_clock;
     const ExtinctionGrid& grid = cubeGrid();

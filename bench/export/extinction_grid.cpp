@@ -16,8 +16,8 @@ namespace {
 constexpr double reachDeviations = 5;
 constexpr int slabCells = 4;
 
-/// Both shapes are a mass times one distribution along each axis; `below` is its share on the lesser side of a
-/// coordinate. A cell's average is then mass / volume · Π over the axes of [below(its end) − below(its beginning)].
+/// Both shapes are a mass times a distribution along each axis; `below` is the share of the mass below a coordinate. A
+/// cell's average is then mass / volume · Π over the axes of [below(its end) − below(its beginning)].
 struct GaussianShape {
     glm::dvec3 centre;
     double reachMetres;
@@ -54,12 +54,12 @@ CubeShape cubeOf(const CollectedOctree& octree, const OctreeVoxel& voxel) {
     return {octree.minimumCorner(voxel), edge, static_cast<double>(voxel.extinctionPerMetre) * edge * edge * edge};
 }
 
-/// The cells of one axis that a shape reaches, and its share in each of them.
+/// The cells along one axis that a shape reaches, and its share in each.
 struct Run {
     int first = 0;
     std::vector<float> share;
 
-    /// False where it reaches none of the cells firstCell..endCell.
+    /// False if it reaches none of the cells firstCell..endCell.
     template <typename Shape>
     bool fill(const Shape& shape, int axis, const GridPlan& plan, int firstCell, int endCell) {
         const double origin = plan.origin[axis], spacing = plan.spacingMetres;
@@ -104,7 +104,7 @@ class Slab {
             }
     }
 
-    /// Cell by cell, those layers alone that reach into the slab.
+    /// Adds a grid cell by cell, only the layers that overlap the slab.
     void add(const CollectedGrid& grid) {
         const double edge = grid.spacingMetres;
         const double minimum = plan_.origin[2] + firstLayer_ * plan_.spacingMetres - grid.originMetres.z;
@@ -136,7 +136,7 @@ class Slab {
     std::array<Run, 3> along_;
 };
 
-/// Gibibytes for people, and the bytes themselves.
+/// Readable gibibytes, and the exact bytes.
 std::string bytesText(std::int64_t bytes) {
     return fmt::format("{} bytes ({:.1f} GiB)", bytes, static_cast<double>(bytes) / (1 << 30));
 }
@@ -150,7 +150,7 @@ GridPlan planGrid(const std::optional<Box>& box, int resolution) {
     plan.origin = box->minimum;
     plan.spacingMetres = std::max({extent.x, extent.y, extent.z}) / resolution;
     for (int axis = 0; axis < 3; ++axis) {
-        // What rounding leaves over a whole number of cells needs no further one.
+        // A rounding excess over a whole number of cells does not need another cell.
         const double cells = std::ceil(extent[axis] / plan.spacingMetres - 1e-9);
         plan.cells[static_cast<std::size_t>(axis)] = std::clamp(static_cast<int>(cells), 1, resolution);
     }
@@ -158,7 +158,7 @@ GridPlan planGrid(const std::optional<Box>& box, int resolution) {
 }
 
 void requireMemory(const GridPlan& plan, const VolumeSettings& settings, std::int64_t availableBytes) {
-    // OpenVDB keeps a second copy, in blocks, at worst of all cells and a tenth more for the tree.
+    // OpenVDB keeps a second copy, in blocks: in the worst case all cells, plus a tenth for the tree.
     const bool grid = settings.wants(VolumeFormat::vti), vdb = settings.wants(VolumeFormat::vdb);
     if (!grid && !vdb) return;
     const std::int64_t needed = plan.bytes() + (vdb ? plan.bytes() / 10 * 11 : 0);
@@ -177,7 +177,7 @@ double ExtinctionGrid::massSquareMetres() const {
 
 ExtinctionGrid computeGrid(const CollectedVolume& volume, const GridPlan& plan) {
     ExtinctionGrid grid{plan, std::vector<float>(static_cast<std::size_t>(plan.cellCount()))};
-    // Every cell takes its shares in the order of the shapes, whichever slab it is in.
+    // Each cell sums its contributions in the order of the shapes, whichever slab it is in.
     parallel::forEachBlock(static_cast<std::size_t>(plan.cells[2]), slabCells,
                            [&](std::size_t first, std::size_t count) {
                                Slab slab(grid, static_cast<int>(first), static_cast<int>(first + count));

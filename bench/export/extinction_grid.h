@@ -1,8 +1,8 @@
-// A cloud's extinction on a regular grid of cubic cells: what each cell holds is its exact average, so that the sum
-// over the cells keeps the cloud's mass however coarse they are.
+// A cloud's extinction on a regular grid of cubic cells. Each cell holds its exact average, so the sum over the cells
+// conserves the cloud's mass at any resolution.
 //
 // Units: metres, extinction per metre. Frame: world.
-// Threads: computing uses the current oneTBB arena; the result is the same, bit for bit, at any number of threads.
+// Threads: computing uses the current oneTBB arena; the result is bit-identical at any number of threads.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@
 
 namespace dustbench::bench {
 
-/// Where a grid lies. It covers a whole number of cells, so it may reach up to a cell beyond what it is to hold, on the
-/// side of the greater coordinates.
+/// Placement of a grid. It has a whole number of cells, so it may extend up to one cell beyond the requested region on
+/// the side of larger coordinates.
 struct GridPlan {
     glm::dvec3 origin{0};  ///< minimum corner of the first cell
     double spacingMetres = 1;
@@ -28,10 +28,11 @@ struct GridPlan {
     [[nodiscard]] std::int64_t bytes() const { return cellCount() * static_cast<std::int64_t>(sizeof(float)); }
 };
 
-/// `resolution` cells along the longest edge. An empty cloud (no box) is one empty cell of 1 m at the world's origin.
+/// `resolution` cells along the longest edge. An empty cloud (no box) gives one empty cell of 1 m at the world's
+/// origin.
 [[nodiscard]] GridPlan planGrid(const std::optional<Box>& box, int resolution);
 
-/// Throws InputError with both numbers where the formats asked for need more than `availableBytes` for such a grid.
+/// Throws InputError with both numbers if the requested formats need more than `availableBytes` for such a grid.
 void requireMemory(const GridPlan& plan, const VolumeSettings& settings, std::int64_t availableBytes);
 
 struct ExtinctionGrid {
@@ -42,8 +43,8 @@ struct ExtinctionGrid {
     [[nodiscard]] double massSquareMetres() const;
 };
 
-/// Cell averages of puffs (to 5s, which leaves out less than a part in 10⁵ of a puff's mass) and of voxels, added up in
-/// the order in which they were handed over.
+/// Cell averages of puffs (to 5s, which omits less than one part in 10⁵ of a puff's mass) and of voxels, summed in the
+/// order in which they were handed over.
 [[nodiscard]] ExtinctionGrid computeGrid(const CollectedVolume& volume, const GridPlan& plan);
 
 }  // namespace dustbench::bench

@@ -79,7 +79,8 @@ TEST(ExtinctionGrid, HoldsTheCellAveragesOfPuffsThatQuadratureGives) {
 
 TEST(ExtinctionGrid, HoldsTheCellAveragesOfVoxelsThatTheirOverlapGives) {
     const CollectedOctree octree = testOctree(300, 5, 3, 4);
-    // 12 points a cell of 1/3 of a finest voxel's edge, shifted by half a point: no point lies on a voxel's side.
+    // 12 points per cell, spaced 1/3 of the finest voxel's edge and shifted by half a spacing: no point lies on a
+    // voxel's side.
     const GridPlan plan{{-20, -30, 70}, 4.0 / 3, {9, 7, 8}};
     const ExtinctionGrid grid = computeGrid(volumeOf(octree), plan);
     double largest = 0;
@@ -158,7 +159,7 @@ TEST(ExtinctionGrid, OfAnEmptyCloudIsOneEmptyCell) {
         const ExtinctionGrid grid = computeGrid(volume, planGrid(volume.bounds(), 128));
         EXPECT_THAT(grid.extinctionPerMetre, testing::ElementsAre(0.0f));
     }
-    // A region that was asked for is kept.
+    // A requested region is kept.
     const ExtinctionGrid grid = computeGrid(TestDust(0, 1, 1, 1).volume(), planGrid(Box{{0, 0, 0}, {2, 1, 1}}, 4));
     EXPECT_EQ(grid.extinctionPerMetre, std::vector<float>(4 * 2 * 2, 0.0f));
 }

@@ -46,7 +46,7 @@ FrameRange parseFrameRange(std::string_view what, std::string_view text) {
     if (beyond < first) throw refuse("which is reversed");
     if (beyond == first) throw refuse("which holds no frame");
     const std::int64_t last = first + (beyond - 1 - first) / step * step;
-    // One frame has no step that could tell it from itself.
+    // For a single frame the step has no meaning: use 1.
     return {first, last, last == first ? 1 : step};
 }
 

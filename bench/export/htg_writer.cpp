@@ -20,14 +20,14 @@
 namespace dustbench::bench {
 namespace {
 
-/// What is known of a node: from above on the way down, of all its subtree on the way up.
+/// Data of a node: of its ancestors on the way down, of its whole subtree on the way up.
 struct Summary {
     double extinctionPerMetre = 0;
     float ageSeconds = std::numeric_limits<float>::quiet_NaN();
     int level = -1;
 
     void add(float age, int finest) {
-        ageSeconds = std::fmin(ageSeconds, age);  // passes NaN over
+        ageSeconds = std::fmin(ageSeconds, age);  // ignores NaN
         level = std::max(level, finest);
     }
 };
@@ -52,7 +52,7 @@ class TreeBuilder {
  private:
     struct Built {
         Summary summary;
-        std::span<const OctreeVoxel> rest;  ///< voxels that lie behind the subtree
+        std::span<const OctreeVoxel> rest;  ///< voxels after the subtree
     };
 
     static bool isWithin(const OctreeVoxel& voxel, const glm::uvec3& cell, int level) {
@@ -61,7 +61,7 @@ class TreeBuilder {
         return glm::uvec3(voxel.x >> deeper, voxel.y >> deeper, voxel.z >> deeper) == cell;
     }
 
-    /// Where the cursor stands; `voxels` begin with those of the node, in pre-order.
+    /// Builds the node at the cursor; `voxels` begin with those of the node, in pre-order.
     Built build(const glm::uvec3& cell, int level, std::span<const OctreeVoxel> voxels, Summary over) {
         const vtkIdType node = cursor_->GetGlobalNodeIndex();
         double own = 0;
@@ -74,11 +74,11 @@ class TreeBuilder {
         }
         Summary summary = over;
         if (!voxels.empty() && isWithin(voxels.front(), cell, level)) {
-            // A second voxel of the same cell would never find its child.
+            // A second voxel in the same cell would never find its child.
             if (voxels.front().level == level) throw std::logic_error("octree: two voxels of the same cell and level");
             cursor_->SubdivideLeaf();
             summary.extinctionPerMetre = 0;
-            // Ours come by 4·x + 2·y + z; VTK counts children by x + 2·y + 4·z.
+            // Our child order is 4·x + 2·y + z; VTK's is x + 2·y + 4·z.
             for (unsigned child = 0; child < 8; ++child) {
                 const glm::uvec3 half(child >> 2 & 1u, child >> 1 & 1u, child & 1u);
                 cursor_->ToChild(static_cast<unsigned char>(half.x + 2 * half.y + 4 * half.z));
@@ -125,7 +125,7 @@ void writeHtg(const CollectedOctree& octree, double timeSeconds, const std::file
 
     WholeFile whole(file);
     vtkNew<vtkXMLHyperTreeGridWriter> writer;
-    // Not appended: VTK 9.1 then writes every cell array but the last over the file's beginning.
+    // Not appended: VTK 9.1 would write every cell array except the last over the beginning of the file.
     writeVtk(*writer, *grid, whole.beside(), Numbers::within);
     whole.publish();
 }

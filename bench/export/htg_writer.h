@@ -1,7 +1,8 @@
 // Writes a method's octree as a VTK hyper-tree grid: one tree whose nodes are refined to all eight children.
 //
 // Cell data, in leaves and in inner nodes:
-//   extinction      per metre. Leaf: its own voxel's and all its ancestors'. Inner node: the mean of its children, so
+//   extinction per metre. Leaf: the sum over its own voxel and all its ancestors'. Inner node: the mean of its
+//   children, so
 //                   that every depth to which the tree is cut off has the same mass
 //   own_extinction  per metre, of the very voxel at the node; 0 where there is none
 //   opacity         1 − exp(−extinction·edge)

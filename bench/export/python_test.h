@@ -1,4 +1,4 @@
-// For tests: what the system's Python, which has OpenVDB's module, says about a file.
+// Test helper: runs the system's Python, which has OpenVDB's module, on a file.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 
 namespace dustbench::bench {
 
-/// Runs the script with Debian's own interpreter and gives what it prints; a failure, with what it said, where it does
-/// not end well (a module that is missing included).
+/// Runs the script with Debian's own interpreter and returns its output. A non-zero exit (including a missing module)
+/// is a test failure that shows the error output.
 inline std::string python(const TestFolder& folder, const std::string& script, const std::filesystem::path& argument) {
     const auto file = folder.write("script.py", script);
     const auto said = folder.path() / "said", complained = folder.path() / "complained";

@@ -25,7 +25,7 @@ namespace {
 constexpr double groundMarginMetres = 20;
 constexpr std::int64_t maximumGroundPoints = 1 << 18;
 
-/// Points, normals and triangles, put together one by one.
+/// Collects points, normals and triangles one by one.
 class Surface {
  public:
     Surface() { normals_->SetNumberOfComponents(3); }
@@ -52,8 +52,8 @@ class Surface {
     vtkNew<vtkCellArray> triangles_;
 };
 
-/// A flat ground is one rectangle; a height field's are its own samples, of which every second, fourth … is left out
-/// where they would be too many.
+/// A flat ground is one rectangle; a height field uses its own samples, of which every second, fourth … is kept if
+/// there are too many.
 vtkNew<vtkPolyData> groundSurface(const scene::Terrain& terrain, const Box& part) {
     glm::dvec2 origin(part.minimum.x, part.minimum.z);
     glm::dvec2 step(part.extent().x, part.extent().z);
@@ -79,7 +79,7 @@ vtkNew<vtkPolyData> groundSurface(const scene::Terrain& terrain, const Box& part
             surface.addPoint({x, static_cast<double>(terrain.heightAt(nearX, nearZ)), z},
                              terrain.normalAt(nearX, nearZ));
         }
-    // Divided as the picture's ground is (draw/ground_lattice).
+    // Triangulated as the ground in the picture (draw/ground_lattice).
     const std::int64_t across = last[0] - first[0] + 1;
     for (std::int64_t j = 0; j < last[1] - first[1]; ++j)
         for (std::int64_t i = 0; i + 1 < across; ++i) {
@@ -145,8 +145,8 @@ void writeScene(const scene::Scene& scene, const scene::SceneState& state, const
         addBlock(*blocks, scene.solids[i].name, placed(*scene.solids[i].mesh, scene.solidPoses[i].toWorld));
     stampTime(*blocks, timeSeconds);
 
-    // VTK puts the pieces into a folder of the file's name, beside the file: both are made elsewhere and then moved,
-    // the folder first, so that the file never names what is not there.
+    // VTK puts the pieces into a folder with the file's name beside the file. Both are created elsewhere and then
+    // moved, the folder first, so that the file never names a missing piece.
     WholeFile elsewhere(file);
     std::error_code error;
     fs::remove_all(elsewhere.beside(), error);

@@ -1,4 +1,4 @@
-// Writes what stands around the cloud as a VTK multi-block: the ground, the car and every solid where it is.
+// Writes the surroundings of the cloud as a VTK multi-block: the ground, the car and every solid at its pose.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,14 @@
 
 namespace dustbench::bench {
 
-/// The part of the ground that lies under a cloud and under the vehicle, with a margin around; of a plane, which costs
-/// nothing, also what lies under the solids.
+/// The part of the ground under the cloud and the vehicle, with a margin. For a flat ground, where size costs nothing,
+/// also the part under the solids.
 [[nodiscard]] Box groundAround(const std::optional<Box>& cloud, const scene::Scene& scene,
                                const scene::SceneState& state);
 
-/// Blocks `terrain`, `body`, `wheel_front_left` … and the solids by their names, in world coordinates, with normals and
-/// (but for the ground) 8-bit sRGB `colour`. `ground` says which part of it, by x and z. The pieces lie in a folder
-/// beside `file` that has its name; the file appears after them. Throws InputError where it cannot be written.
+/// Writes blocks `terrain`, `body`, `wheel_front_left` … and the solids by name, in world coordinates, with normals and
+/// (except for the ground) 8-bit sRGB `colour`. `ground` selects its part by x and z. The pieces are in a folder beside
+/// `file` with the same name; the file is written after them. Throws InputError if it cannot be written.
 void writeScene(const scene::Scene& scene, const scene::SceneState& state, const Box& ground, double timeSeconds,
                 const std::filesystem::path& file);
 

@@ -1,5 +1,5 @@
-// The files that tie the files of single frames to the simulation's times: `.pvd` for ParaView and PyVista, `.series`
-// for ParaView's file reader.
+// Index files that map the files of single frames to simulation times: `.pvd` for ParaView and PyVista, `.series` for
+// ParaView's file reader.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@ class Series {
 
     Series(std::filesystem::path file, Kind kind) : file_(std::move(file)), kind_(kind) {}
 
-    /// One more frame; `name` is its file beside the series. Rewrites the series whole, so that it never names a file
-    /// that is not complete. Throws InputError where it cannot be written.
+    /// Adds a frame; `name` is its file beside the series. Rewrites the whole series, so that it never names an
+    /// incomplete file. Throws InputError if it cannot be written.
     void add(std::string_view name, double timeSeconds);
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 

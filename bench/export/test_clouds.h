@@ -1,4 +1,4 @@
-// For tests and benchmarks: clouds of random puffs and of random voxels.
+// Test and benchmark fixtures: clouds of random puffs and of random voxels.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace dustbench::bench {
 /// Owns: a store and the ledger behind it.
 class TestDust {
  public:
-    /// Within ±halfEdge of a centre off the origin, radii from `minimumRadius` to ten times that.
+    /// Positions within ±halfEdge of a centre off the origin, radii from `minimumRadius` to ten times that.
     TestDust(std::size_t count, float halfEdgeMetres, float minimumRadiusMetres, unsigned seed) : store(ledger_) {
         std::mt19937 random(seed);
         const auto uniform = [&random](float a, float b) {
@@ -59,10 +59,10 @@ class TestDust {
     particles::ParticleStore store;
 };
 
-/// In pre-order, no cell twice, coarse voxels over finer ones.
+/// In pre-order, no cell twice, coarse voxels above finer ones.
 inline CollectedOctree testOctree(std::size_t count, int depth, int levels, unsigned seed) {
     std::mt19937 random(seed);
-    std::set<std::tuple<std::uint64_t, int>> codes;  // the code of the finest cell at the corner, then the level
+    std::set<std::tuple<std::uint64_t, int>> codes;  // Morton code of the finest cell at the corner, then the level
     for (std::size_t i = 0; i < count; ++i) {
         const int level = depth - static_cast<int>(random() % static_cast<unsigned>(levels));
         const auto coordinate = [&] { return static_cast<std::uint32_t>(random()) % (1u << level); };
@@ -94,7 +94,7 @@ inline CollectedVolume volumeOf(const CollectedOctree& octree) {
     return volume;
 }
 
-/// A method's own grid of 5×4×3 cells: field n of cell c is c + 1000·n, so that a swap of any two shows.
+/// A method's own grid of 5×4×3 cells: field n of cell c is c + 1000·n, so that swapping any two is detected.
 struct TestGrid {
     TestGrid() : extinction(60), scalar(60), vector(180) {
         for (std::size_t c = 0; c < 60; ++c) {

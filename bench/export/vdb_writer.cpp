@@ -17,7 +17,7 @@ namespace {
 
 constexpr float largestHalf = 65504;
 
-/// OpenVDB's own file object does not notice a full disk: the stream is ours, and asked.
+/// OpenVDB's own file class does not notice a full disk, so we open the stream and check it.
 class File final : public openvdb::io::Archive {
  public:
     void write(const std::filesystem::path& path, const openvdb::GridPtrVec& grids) const {
@@ -29,7 +29,7 @@ class File final : public openvdb::io::Archive {
     }
 };
 
-/// `values` cell by cell, x fastest, as OpenVDB's LayoutXYZ is. It reads our memory and does not write to it.
+/// `values` cell by cell, x fastest, which is OpenVDB's LayoutXYZ. OpenVDB only reads our memory.
 template <typename Grid>
 typename Grid::Ptr sparse(const float* values, const std::array<int, 3>& cells, double spacing,
                           const glm::dvec3& origin) {

@@ -1,4 +1,4 @@
-// OpenVDB's own Python module gives back what was written.
+// OpenVDB's own Python module reads back what was written.
 #include "bench/export/vdb_writer.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// name=value a line: metadata, the sum over the voxels, the sum of each coordinate times the value, in the world.
+/// Prints name=value lines: metadata, the sum over the voxels, and the sum of each world coordinate times the value.
 constexpr const char* describe = R"(
 import sys
 import pyopenvdb as vdb
@@ -77,7 +77,7 @@ TEST_P(VdbFile, HasTheSameSumAtTheSamePlaceInTheWorld) {
         EXPECT_EQ(said["active"], std::to_string(filled));
         EXPECT_LT(filled, grid.plan.cellCount());  // sparse
         EXPECT_NEAR(std::stod(said["sum"]) / sum, 1, tolerance);
-        // The centre of mass, which a shift by half a cell would move by half a cell.
+        // The centre of mass, which would reveal a shift by half a cell.
         const glm::dvec3 centre =
             glm::dvec3(std::stod(said["x"]), std::stod(said["y"]), std::stod(said["z"])) / std::stod(said["sum"]);
         EXPECT_LT(glm::distance(centre, moment / sum), 0.01 * grid.plan.spacingMetres);

@@ -65,7 +65,7 @@ VolumeExporter::VolumeExporter(VolumeSettings settings, fs::path folder)
 }
 
 VolumeExporter::~VolumeExporter() {
-    if (madeFolder_) rmdir(folder_.c_str());  // refused where something is in it
+    if (madeFolder_) rmdir(folder_.c_str());  // fails if it is not empty
     close(lock_);
 }
 
@@ -107,7 +107,7 @@ void VolumeExporter::writeGrids(const ExportedMoment& moment) {
     }
 }
 
-/// A grid of the method's own with all that it holds, beside the extinction that every cloud has.
+/// Writes a method's own grid with all its fields, in addition to the extinction that every cloud has.
 void VolumeExporter::writeOwnGrid(const ExportedMoment& moment) {
     if (moment.volume.grids().empty()) return;
     const CollectedGrid& grid = moment.volume.grids().front();

@@ -1,13 +1,13 @@
-// Writes frames of one run: every format that was asked for, the scene around, and the series over them.
+// Exports frames of one run: every requested format, the surrounding scene, and the series files.
 //
 // In the folder: `f000120.vti .htg .vtp .vdb .vtm` of frame 120, `extinction.pvd extinction.vti.series octree.pvd
 // particles.pvd density.vdb.series scene.pvd` over the frames; `f000120_ID.vtp ID.pvd` of a method's own particles,
-// `f000120_ID.vti .vdb ID_grid.pvd ID_grid.vdb.series` of its own grid. The scene comes with every format but .vdb.
-// ParaView takes origin, spacing and size of `extinction.vti.series` from its first file, and shows the others in the
-// wrong place where theirs differ; `extinction.pvd` is always right.
+// `f000120_ID.vti .vdb ID_grid.pvd ID_grid.vdb.series` of its own grid. The scene is written with every format except
+// .vdb. ParaView takes origin, spacing and size of `extinction.vti.series` from its first file, and misplaces the
+// others if theirs differ; `extinction.pvd` is always right.
 //
-// Owns: a lock on the folder, so that two programs never write into one. Threads: one at a time; grids use the current
-// oneTBB arena.
+// Owns: a lock on the folder, so that two programs never write to the same one. Threads: one at a time; grids use the
+// current oneTBB arena.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +24,12 @@
 
 namespace dustbench::bench {
 
-/// Why this cloud cannot be written so (`hands over no octree`), or empty: it can.
+/// Why this cloud cannot be written in the format (`hands over no octree`); empty if it can.
 [[nodiscard]] std::string whyNotWritable(const CollectedVolume& volume, VolumeFormat format);
-/// Throws InputError naming the method, the reason and what is possible where one of the formats is not.
+/// Throws InputError with the method, the reason and the possible formats if one of the formats cannot be written.
 void requireWritable(const CollectedVolume& volume, const std::vector<VolumeFormat>& formats, std::string_view method);
 
-/// What there is of a run at one moment.
+/// The state of a run at one exported frame.
 struct ExportedMoment {
     std::int64_t frame;
     std::string_view method;  ///< its id
@@ -41,23 +41,23 @@ struct ExportedMoment {
 
 class VolumeExporter {
  public:
-    /// Makes the folder and clears it of what killed exports left behind. Throws InputError where it cannot be written,
-    /// or where a grid of the region asked for does not fit into memory.
+    /// Creates the folder and removes files left by interrupted exports. Throws InputError if it cannot be written, or
+    /// if a grid of the requested region does not fit into memory.
     VolumeExporter(VolumeSettings settings, std::filesystem::path folder);
-    /// A folder that was made for nothing goes again.
+    /// Removes the folder if it was created here and is empty.
     ~VolumeExporter();
     VolumeExporter(const VolumeExporter&) = delete;
     VolumeExporter& operator=(const VolumeExporter&) = delete;
 
     [[nodiscard]] const VolumeSettings& settings() const { return settings_; }
-    /// From now on without this format.
+    /// Stops writing this format.
     void leaveOut(VolumeFormat format);
-    /// Throws InputError where a format cannot hold this cloud, the grid does not fit into memory, or a file cannot be
-    /// written.
+    /// Throws InputError if a format cannot represent this cloud, the grid does not fit into memory, or a file cannot
+    /// be written.
     void write(const ExportedMoment& moment);
-    /// The grids lie in different places: readers of `extinction.vti.series` must look into each file.
+    /// The grids have different placements: readers of `extinction.vti.series` must look into each file.
     [[nodiscard]] bool gridsDiffer() const { return gridsDiffer_; }
-    /// The series written so far, those of the formats first, that of the scene last.
+    /// The series written so far: those of the formats first, that of the scene last.
     [[nodiscard]] std::vector<std::filesystem::path> seriesFiles() const;
 
  private:

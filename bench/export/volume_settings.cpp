@@ -15,7 +15,7 @@ namespace {
 constexpr double farthestMetres = 1e6;
 constexpr double minimumEdgeMetres = 1e-3;
 
-/// Of 'a,b,c': each part, or nothing where a comma is followed by none.
+/// Splits 'a,b,c'; the part after a trailing comma is empty.
 std::vector<std::string_view> parts(std::string_view text) {
     std::vector<std::string_view> list;
     for (;;) {

@@ -1,4 +1,4 @@
-// What is asked for when volumes are exported: which frames, in which formats, how fine and of which region.
+// Settings of a volume export: frames, formats, resolution and region.
 //
 // Units: metres. Frame: world.
 #pragma once
@@ -48,7 +48,7 @@ struct VolumeSettings {
     FrameRange frames;
     std::vector<VolumeFormat> formats{VolumeFormat::vti};
     int resolution = 128;       ///< cells along the longest edge of a grid, 1..maximumCellsPerEdge
-    std::optional<Box> region;  ///< of grids; none: what the cloud fills, frame by frame
+    std::optional<Box> region;  ///< of grids; empty: the cloud's bounding box in each frame
     VdbPrecision vdbPrecision = VdbPrecision::half;
 
     [[nodiscard]] bool wants(VolumeFormat format) const;

@@ -33,7 +33,7 @@ void writeVti(const ExtinctionGrid& grid, double timeSeconds, const std::filesys
     const GridPlan& plan = grid.plan;
     vtkNew<vtkFloatArray> extinction;
     extinction->SetName("extinction");
-    // VTK reads our memory and does not write to it; `1`: nor does it free it.
+    // VTK only reads our memory; `1`: it does not free it either.
     extinction->SetArray(const_cast<float*>(grid.extinctionPerMetre.data()), plan.cellCount(), 1);
 
     vtkNew<vtkImageData> image;
@@ -51,7 +51,7 @@ void writeGridVti(const CollectedGrid& grid, double timeSeconds, const std::file
         vtkNew<vtkFloatArray> values;
         values->SetName(field.name.c_str());
         values->SetNumberOfComponents(field.components);
-        // As above: VTK reads our memory alone.
+        // As above: VTK only reads our memory.
         values->SetArray(const_cast<float*>(field.values.data()), static_cast<vtkIdType>(field.values.size()), 1);
         image->GetCellData()->AddArray(values);
         vtkNew<vtkStringArray> unit;

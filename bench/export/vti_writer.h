@@ -1,5 +1,5 @@
-// Writes an extinction grid as VTK image data: cell data `extinction`, floats per metre; and a method's own grid with
-// all of its fields as cell data, cell by cell as the method has them.
+// Writes an extinction grid as VTK image data with cell data `extinction` (floats, per metre), and a method's own grid
+// with all its fields as cell data, unresampled.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace dustbench::bench {
 
-/// Whole or not at all. Throws InputError where it cannot be written.
+/// Written completely or not at all. Throws InputError if it cannot be written.
 void writeVti(const ExtinctionGrid& grid, double timeSeconds, const std::filesystem::path& file);
-/// The unit of field `x` is the field data `x_unit`.
+/// The unit of field `x` is stored as field data `x_unit`.
 void writeGridVti(const CollectedGrid& grid, double timeSeconds, const std::filesystem::path& file);
 
 }  // namespace dustbench::bench

@@ -1,4 +1,4 @@
-// How all VTK files are written: compressed by lz4, and VTK's complaints become exceptions.
+// Common settings of all VTK files: lz4 compression, and VTK errors reported as exceptions.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,15 @@ class vtkXMLWriter;   // NOLINT(cppcoreguidelines-virtual-class-destructor): VTK
 
 namespace dustbench::bench {
 
-/// Where the numbers lie: behind the XML as they are, which is quickest, or within it as base64.
+/// Where the data is stored: appended after the XML as raw bytes, which is fastest, or inside it as base64.
 enum class Numbers { appended, within };
 
-/// Lets the writer write `data` to exactly `file`, which need not be the final place. Throws InputError with what VTK
-/// complained of where it could not.
+/// Makes the writer write `data` to exactly `file`, which need not be the final place. Throws InputError with VTK's
+/// error message on failure.
 void writeVtk(vtkXMLWriter& writer, vtkDataObject& data, const std::filesystem::path& file,
               Numbers numbers = Numbers::appended);
 
-/// The simulation's time in a file of its own, where ParaView and PyVista look for it: field data `TimeValue`.
+/// Stores the simulation time of a single file where ParaView and PyVista look for it: field data `TimeValue`.
 void stampTime(vtkDataObject& data, double timeSeconds);
 
 }  // namespace dustbench::bench

@@ -1,4 +1,4 @@
-// VTK's own readers give back what was written.
+// VTK's own readers read back what was written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vtkCellData.h>
@@ -71,7 +71,7 @@ TEST(VtiFile, ReadsBackEqual) {
                   grid.extinctionPerMetre[static_cast<std::size_t>(cell)]);
     expectTime(image);
 
-    // Where the densest cell lies in the world, by VTK's own reckoning.
+    // Position of the densest cell in the world, as computed by VTK.
     const auto densest = std::ranges::max_element(grid.extinctionPerMetre) - grid.extinctionPerMetre.begin();
     double bounds[6];
     image.GetCellBounds(densest, bounds);
@@ -137,7 +137,7 @@ struct Node {
     std::map<std::string, double> values;
 };
 
-/// Every node as VTK's geometry cursor gives it.
+/// Every node as reported by VTK's geometry cursor.
 std::vector<Node> nodesOf(vtkHyperTreeGrid& grid) {
     std::vector<Node> nodes;
     vtkNew<vtkHyperTreeGridNonOrientedGeometryCursor> cursor;
@@ -165,7 +165,7 @@ std::vector<Node> nodesOf(vtkHyperTreeGrid& grid) {
     return nodes;
 }
 
-/// What a brute search over all voxels says of a place: those that it lies in.
+/// Brute-force search over all voxels: those that contain a position.
 std::vector<OctreeVoxel> voxelsOver(const CollectedOctree& octree, const glm::dvec3& place) {
     std::vector<OctreeVoxel> over;
     for (const OctreeVoxel& voxel : octree.voxels) {
@@ -276,7 +276,7 @@ TEST(SceneFile, BlocksStandWhereTheSceneHasThem) {
     const TestFolder folder;
     const SmallWorld world;
     const Box cloud{{-20, 0, -10}, {30, 5, 12}};
-    for (int again = 0; again < 2; ++again)  // over an older one, too
+    for (int again = 0; again < 2; ++again)  // also over an existing file
         writeScene(world.scene, world.state, groundAround(cloud, world.scene, world.state), someSeconds,
                    folder.path() / "f000007.vtm");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);  // the file and the folder of its pieces

@@ -36,7 +36,7 @@ void writeVtp(const Puffs& dust, double timeSeconds, const std::filesystem::path
     vtkNew<vtkPoints> points;
     points->SetData(interleaved(dust.x, dust.y, dust.z));
     cloud->SetPoints(points);
-    // A vertex a particle: points without cells are not drawn.
+    // One vertex per particle: points without cells are not drawn.
     vtkNew<vtkCellArray> vertices;
     vertices->AllocateExact(count, count);
     for (vtkIdType i = 0; i < count; ++i) vertices->InsertNextCell(1, &i);

@@ -1,4 +1,4 @@
-// Writes particles as points with serial, age, lifetime, radius, opacity, velocity and, where each has its own, colour.
+// Writes particles as points with serial, age, lifetime, radius, opacity, velocity and, if each has its own, colour.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace dustbench::bench {
 
-/// Whole or not at all. Throws InputError where it cannot be written.
+/// Written completely or not at all. Throws InputError if it cannot be written.
 void writeVtp(const Puffs& dust, double timeSeconds, const std::filesystem::path& file);
 
 }  // namespace dustbench::bench

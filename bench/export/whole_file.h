@@ -1,4 +1,4 @@
-// A file that is there whole or not at all: written under a hidden name beside its place, then renamed.
+// Atomic file writing: the file is written under a hidden name in the same folder, then renamed.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace dustbench::bench {
 
-/// Owns: what lies under the hidden name, a file or a folder; it goes with the object unless it was published.
+/// Owns: the file or folder under the hidden name; it is removed with the object unless it was published.
 class WholeFile {
  public:
     explicit WholeFile(std::filesystem::path place);
@@ -19,7 +19,7 @@ class WholeFile {
     /// The hidden name to write to.
     [[nodiscard]] const std::filesystem::path& beside() const { return beside_; }
     [[nodiscard]] const std::filesystem::path& place() const { return place_; }
-    /// Puts it into its place. Throws InputError where that cannot be done.
+    /// Moves it to its final place. Throws InputError on failure.
     void publish();
 
  private:
@@ -27,12 +27,12 @@ class WholeFile {
     std::filesystem::path beside_;
 };
 
-/// Throws InputError where it cannot be written.
+/// Throws InputError if it cannot be written.
 void writeWhole(const std::filesystem::path& file, std::string_view content);
 
 [[nodiscard]] InputError cannotWrite(const std::filesystem::path& path, std::string_view reason);
 
-/// Removes what a killed program left of its WholeFiles in the folder.
+/// Removes unfinished WholeFiles left in the folder by an interrupted program.
 void removeUnfinished(const std::filesystem::path& folder);
 
 }  // namespace dustbench::bench

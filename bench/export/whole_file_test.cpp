@@ -22,7 +22,7 @@ std::string contentOf(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// While it lives, no file of this process grows beyond so many bytes: a full disk.
+/// Simulates a full disk: during its lifetime no file of this process can grow beyond the given size.
 class FullDisk {
  public:
     explicit FullDisk(rlim_t bytes) {
