@@ -51,6 +51,7 @@ std::string messageOf(const std::string& text) {
 
 std::vector<std::string> ids(const std::vector<PlannedRun>& plan) {
     std::vector<std::string> list;
+    list.reserve(plan.size());
     for (const PlannedRun& run : plan) list.push_back(runId(run.spec));
     return list;
 }

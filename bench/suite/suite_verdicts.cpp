@@ -200,6 +200,7 @@ TextRows tabulate(const ComparisonResult& comparison) {
 
 std::vector<std::string> conclusions(const ComparisonResult& comparison) {
     std::vector<std::string> sentences;
+    sentences.reserve(comparison.columns.size());
     for (const ColumnVerdict& column : comparison.columns) sentences.push_back(conclusion(comparison, column));
     return sentences;
 }

@@ -40,6 +40,7 @@ Emitters::Emitters(const std::vector<SourceSetup>& setups, const scene::Scene& s
 /// Evenly by area: a share of it picks the triangle, two more numbers the place in it.
 void Emitters::scatterOver(const SourceSetup& setup, const scene::Scene& scene) {
     std::vector<std::string> known;
+    known.reserve(scene.solids.size());
     for (const scene::Solid& solid : scene.solids) known.push_back(solid.name);
     const auto found = std::ranges::find(known, setup.solid);
     if (found == known.end()) throw unknownName("solid of scene '" + scene.id + "'", setup.solid, known);

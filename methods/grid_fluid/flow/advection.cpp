@@ -147,9 +147,9 @@ void Advection::correct(const Pass& pass, int firstSlab, int lastSlab) {
                 if (limit != Limit::none) {
                     Float8 minimum, maximum;
                     field.extrema(i, minimum, maximum);
-                    value = limit == Limit::clamp                     ? atMost(atLeast(value, minimum), maximum)
-                            : (value >= minimum) & (value <= maximum) ? value
-                                                                      : first;
+                    value = limit == Limit::clamp                       ? atMost(atLeast(value, minimum), maximum)
+                            : ((value >= minimum) & (value <= maximum)) ? value
+                                                                        : first;
                 }
             }
             storeRecord(out, value);

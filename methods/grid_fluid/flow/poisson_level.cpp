@@ -46,7 +46,7 @@ class Reciprocals {
     }
     [[gnu::always_inline]] [[nodiscard]] Float16 of(const std::uint8_t* weights) const {
         const Int16 weight = widened(weights);
-        if constexpr (sixteenAtOnce) return __builtin_shuffle(table_, weight);
+        if constexpr (sixteenAtOnce) return lanes::lookUp(table_, weight);
         const Float16 number = __builtin_convertvector(weight, Float16);
         return number > 0 ? 1.0f / number : Float16{};
     }
@@ -121,7 +121,7 @@ void PoissonLevel::sweepRow(int colour, int j, int k, const SplitField& target, 
     const Around p = aroundRow(layout, source.colour[1 - colour], colour, j, k);
     const float* f = rightSide.colour[colour] + at;
     float* out = target.colour[colour] + at;
-    const auto step = [&]<typename Number>(const Number& own, const Number& solved) {
+    const auto step = [&]<typename Number>([[maybe_unused]] const Number& own, const Number& solved) {
         if constexpr (!relaxed) return solved;
         if constexpr (guess == Guess::memory) return own + relaxation * (solved - own);
         return relaxation * solved;

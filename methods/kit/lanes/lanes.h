@@ -36,6 +36,34 @@ template <typename Vector>
     return x > bound ? x : bound;
 }
 
+/// `table[index]` lane by lane. An index counts from 0 and wraps at the number of lanes.
+template <typename Vector, typename Index>
+[[gnu::always_inline]] inline Vector lookUp(const Vector& table, const Index& index) {
+#if defined(__clang__)  // clang-tidy; its __builtin_shufflevector takes constants only
+    constexpr int count = sizeof(Index) / sizeof(int);
+    Vector found{};
+    for (int lane = 0; lane < count; ++lane) found[lane] = table[index[lane] & (count - 1)];
+    return found;
+#else
+    return __builtin_shuffle(table, index);
+#endif
+}
+/// The same in two tables, the second behind the first; an index wraps at the lanes of both.
+template <typename Vector, typename Index>
+[[gnu::always_inline]] inline Vector lookUp(const Vector& first, const Vector& second, const Index& index) {
+#if defined(__clang__)
+    constexpr int count = sizeof(Index) / sizeof(int);
+    Vector found{};
+    for (int lane = 0; lane < count; ++lane) {
+        const int place = index[lane] & (2 * count - 1);
+        found[lane] = place < count ? first[place] : second[place - count];
+    }
+    return found;
+#else
+    return __builtin_shuffle(first, second, index);
+#endif
+}
+
 /// The same number in all lanes.
 template <typename Vector>
 [[gnu::always_inline]] inline Vector everywhere(float value) {

@@ -70,5 +70,22 @@ TYPED_TEST(Lanes, HoldTheSameNumberEverywhereAndItsSign) {
     }
 }
 
+TEST(LookUp, PicksFromOneTableAndFromTwoAndWraps) {
+    Float16 first, second;
+    for (int i = 0; i < 16; ++i) {
+        first[i] = static_cast<float>(i);
+        second[i] = static_cast<float>(16 + i);
+    }
+    for (int shift = 0; shift < 64; ++shift) {
+        Int16 index;
+        for (int i = 0; i < 16; ++i) index[i] = 7 * i + shift;
+        const Float16 fromOne = lookUp(first, index), fromBoth = lookUp(first, second, index);
+        for (int i = 0; i < 16; ++i) {
+            EXPECT_EQ(fromOne[i], static_cast<float>(index[i] % 16));
+            EXPECT_EQ(fromBoth[i], static_cast<float>(index[i] % 32));
+        }
+    }
+}
+
 }  // namespace
 }  // namespace dustbench::lanes

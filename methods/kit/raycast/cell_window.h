@@ -63,8 +63,7 @@ class CellWindow {
         const Ints index = i + 4 * j + 16 * k;
         return betweenEight(share, [&](int corner) {
             const Ints there = index + ((corner & 1) + 2 * (corner & 2));
-            return corner < 4 ? __builtin_shuffle(slabs_[0], slabs_[1], there)
-                              : __builtin_shuffle(slabs_[1], slabs_[2], there);
+            return corner < 4 ? lanes::lookUp(slabs_[0], slabs_[1], there) : lanes::lookUp(slabs_[1], slabs_[2], there);
         });
     }
 
