@@ -25,6 +25,11 @@ help: ## What make can do here
 packages: ## Install the Debian packages that are missing
 	@.ci/install build
 
+# The build folders of a tree that was moved or copied go before make looks at them.
+ifneq ($(filter-out help packages format format-check clean,$(or $(MAKECMDGOALS),help)),)
+DROPPED := $(shell .ci/drop-stale-builds build/*)
+endif
+
 # Ninja configures again by itself whenever a CMakeLists.txt changes; this is for the first time and for new presets.
 build/%/build.ninja: CMakePresets.json | packages
 	@cmake --preset $*
@@ -37,6 +42,10 @@ build: build/release/build.ninja ## The program, build/release/dustbench
 .PHONY: reproduce
 reproduce: build ## The paper's experiments in their quick size (PAPER=carr2006), results in reports/out/
 	@$(PROGRAM) reproduce --paper $(PAPER) --quick --out reports/out/$(PAPER)
+
+.PHONY: sample
+sample: build ## The sample report in reports/sample and README's table and chart, from one run
+	@python3 reports/sample/make_sample.py $(PROGRAM)
 
 .PHONY: test
 test: build/release/build.ninja ## Build everything and run every test

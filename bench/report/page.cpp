@@ -64,8 +64,8 @@ std::filesystem::path writePage(const std::filesystem::path& folder, const Repor
         std::ifstream stream(file, std::ios::binary);
         const std::string there(std::istreambuf_iterator<char>(stream), {});
         if (there.find(mark) == std::string::npos)
-            throw InputError(fmt::format("'{}': is there already and was not written by dustbench; move it away first",
-                                         file.string()));
+            throw InputError(
+                fmt::format("'{}': exists and was not written by dustbench; move it away first", file.string()));
     }
     writeWhole(file, pageOf(data));
     if (!data.claims.empty()) writeWhole(folder / "claims.csv", claimsCsv(data.claims));

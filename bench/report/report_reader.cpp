@@ -27,7 +27,7 @@ void readRuns(const fs::path& folder, ReportData& data) {
     std::error_code error;
     fs::directory_iterator entry(folder / "runs", error);
     if (error) {
-        data.problems.push_back("there is no folder 'runs': nothing was measured here, or this is no results folder");
+        data.problems.push_back("there is no folder 'runs': nothing was measured here, or this is not a result folder");
         return;
     }
     for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
@@ -153,7 +153,7 @@ void readPapers(const fs::path& folder, ReportData& data) {
 ReportData readReport(const fs::path& folder, std::int64_t maximumPictureBytes) {
     if (!fs::is_directory(folder))
         throw InputError(
-            fmt::format("'{}': is no folder, expected one that `suite`, `run` or `reproduce` wrote", folder.string()));
+            fmt::format("'{}': not a folder, expected one that `suite`, `run` or `reproduce` wrote", folder.string()));
     ReportData data;
     const fs::path whole = fs::absolute(folder).lexically_normal();
     data.folder = (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();

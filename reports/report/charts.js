@@ -135,7 +135,7 @@ const chartKit = (() => {
         const xLog = !named && (chart.xLog ?? spans(xs, 15));
         const yLog = chart.yLog ?? spans(points.map(point => point.y), 60);
         const seen = points.filter(point => (!xLog || point.x > 0) && (!yLog || point.low > 0));
-        if (!seen.length) return { empty: 'No value is above 0, as a logarithmic scale needs it.' };
+        if (!seen.length) return { empty: 'No value is above 0; a logarithmic scale cannot show it.' };
         const curves = !named && xs.length > 1 ? fitCurves(report, experiment, load.name, column, theSeries, thePanel, xs[0], xs[xs.length - 1])
             .filter(row => seen.some(point => point.series === row.series && point.panel === row.panel)) : [];
         const published = experiment.published.filter(item => item.column === column && (!item.axis || (!named && item.axis === load.name)))
@@ -184,7 +184,7 @@ const chartKit = (() => {
         if (labelled) spec.legends = [];
         if (!named && xs.length <= 10) spec.marks[0].axes[1].values = xs;
         const notes = [];
-        if (published.length) notes.push(`Grey: what the paper's text gives as a number. ${distinct(published.map(item => item.tip.of)).join('; ')}.`);
+        if (published.length) notes.push(`Grey: numbers given in the paper's text. ${distinct(published.map(item => item.tip.of)).join('; ')}.`);
         if (curves.length) notes.push(`Wide pale lines: the fitted cost a + b·N^k${column === 'fps_avg' ? ' of the frame time, as a rate' : ''}.`);
         return { spec, notes, state: { x: load.name, column, xLog, yLog } };
     };

@@ -130,15 +130,15 @@
     const shapeNote = experiment => {
         // Our own views of a paper's methods have nothing to be held against.
         if (experiment.published.length || !experiment.title.startsWith('Figure')) return null;
-        return paragraph('Shape only: the paper\'s text gives no numbers that could be drawn here.', 'note shape-note');
+        return paragraph('Compare the shape only: the paper\'s text gives no numbers for this chart.', 'note shape-note');
     };
 
     const addPerformance = () => {
         const here = section('performance');
         const known = chartKit.list(report);
-        if (!known.length) put(here, paragraph('There is no run with frame times.', 'muted'));
-        else put(here, paragraph('Each point is the median of a cell\'s runs; the bar is the interval in which the true median lies with 95 % or more, by ' +
-            'the order of 6 runs or more, and with fewer the minimum and the maximum run. Points of one load stand a little apart. Runs take turns in random order, each in a process of its own.', 'muted'));
+        if (!known.length) put(here, paragraph('No run has frame times.', 'muted'));
+        else put(here, paragraph('Each point is the median of a cell\'s runs. The bar is the interval that contains the true median with at least 95 % probability, from ' +
+            'the order of 6 or more runs; with fewer runs it spans the minimum and maximum. Points with the same load are drawn slightly apart. Runs alternate in random order, each in its own process.', 'muted'));
         for (const experiment of data.experiments) {
             const own = known.filter(chart => chart.experiment === experiment);
             if (!own.length) continue;
@@ -179,10 +179,10 @@
         const here = section('quality');
         const own = chartKit.list(report).filter(chart => chart.kind === 'quality');
         if (!own.length) {
-            put(here, paragraph('No run of this folder was judged against exact pictures: run --metrics, or metrics = true in a suite, asks for that.', 'muted'));
+            put(here, paragraph('No run in this folder was compared with exact pictures. Use run --metrics, or metrics = true in a suite.', 'muted'));
             return;
         }
-        put(here, paragraph('How near a picture comes to the exact one, against what it costs. reports/METRICS.md in the source tree defines every metric.', 'muted'));
+        put(here, paragraph('The error of a picture against its cost. reports/METRICS.md in the source tree defines every metric.', 'muted'));
         for (const chart of own) {
             const card = element('article', { className: 'card' }, [element('h3', { textContent: titleOf(chart.experiment) })]);
             put(here, card);
@@ -197,7 +197,7 @@
     const addPictures = () => {
         const here = section('pictures');
         if (!data.pictures.length) {
-            put(here, paragraph('No run of this folder kept pictures.', 'muted'));
+            put(here, paragraph('No run in this folder saved pictures.', 'muted'));
             return;
         }
         const linked = data.linkedPictures ? ` ${plural(data.linkedPictures, 'picture')} are too many for this file and are read from runs/ beside it.` : '';
@@ -207,7 +207,7 @@
 
     const addClaims = () => {
         const here = section('claims');
-        if (!data.claims.length) put(here, paragraph('No experiment of a paper is in this folder, so there is no claim to test.', 'muted'));
+        if (!data.claims.length) put(here, paragraph('This folder contains no experiment of a paper, so there is no claim to test.', 'muted'));
         for (const paper of data.papers) {
             const claims = data.claims.filter(claim => claim.paper === paper.id);
             if (!claims.length) continue;
@@ -215,8 +215,8 @@
                 element('h3', { textContent: paper.title }),
                 paragraph([paper.authors + (paper.year ? ` (${paper.year})` : ''), paper.venue].filter(Boolean).join(', '), 'muted'),
                 table(claimTable.heads, claims.map(claim => claimTable.row(report, claim, runLinks)), 'stacking'),
-                paragraph('Confirmed: the whole interval lies within the values in which the claim is true. Refuted: wholly outside. Unresolved: neither, or fewer than ' +
-                    '6 repetitions. The interval has 95 %; for what no machine changes (bytes, counts, image metrics) it is the min and the max cell.', 'note'),
+                paragraph('Confirmed: the whole interval lies within the values for which the claim is true. Refuted: wholly outside. Unresolved: neither, or fewer than ' +
+                    '6 repetitions. The interval has 95 %; for quantities independent of the machine (bytes, counts, image metrics) it spans the minimum and maximum cell.', 'note'),
             ]));
         }
     };
@@ -224,8 +224,8 @@
     const addMachine = () => {
         const here = section('machine');
         const fields = [['cpu', 'CPU'], ['cores', 'cores'], ['ram_bytes', 'memory'], ['governor', 'governor'], ['virtual_machine', 'virtual machine'], ['kernel', 'kernel'],
-            ['gl_renderer', 'OpenGL renderer'], ['gl_vendor', 'OpenGL vendor'], ['gl_version', 'OpenGL version'], ['gl_platform', 'platform'], ['adapter', 'adapter'], ['adapter_why', 'taken as'], ['gpu_timers', 'GPU timers'],
-            ['version', 'dustbench'], ['git_commit', 'commit'], ['git_dirty', 'changed since'], ['compiler', 'compiler'], ['flags', 'flags'], ['build_type', 'build']];
+            ['gl_renderer', 'OpenGL renderer'], ['gl_vendor', 'OpenGL vendor'], ['gl_version', 'OpenGL version'], ['gl_platform', 'platform'], ['adapter', 'adapter'], ['adapter_why', 'chosen because'], ['gpu_timers', 'GPU timers'],
+            ['version', 'dustbench'], ['git_commit', 'commit'], ['git_dirty', 'uncommitted changes'], ['compiler', 'compiler'], ['flags', 'flags'], ['build_type', 'build']];
         const text = (name, value) => (name === 'ram_bytes' ? `${(Number(value) / 2 ** 30).toFixed(1)} GiB` : value || '–');
         if (data.machines.length)
             put(here, element('article', { className: 'card' }, [
@@ -235,18 +235,18 @@
             ]));
         put(here, element('article', { className: 'card' }, [
             element('h3', { textContent: 'How it was measured' }),
-            paragraph('A frame is input, vehicle, simulation, building, sorting, upload, the opaque scene and drawing, without waiting for the display. Each run is a process of its ' +
-                'own; the picture of the measured run is held against that of a checked one first, frames before the first recorded one warm up. Stages are timed one by one and add up ' +
-                'to the frame; the queue of the GPU is worked through in the wait. Pictures and metrics are made outside the timed frames.'),
-            element('p', {}, ['All that this page shows is in summary.csv, claims.csv and runs/ beside it; ', element('code', { textContent: 'dustbench report --text' }), ' prints the tables.']),
-            element('details', {}, [element('summary', { textContent: 'What the columns and files say (SCHEMA)' }), section('schema').content.cloneNode(true)]),
+            paragraph('A frame consists of input, vehicle, simulation, building, sorting, upload, the opaque scene and drawing, without vertical sync. Each run is a separate process. ' +
+                'Before it is timed, its picture is compared with that of a checked run, and unrecorded frames warm up. Stages are timed one by one and add up ' +
+                'to the frame; queued GPU work appears in the wait. Pictures and metrics are made outside the timed frames.'),
+            element('p', {}, ['Everything on this page comes from summary.csv, claims.csv and runs/ in the same folder; ', element('code', { textContent: 'dustbench report --text' }), ' prints the tables.']),
+            element('details', {}, [element('summary', { textContent: 'Columns and files (SCHEMA)' }), section('schema').content.cloneNode(true)]),
             element('details', {}, [element('summary', { textContent: 'Licence of the chart library' }), section('licence').content.cloneNode(true)]),
         ]));
         if (data.warnings.length)
             put(here, element('article', { className: 'card', id: 'warnings' }, [
                 element('h3', { textContent: 'Warnings of the runs' }),
-                paragraph('Nothing is left out of the numbers for them.', 'muted'),
-                table([['warning, as the first of them says it'], ['runs', 'number']], data.warnings.map(item => [item.warning, String(item.runs.length)])),
+                paragraph('No run is excluded because of them.', 'muted'),
+                table([['warning, in the words of the first run'], ['runs', 'number']], data.warnings.map(item => [item.warning, String(item.runs.length)])),
             ]));
         put(here, element('article', { className: 'card', id: 'not-done' }, [
             element('h3', { textContent: 'Skipped and failed' }),
@@ -270,7 +270,7 @@
             element('div', { className: 'fact' }, [element('b', { textContent: number }), element('span', { textContent: text })])));
         if (data.problems.length)
             put(section('problems'), element('aside', { className: 'problems' }, [
-                element('b', { textContent: 'To be known before reading on' }),
+                element('b', { textContent: 'Read this first' }),
                 element('ul', {}, data.problems.slice(0, 20).map(text => element('li', { textContent: text }))),
                 ...(data.problems.length > 20 ? [paragraph(`and ${data.problems.length - 20} more of the kind`, 'note')] : []),
             ]));

@@ -25,12 +25,12 @@ const pictureViewer = (() => {
         const frameText = make('output', { className: 'frame-text' });
         const frameControl = make('label', { className: 'control' }, [make('span', { textContent: 'Frame' }), frame, frameText]);
         worlds.forEach((set, index) => world.append(new Option([titleOf(set.experiment), set.world].filter(Boolean).join(' · '), index)));
-        for (const [value, text] of [['slider', 'slider'], ['flicker', 'in turns'], ['both', 'side by side']]) mode.append(new Option(text, value));
+        for (const [value, text] of [['slider', 'slider'], ['flicker', 'alternating'], ['both', 'side by side']]) mode.append(new Option(text, value));
 
         const [leftImage, rightImage] = ['left-image', 'right-image'].map(className => make('img', { className, decoding: 'sync' }));
         const [leftName, rightName] = ['left-name', 'right-name'].map(className => make('figcaption', { className }));
         const line = make('div', { className: 'divider' });
-        const slider = make('input', { type: 'range', min: 0, max: 1000, value: 500, className: 'wipe', ariaLabel: 'where the left picture ends' });
+        const slider = make('input', { type: 'range', min: 0, max: 1000, value: 500, className: 'wipe', ariaLabel: 'edge of the left picture' });
         const stage = make('div', { className: 'picture-stage' }, [leftImage, rightImage, line, leftName, rightName]);
         const place = make('div', { className: 'picture-viewer' }, [
             make('div', { className: 'controls' }, [worldControl, frameControl, leftControl, rightControl, modeControl]), stage, slider,

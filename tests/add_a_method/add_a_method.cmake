@@ -5,7 +5,7 @@
 # copy of the tree below WORK, which is kept from one run to the next: only what changed is compiled again, the first
 # time from the compiler cache.
 #
-#   cmake -DSOURCE=tree -DWORK=folder -DCOMPILER=c++ -DC_COMPILER=cc -DARCH=native -P add_a_method.cmake
+#   cmake -DSOURCE=tree -DWORK=folder -DCOMPILER=c++ -DC_COMPILER=cc -DARCH=native -DWERROR=OFF -P add_a_method.cmake
 cmake_minimum_required(VERSION 3.25)
 
 set(TREE ${WORK}/tree)
@@ -75,7 +75,7 @@ endif()
 write_from_page(methods/dots/dots.cpp)
 write_from_page(data/suites/dots.toml)
 write_from_page(methods/kit/particles/parts/force/updraught.cpp)
-must_run(IGNORED ${CMAKE_COMMAND} -S ${TREE} -B ${BUILD} -G Ninja -DCMAKE_BUILD_TYPE=Release -DDUSTBENCH_ARCH=${ARCH}
+must_run(IGNORED ${CMAKE_COMMAND} -S ${TREE} -B ${BUILD} -G Ninja -DCMAKE_BUILD_TYPE=Release -DDUSTBENCH_ARCH=${ARCH} -DDUSTBENCH_WERROR=${WERROR}
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_C_COMPILER=${C_COMPILER})
 build_copy()
 

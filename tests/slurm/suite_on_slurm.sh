@@ -173,6 +173,6 @@ for shard in 1 2; do
     (($(ids "$out/shards/$shard-of-2/summary.csv" | wc -l) > 0)) || fail "shard $shard had nothing to do"
 done
 "${suite[@]}" --out "$out" > table 2> again
-grep -q "6 were there" again || fail "the merged folder is not taken for whole: $(cat again)"
+grep -q "6 existing" again || fail "the merged folder is not taken as complete: $(cat again)"
 grep -q "Two methods in three worlds" table || fail "no table of the merged folder"
 echo "all is well after $SECONDS s"

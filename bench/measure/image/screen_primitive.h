@@ -8,7 +8,7 @@ namespace dustbench::bench {
 struct ScreenPrimitive {
     double xPixels = 0;
     double yPixels = 0;
-    double radiusPixels = 0;  ///< of the puff (DESIGN: optics), not of the quad around it
+    double radiusPixels = 0;  ///< of the puff, not of the quad around it
 };
 
 }  // namespace dustbench::bench

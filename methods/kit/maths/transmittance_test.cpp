@@ -50,7 +50,7 @@ TEST(Transmittance, PartsOfARayAddUp) {
     EXPECT_NEAR(rayOpticalDepth(0.5, 1, 0.4, 3, 0, 2.7) + rayOpticalDepth(0.5, 1, 0.4, 3, 2.7, 9), whole, 1e-14);
 }
 
-// DESIGN, 5: a half-side of 1.5 r (= 3 s) cuts off 1.1 % of the mass, one of r 13.5 %.
+// A half-side of 1.5 r (= 3 s) cuts off 1.1 % of the mass, one of r 13.5 %.
 TEST(Transmittance, DiscOfOneAndAHalfRadiiHoldsAllButOnePointOneHundredthsOfTheMass) {
     const auto cutOff = [](double halfSide) {
         const double kept = integral(

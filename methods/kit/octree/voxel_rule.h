@@ -1,7 +1,7 @@
 // Which of several particles in one voxel it stands for, and how much mass it holds.
 //
 // Units: m² (optical mass). Threads: pure.
-// The paper is silent on particles that share a voxel (claims C9): these policies are ours.
+// The paper is silent on particles that share a voxel: these policies are ours.
 #pragma once
 
 #include <bit>

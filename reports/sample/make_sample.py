@@ -1,0 +1,105 @@
+"""Makes the sample report and README's table and chart from one run, so that they agree.
+
+    make_sample.py PROGRAM      measures (minutes), writes this folder and README.md; `make sample` calls it
+    make_sample.py --write      README.md again from this folder
+    make_sample.py --check      exit code 1 where README.md and this folder disagree
+"""
+
+import csv
+import json
+import pathlib
+import shutil
+import statistics
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+README = ROOT / "README.md"
+OUT = ROOT / "reports" / "out" / "sample"
+PAPER, SUITE = "carr2006", "carr2006-compare-quick"
+BEGIN, END = "<!-- sample: `make sample` writes what follows -->\n", "<!-- end of sample -->\n"
+MACHINE = ("cpu", "cores", "gl_renderer", "git_commit", "started_utc")
+
+
+def is_of_suite(row):
+    """Of the paper's suites only this one records 40 frames."""
+    return row["status"] == "done" and row["frames"] == "40"
+
+
+def measure(program):
+    shutil.rmtree(OUT, ignore_errors=True)
+    subprocess.run([program, "reproduce", "--paper", PAPER, "--quick", "--out", OUT], check=True)
+    for chart in (SUITE, SUITE + "-stages"):
+        subprocess.run([program, "report", OUT, "--chart", chart, "--format", "png"], check=True)
+        shutil.copy(OUT / "charts" / f"{chart}.png", HERE)
+    for name in ("index.html", "summary.csv", "claims.csv"):
+        shutil.copy(OUT / name, HERE)
+    provenance = json.loads(next((OUT / "runs").glob("*/run.json")).read_text())["provenance"]
+    with open(HERE / "machine.csv", "w", encoding="utf-8", newline="") as stream:
+        table = csv.writer(stream, lineterminator="\n")
+        table.writerow(MACHINE)
+        table.writerow([provenance[name] for name in MACHINE])
+
+
+def rows(name):
+    with open(HERE / name, encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def table():
+    """A row for each method and number of particles: medians over the repetitions, of the frame rate the range too."""
+    cells = {}
+    for row in filter(is_of_suite, rows("summary.csv")):
+        cells.setdefault((row["method"], int(row["p.particles"])), []).append(row)
+    lines = ["| Method | Particles | Frames per second (range) | Frame [ms] | Build [ms] | Draw [ms] |",
+             "|---|--:|--:|--:|--:|--:|"]
+    for (method, particles), runs in sorted(cells.items()):
+        def median(column):
+            return statistics.median(float(run[column]) for run in runs)
+        fps = [float(run["fps_avg"]) for run in runs]
+        lines.append(f"| `{method}` | {particles:,} | {median('fps_avg'):.1f} ({min(fps):.1f}–{max(fps):.1f}) "
+                     f"| {median('frame_ms_median'):.1f} | {median('build_ms_median'):.2f} | {median('draw_ms_median'):.1f} |")
+    return lines
+
+
+def block():
+    machine = rows("machine.csv")[0]
+    repetitions = max(int(row["repetition"]) for row in filter(is_of_suite, rows("summary.csv")))
+    return "\n".join([
+        BEGIN.rstrip("\n"),
+        f"Dust behind the car at 320×240 pixels, medians of {repetitions} runs on {machine['cores']} cores of an",
+        f"{machine['cpu'].replace('(R)', '')} with {machine['gl_renderer']}.",
+        "*Build* is the time to build the octree, *draw* the time to draw the dust; the rest is mostly the scene.", ""]
+        + table() + ["", f"![Frame rate of the three methods against the number of particles, with intervals](reports/sample/{SUITE}.png)",
+                     "", END.rstrip("\n"), ""])
+
+
+def readme_parts():
+    text = README.read_text(encoding="utf-8")
+    start, end = text.index(BEGIN), text.index(END) + len(END)
+    return text[:start], text[start:end], text[end:]
+
+
+def write():
+    before, _, after = readme_parts()
+    README.write_text(before + block() + after, encoding="utf-8")
+
+
+def check():
+    found, wanted = readme_parts()[1].splitlines(), block().splitlines()
+    for number in range(max(len(found), len(wanted))):
+        got, expected = (lines[number] if number < len(lines) else "nothing" for lines in (found, wanted))
+        if got != expected:
+            sys.exit(f"README.md has '{got}', reports/sample says '{expected}'; run `make sample`, or make_sample.py --write")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    if sys.argv[1] == "--check":
+        check()
+    else:
+        if sys.argv[1] != "--write":
+            measure(sys.argv[1])
+        write()

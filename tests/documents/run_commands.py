@@ -1,0 +1,94 @@
+"""Runs the commands of a document, in a short form, in a folder of its own.
+
+    run_commands.py PROGRAM DOCUMENT
+
+Commands are the fenced blocks marked `sh`. A comment right before a block says more:
+
+    <!-- short: --frames 2 -->       options of each line of the block that calls dustbench, in place of those of the same name
+    <!-- exit: 3 -->                 what the block's last line ends with; several numbers: one of them
+    <!-- not run: the reason -->     the block is left out
+
+A fenced block below a line that is `` `FILE` `` alone is written to that file first. The folder looks like the tree, with
+`build/release/dustbench` in its place; what the commands write under `out/` is removed afterwards.
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BLOCK = re.compile(r"(?m)(?P<comments>(?:^<!--[^\n]*-->\n)*)^(?:`(?P<file>[^`\n]+)`\n)?^```(?P<kind>\w+)\n(?P<text>(?:.*\n)*?)^```$")
+
+
+def said(comments, word):
+    found = re.search(rf"<!-- {word}: (.*?) -->", comments)
+    return found[1] if found else None
+
+
+def commands(text):
+    """The lines of a block, continued ones as one."""
+    return [line for line in text.replace("\\\n", " ").splitlines() if line.strip() and not line.startswith("#")]
+
+
+def shortened(line, short):
+    """The line with these options instead of its own; `-P name=value` is the option `-P name`."""
+    for option, value in re.findall(r"(--?[\w-]+)(?: (?!--)(\S+))?", short):
+        if option == "-P":
+            line = re.sub(rf" -P {re.escape(value.split('=')[0])}=\S+", "", line)
+        else:
+            line = re.sub(rf" {option}\b" + (r" \S+" if value else ""), "", line)
+    return f"{line} {short}"
+
+
+def work_folder(program):
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="dustbench-document-"))
+    (folder / "build" / "release").mkdir(parents=True)
+    (folder / "build" / "release" / "dustbench").symlink_to(program)
+    (folder / "out").mkdir()
+    for name in ("data", "methods", "Makefile"):
+        (folder / name).symlink_to(ROOT / name)
+    (folder / "reports").mkdir()
+    for entry in (ROOT / "reports").iterdir():
+        if entry.name != "out":
+            (folder / "reports" / entry.name).symlink_to(entry)
+    return folder
+
+
+def main(program, document):
+    text = pathlib.Path(document).read_text()
+    folder = work_folder(pathlib.Path(program).resolve())
+    environment = {name: value for name, value in os.environ.items() if name != "DUSTBENCH_DATA"}
+    count = 0
+    try:
+        for block in BLOCK.finditer(text):
+            comments = block["comments"]
+            if block["file"]:
+                (folder / block["file"]).parent.mkdir(parents=True, exist_ok=True)
+                (folder / block["file"]).write_text(block["text"])
+            if block["kind"] != "sh" or said(comments, "not run"):
+                continue
+            lines = commands(block["text"])
+            short = said(comments, "short")
+            expected = [int(code) for code in (said(comments, "exit") or "0").split()]
+            for number, line in enumerate(lines):
+                command = shortened(line, short) if short and "dustbench " in line else line
+                called = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, capture_output=True, text=True)
+                wanted = expected if number + 1 == len(lines) else [0]
+                count += 1
+                if called.returncode not in wanted:
+                    sys.exit(f"{document}: `{command}` ended with {called.returncode}, expected {wanted}\n{called.stderr}{called.stdout[-2000:]}")
+    finally:
+        shutil.rmtree(folder)
+    if count == 0:
+        sys.exit(f"{document}: no command was run")
+    print(f"{document}: {count} commands")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])
