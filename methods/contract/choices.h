@@ -1,4 +1,4 @@
-// The words of a choice and what each of them stands for: one table, by which it is declared, read and written.
+// Maps the words of a choice to enumerators: one table serves to declare, parse and print it.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct Choice {
 };
 
 /// `inline constexpr Choices<Facing> facings{{"viewpoint", Facing::viewpoint}, {"viewplane", Facing::viewplane}};`
-/// No word and no enumerator stands twice, which the compiler checks.
+/// Words and enumerators are unique, which the compiler checks.
 template <typename Enumeration>
 class Choices {
  public:
@@ -37,7 +37,7 @@ class Choices {
                     throw std::logic_error("a word or an enumerator stands twice");
     }
 
-    /// In the order of the table.
+    /// In table order.
     [[nodiscard]] std::span<const Choice<Enumeration>> all() const { return {choices_.data(), count_}; }
     [[nodiscard]] std::vector<std::string> words() const {
         std::vector<std::string> words;
@@ -54,7 +54,7 @@ class Choices {
         const auto found = std::ranges::find(all(), word, &Choice<Enumeration>::word);
         return found == all().end() ? std::nullopt : std::optional(found->value);
     }
-    /// Of a word that has been checked already.
+    /// For a word that has already been validated.
     [[nodiscard]] Enumeration valueOf(std::string_view word) const {
         if (const auto value = find(word)) return *value;
         throw std::logic_error("'" + std::string(word) + "' is not in the table of words");

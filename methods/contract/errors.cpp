@@ -7,7 +7,8 @@
 namespace dustbench {
 namespace {
 
-/// Letters left out, put in, changed or swapped with their neighbour (optimal string alignment), by three table rows.
+/// Edit distance with insertions, deletions, substitutions and transpositions of neighbours (optimal string alignment),
+/// using three table rows.
 std::size_t editDistance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> beforeLast(b.size() + 1), last(b.size() + 1), current(b.size() + 1);
     std::iota(last.begin(), last.end(), std::size_t{0});
@@ -26,7 +27,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-// Out of line, so that there is one type of each error, which is caught on either side of a library's border.
+// Out of line, so that each error has one type, which can be caught on either side of a library boundary.
 InputError::~InputError() = default;
 SimulationError::~SimulationError() = default;
 

@@ -1,5 +1,5 @@
-// Errors that a method throws: what a person can mend (wrong names, values, files, machines: one line, exit code 3),
-// and a simulation that breaks down (the run fails, exit code 1).
+// Errors that a method throws: user-correctable errors (wrong names, values, files or machines: one line, exit code 3)
+// and simulations that break down (the run fails, exit code 1).
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace dustbench {
 
-/// Bad input or an unusable machine. The message is one line: what it concerns, what was got, what is allowed.
+/// Bad input or an unusable machine. The message is one line: the subject, the value received, the values allowed.
 class DUSTBENCH_API InputError : public std::runtime_error {
  public:
     using std::runtime_error::runtime_error;
@@ -18,8 +18,8 @@ class DUSTBENCH_API InputError : public std::runtime_error {
     ~InputError() override;
 };
 
-/// A simulation that broke down in the middle of a run, through no fault of the program: its state cannot be gone on
-/// from (a number that is none, for example). The message is one line and says where. The run fails (exit code 1).
+/// A simulation that breaks down during a run through no fault of the program: its state is unusable (NaN, for
+/// example). The message is one line and says where. The run fails (exit code 1).
 class DUSTBENCH_API SimulationError : public std::runtime_error {
  public:
     using std::runtime_error::runtime_error;
@@ -29,11 +29,11 @@ class DUSTBENCH_API SimulationError : public std::runtime_error {
 };
 
 /// `unknown method 'bilboard' (did you mean 'billboard'?); known: billboard, octree_search`
-/// The suggestion is left out where nothing is near.
+/// Omits the suggestion if no known name is close.
 [[nodiscard]] DUSTBENCH_API InputError unknownName(std::string_view kind, std::string_view got,
                                                    std::span<const std::string> known);
 
-/// The known name nearest by edit distance, or empty where all differ by more than a third of their letters.
+/// The known name nearest to `got` by edit distance; empty if all differ by more than a third of the letters of `got`.
 [[nodiscard]] std::string nearestName(std::string_view got, std::span<const std::string> known);
 
 }  // namespace dustbench

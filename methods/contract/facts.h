@@ -1,7 +1,7 @@
-// What a method can tell of a run besides times, memory and pictures: facts that it declares once, with unit and
+// Facts: values that a method reports besides times, memory and pictures. A method declares each once, with unit and
 // meaning.
 //
-// A declared fact is a column of summary.csv, a row of `dustbench list metrics` and a row of reports/SCHEMA.md.
+// Each declared fact becomes a column of summary.csv, a row of `dustbench list metrics` and a row of reports/SCHEMA.md.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@
 
 namespace dustbench {
 
-/// Of which moments a fact is kept: the maximum of all recorded frames, or the value after the last one.
+/// Which value of a fact is kept: the maximum over all recorded frames, or the value after the last one.
 enum class FactOver { maximumOfFrames, lastFrame };
 
 struct FactInfo {
-    std::string name;  ///< lower case, `mass_kept`; methods that declare the same name mean the same
+    std::string name;  ///< lower case, `mass_kept`; methods that declare the same name give it the same meaning
     std::string unit;  ///< `m/s`, `particles`, `share`
     FactOver over = FactOver::lastFrame;
     std::string meaning;  ///< one line
@@ -28,21 +28,21 @@ struct FactInfo {
 
 using FactValue = std::variant<std::int64_t, double>;
 
-/// Collects what a method tells in one call of `Method::report`.
+/// Collects the facts reported in one call of `Method::report`.
 class DUSTBENCH_API Facts {
  public:
-    /// Asks for those of `declared` (which must outlive this) that are kept `over` such moments.
+    /// Accepts the facts in `declared` whose FactInfo::over equals `over`. `declared` must outlive this object.
     Facts(const std::vector<FactInfo>& declared, FactOver over);
 
-    /// False for a fact that would be thrown away: a method need not work it out.
+    /// False if the fact would be discarded, so that a method can skip computing it.
     [[nodiscard]] bool wants(std::string_view name) const;
-    /// Throws std::logic_error for a name that was not declared. A fact that nobody wants is dropped.
+    /// Throws std::logic_error for an undeclared name. Discards facts that are not wanted.
     void tell(std::string_view name, FactValue value);
 
-    /// Forgets all that was told.
+    /// Clears all values.
     void clear();
 
-    /// Empty where the method did not tell it.
+    /// Empty if the method did not report the fact.
     [[nodiscard]] std::optional<FactValue> value(std::string_view name) const;
 
  private:

@@ -1,5 +1,5 @@
-// The destructors of the contract's interfaces. Out of line, so that each interface has one vtable and one type, which
-// all libraries that are loaded share.
+// The destructors of the contract's interfaces. Out of line, so that each interface has one vtable and one type, shared
+// by all loaded libraries.
 #include "methods/contract/experiment.h"
 #include "methods/contract/method.h"
 #include "methods/contract/stage_clock.h"

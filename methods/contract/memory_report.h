@@ -1,4 +1,4 @@
-// What a method says of the memory that it holds: exact bytes by structure. kit/memory counts them.
+// Memory held by a method: exact bytes by structure, as counted by kit/memory.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Every method and every experiment of this build. CMake generates the lists from the folders of methods/.
+// All methods and experiments of this build. CMake generates the lists from the folders of methods/.
 #pragma once
 
 #include <string_view>

@@ -5,9 +5,9 @@
 namespace dustbench::scene {
 
 glm::vec3 dustColour(const Scene& scene) {
-    // Light that meets the cloud is scattered with albedo ϖ, equally to all sides (phase 1/4π). A white surface facing
-    // the sun reads `sun`, so one scattering shows ϖ·sun/4; the sky comes from everywhere and shows ϖ·ambient. Half of
-    // the scattered light leaves the cloud, the other half is scattered again: Σ ϖⁿ (½)ⁿ⁻¹ = ϖ / (1 − ϖ/2).
+    // The cloud scatters incident light with albedo ϖ, isotropically (phase 1/4π). A white surface facing the sun reads
+    // `sun`, so single scattering shows ϖ·sun/4; the sky is all around and shows ϖ·ambient. Half of the scattered light
+    // leaves the cloud, the other half is scattered again: Σ ϖⁿ (½)ⁿ⁻¹ = ϖ / (1 − ϖ/2).
     const glm::vec3 albedo = scene.dustAlbedo;
     const glm::vec3 incoming = scene.lights.ambient + scene.lights.sun / 4.0f;
     return albedo / (1.0f - albedo / 2.0f) * incoming;
@@ -15,15 +15,15 @@ glm::vec3 dustColour(const Scene& scene) {
 
 namespace {
 
-/// Wheel axes as columns: rolling direction, up, and the axle to the right; turned about the axle by the rolled angle.
+/// Wheel axes as columns: rolling direction, up, and the axle to the right; rotated about the axle by the rolled angle.
 glm::mat4 wheelToWorld(const WheelState& wheel, const glm::dvec3& bodyUp, bool rightSide) {
     const glm::dvec3 axle = glm::normalize(glm::cross(wheel.forward, bodyUp));
     const glm::dvec3 up = glm::cross(axle, wheel.forward);
-    // Rolling forwards carries the top of the wheel forwards: a negative turn about the axle (+Z).
+    // Rolling forwards moves the top of the wheel forwards: a negative rotation about the axle (+Z).
     const double angle = std::remainder(wheel.spinAngle, 2 * 3.14159265358979323846);
     const double cosine = std::cos(angle);
     const double sine = std::sin(angle);
-    // The mesh's outer face looks to +Z: on the left it is turned half round the vertical, and so spins the other way.
+    // The mesh's outer face looks to +Z. Left wheels are turned half round the vertical and so spin the other way.
     const double side = rightSide ? 1 : -1;
     glm::dmat4 matrix(1);
     matrix[0] = glm::dvec4(side * (cosine * wheel.forward - sine * up), 0);
@@ -36,7 +36,7 @@ glm::mat4 wheelToWorld(const WheelState& wheel, const glm::dvec3& bodyUp, bool r
 }  // namespace
 
 VehiclePoses vehiclePoses(const VehicleModel& model, const VehicleState& state) {
-    // Yaw rate of the bicycle: v tan δ / wheelbase, about the body's up.
+    // Yaw rate of the bicycle model: v tan δ / wheelbase, about the body's up axis.
     const double yawRate = state.speed * std::tan(state.steerAngle) / model.parameters.wheelbaseMetres;
     VehiclePoses poses;
     poses.body.toWorld = glm::mat4(state.toWorld());

@@ -1,4 +1,4 @@
-// A scene: what is there (Scene, fixed for a run) and how it stands at one moment (SceneState).
+// A scene: its fixed contents (Scene) and its state at one moment (SceneState).
 #pragma once
 
 #include <array>
@@ -19,10 +19,10 @@ namespace dustbench::scene {
 struct Lights {
     glm::vec3 toSun{-0.933013f, 0.258819f, -0.25f};  ///< unit vector towards the sun: 15° up, 165° from +X to −Z
     glm::vec3 sun{1.0f, 0.93f, 0.80f};
-    glm::vec3 ambient{0.40f, 0.42f, 0.48f};  ///< from the sky, the same from all sides
+    glm::vec3 ambient{0.40f, 0.42f, 0.48f};  ///< from the sky, equal from all directions
     glm::vec3 skyZenith{0.16f, 0.33f, 0.68f};
     glm::vec3 skyHorizon{0.74f, 0.80f, 0.86f};
-    float hazePerMetre = 0.0015f;  ///< extinction of the clear air towards the horizon's colour
+    float hazePerMetre = 0.0015f;  ///< extinction of the clear air, which fades to the horizon's colour
 };
 
 struct VehicleModel {
@@ -47,7 +47,7 @@ struct SceneState {
     VehicleState vehicle;
 };
 
-/// The colour a cloud of dust shows: its albedo lit by sky and sun as a cloud is, from all sides (linear RGB).
+/// The colour (linear RGB) that a cloud of dust shows: its albedo, lit by sky and sun from all sides.
 [[nodiscard]] glm::vec3 dustColour(const Scene& scene);
 
 /// World poses of the vehicle's body and of its four wheels (order of `Wheel`).

@@ -40,7 +40,7 @@ TEST(VehicleState, LooksAlongXAtHeadingZeroAndTowardsMinusZAfterALeftQuarterTurn
     expectNear(state.forward(), {1, 0, 0}, 1e-12);
     state.heading = std::numbers::pi / 2;
     expectNear(state.forward(), {0, 0, -1}, 1e-12);
-    expectNear(glm::dvec3(state.toWorld()[2]), {1, 0, 0}, 1e-12);  // its right
+    expectNear(glm::dvec3(state.toWorld()[2]), {1, 0, 0}, 1e-12);  // right
 }
 
 TEST(VehicleState, FrameIsOrthonormalAndKeepsTheHeadingOnASlope) {
@@ -65,7 +65,7 @@ TEST(VehiclePoses, WheelsKeepTheirOuterFacesOutsideAndRollForwards) {
         EXPECT_NEAR(glm::determinant(frame), 1, 1e-6);
         const bool right = i == frontRight || i == rearRight;
         expectNear(frame[2], {0, 0, right ? 1 : -1}, 1e-6);
-        // What was the top has gone forwards.
+        // The former top has moved forwards.
         expectNear(frame[1], {std::sin(0.1), std::cos(0.1), 0}, 1e-6);
     }
 }

@@ -1,6 +1,6 @@
-// A solid thing in the scene: a triangle mesh, and where it is now.
+// A solid object in the scene: a triangle mesh and its current pose.
 //
-// Units: m, m/s, rad/s; colours: linear RGB. Frame: a mesh is in the object's own, a pose in the world.
+// Units: m, m/s, rad/s; colours: linear RGB. Frame: meshes in the object's frame, poses in the world.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@ namespace dustbench::scene {
 /// Triangles wind counter-clockwise seen from outside.
 struct DUSTBENCH_API Mesh {
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;      ///< unit, one a vertex
-    std::vector<glm::vec3> colours;      ///< one a vertex
-    std::vector<std::uint32_t> indices;  ///< three a triangle
+    std::vector<glm::vec3> normals;      ///< unit, one per vertex
+    std::vector<glm::vec3> colours;      ///< one per vertex
+    std::vector<std::uint32_t> indices;  ///< three per triangle
 
-    /// Adds another mesh, moved by `transform` (rotation, translation and uniform scale).
+    /// Appends another mesh, transformed by `transform` (rotation, translation and uniform scale).
     void append(const Mesh& other, const glm::mat4& transform);
 };
 
-/// What does not change: a name and the shape in its own frame.
+/// The constant part of a solid: its name and its shape in its own frame.
 struct Solid {
     std::string name;
     std::shared_ptr<const Mesh> mesh;

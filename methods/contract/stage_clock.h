@@ -1,4 +1,4 @@
-// The stages of a frame, and the clock by which a method reports them. It costs one branch when nobody listens.
+// The stages of a frame, and the clock that times them. Costs one branch without a listener.
 #pragma once
 
 #include <array>
@@ -7,24 +7,24 @@
 
 namespace dustbench {
 
-/// The fixed vocabulary of a frame, in order. Together they make up the frame.
+/// The fixed stages of a frame, in order. Together they make up the frame.
 enum class Stage { input, simulate, build, sort, upload, scene, draw, wait };
 
 inline constexpr std::array<std::string_view, 8> stageNames{"input",  "simulate", "build", "sort",
                                                             "upload", "scene",    "draw",  "wait"};
 
-/// Who measures. Scopes nest: the time of an inner stage is not part of the outer one's.
+/// Receives the start and end of stages. Scopes nest: an inner stage's time is not part of the outer stage's.
 class DUSTBENCH_API StageListener {
  public:
     virtual ~StageListener();
     virtual void begin(Stage stage) = 0;
     virtual void end(Stage stage) = 0;
-    /// A finer stage of a method's own naming (`advect`, `project`); `name` must outlive the run.
+    /// A finer stage that the method names itself (`advect`, `project`); `name` must outlive the run.
     virtual void beginDetail(std::string_view name) = 0;
     virtual void endDetail(std::string_view name) = 0;
 };
 
-/// Handed to a method with each frame: `const auto timing = frame.clock.measure(Stage::sort);` times the rest of the
+/// Passed to a method with each frame: `const auto timing = frame.clock.measure(Stage::sort);` times the rest of the
 /// block.
 class StageClock {
  public:

@@ -7,7 +7,8 @@
 namespace dustbench::scene {
 namespace {
 
-/// Where a coordinate falls on one axis of the grid: a cell, the share within it, and whether it lies within the grid.
+/// Position of a coordinate on one axis of the grid: the cell, the fraction within it, and whether it lies inside the
+/// grid.
 struct Place {
     int cell;
     float share;

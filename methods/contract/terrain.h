@@ -1,7 +1,7 @@
 // The ground: a plane, or a height field on a regular grid.
 //
 // Units: metres. Frame: world, +Y up.
-// Threads: const members are safe from any.
+// Threads: const members may be called from any thread.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,8 +13,9 @@ class DUSTBENCH_API Terrain {
  public:
     /// The plane y = 0.
     Terrain() = default;
-    /// `heights[j * columns + i]` at world (originX + i·spacing, originZ + j·spacing); bilinear between, its edge
-    /// carried on outside. Throws std::invalid_argument unless there are columns·rows ≥ 4 heights.
+    /// `heights[j * columns + i]` is the height at world (originX + i·spacing, originZ + j·spacing). Heights are
+    /// bilinear in between and clamped to the edge outside. Throws std::invalid_argument unless columns and rows are 2
+    /// or more, there are columns·rows heights and the spacing is positive.
     Terrain(std::vector<float> heights, int columns, int rows, float spacingMetres, float originX, float originZ);
 
     [[nodiscard]] bool isFlat() const { return heights_.empty(); }

@@ -5,7 +5,7 @@
 namespace dustbench::scene {
 
 glm::dvec3 VehicleState::forward() const {
-    // Seen from above it points along the heading; its slope s makes it tangent: (x, s, z) · up = 0.
+    // Seen from above, forward follows the heading; the slope s makes it tangent to the ground: (x, s, z) · up = 0.
     const double x = std::cos(heading);
     const double z = -std::sin(heading);
     return glm::normalize(glm::dvec3(x, -(x * up.x + z * up.z) / up.y, z));

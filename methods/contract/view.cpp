@@ -5,7 +5,7 @@
 namespace dustbench::scene {
 namespace {
 
-/// The camera's axes in the world: right, up, and `forward` from the eye to the target.
+/// The camera's axes in the world: right, up, and forward from the eye to the target.
 struct Axes {
     glm::dvec3 right, up, forward;
 };
@@ -25,7 +25,7 @@ Axes axesOf(const Camera& camera) {
 
 glm::mat4 View::worldToEye() const {
     const auto [right, up, forward] = axesOf(camera);
-    // Rows are the axes, −forward is eye z: p_eye = R (p − eye).
+    // The rows are the axes; −forward is eye z: p_eye = R (p − eye).
     glm::dmat4 matrix(1);
     for (int i = 0; i < 3; ++i) {
         matrix[i][0] = right[i];

@@ -1,4 +1,4 @@
-// A camera and the image it fills.
+// A camera and the size of its image.
 //
 // Units: metres, radians. Frame: world. Depth: reversed (near 1, infinity 0), range [0, 1], infinite far plane.
 #pragma once
@@ -24,7 +24,8 @@ struct DUSTBENCH_API View {
     /// Eye space to clip space, reversed depth with an infinite far plane: depth = near / distance along the axis.
     [[nodiscard]] glm::mat4 eyeToClip() const;
     [[nodiscard]] glm::mat4 worldToClip() const { return eyeToClip() * worldToEye(); }
-    /// Unit direction, in the world, of the ray through a pixel; (0, 0) is the top left corner, pixel centres at +0.5.
+    /// Unit direction in the world of the ray through a pixel. (0, 0) is the top left corner; pixel centres are at
+    /// +0.5.
     [[nodiscard]] glm::vec3 rayDirection(double pixelX, double pixelY) const;
 };
 

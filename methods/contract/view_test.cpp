@@ -14,7 +14,7 @@ View slanted() {
             .height = 450};
 }
 
-/// Where a world point falls in the image, in pixels from the top left corner, and its depth.
+/// Projects a world point: pixels from the image's top left corner, and depth.
 glm::dvec3 project(const View& view, const glm::vec3& point) {
     const glm::vec4 clip = view.worldToClip() * glm::vec4(point, 1);
     return {(clip.x / clip.w + 1) / 2 * static_cast<float>(view.width),

@@ -1,8 +1,7 @@
-// What a method hands over when it is asked what the cloud is: puffs, the voxels of an octree or the cells of a grid,
-// never pictures.
+// A method's representation of the cloud: puffs, octree voxels or grid cells, never pictures.
 //
-// Units: metres, metres per second, seconds, extinction per metre. Frame: world. Everything handed over is valid during
-// the call alone.
+// Units: metres, metres per second, seconds, extinction per metre. Frame: world. All data passed on are valid during
+// the call only.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +12,9 @@
 
 namespace dustbench {
 
-/// Gaussian puffs as a structure of arrays, an entry a particle in every column. Colours: linear RGB as seen (already
-/// lit). A puff of peak opacity α and radius r has the optical depth τ = −ln(1 − α) through its centre and the
-/// standard deviation r/2 (kit/maths/transmittance.h).
+/// Gaussian puffs as a structure of arrays; every column has one entry per particle. Colours: linear RGB, already lit.
+/// A puff of peak opacity α and radius r has optical depth τ = −ln(1 − α) through its centre and standard deviation r/2
+/// (kit/maths/transmittance.h).
 struct Puffs {
     std::span<const std::uint64_t> serial;  ///< unique within their system, in order of birth
     std::span<const float> x, y, z;
@@ -23,9 +22,9 @@ struct Puffs {
     std::span<const float> age, lifetime;
     std::span<const float> radius;
     std::span<const float> opacity;           ///< peak opacity α, 0..0.999
-    std::span<const float> red, green, blue;  ///< empty where all have one colour
+    std::span<const float> red, green, blue;  ///< empty if `uniformColour`
     bool uniformColour = true;
-    glm::vec3 colourOfAll{1};  ///< where all have one
+    glm::vec3 colourOfAll{1};  ///< used if `uniformColour`
 
     [[nodiscard]] std::size_t size() const { return serial.size(); }
     [[nodiscard]] bool empty() const { return serial.empty(); }
@@ -35,17 +34,17 @@ struct Puffs {
     }
 };
 
-/// A cube of constant extinction. `level` counts from 0, the whole world, down; its edge is the world's / 2^level, its
-/// minimum corner the world's + (x, y, z)·edge. A coarse voxel may lie over finer ones: their extinctions add up.
+/// A cube of constant extinction. Level 0 is the whole world; a voxel's edge is the world's / 2^level and its minimum
+/// corner is the world's + (x, y, z)·edge. A coarse voxel may overlap finer ones; their extinctions add up.
 struct OctreeVoxel {
     std::uint32_t x, y, z;
     int level;
     float extinctionPerMetre;
-    float ageSeconds;  ///< of the youngest particle that it stands for
+    float ageSeconds;  ///< of the particle that represents the voxel
 };
 
-/// The octree of a cloud. Voxels come in pre-order: before all that lie inside them, and the eight children of a node
-/// by 4·x + 2·y + z of the half in which they lie. No two have the same cell and level.
+/// The octree of a cloud. Voxels come in pre-order: each before those inside it, and the eight children of a node in
+/// order of octant, 4·x + 2·y + z. No two voxels share both cell and level.
 struct OctreeVolume {
     glm::dvec3 originMetres;  ///< minimum corner of the world
     double edgeMetres;        ///< of the world
@@ -53,14 +52,14 @@ struct OctreeVolume {
     std::span<const OctreeVoxel> voxels;
 };
 
-/// A quantity of a grid's cells, x fastest; of a vector its components side by side.
+/// One quantity of a grid's cells, x fastest; a vector's components are interleaved.
 struct GridField {
     std::string_view name, unit;
     int components;  ///< 1 or 3
     std::span<const float> values;
 };
 
-/// A regular grid of cubes, each of constant extinction, with all else that is known of them.
+/// A regular grid of cubic cells of constant extinction, with any further fields.
 struct GridVolume {
     glm::dvec3 originMetres;  ///< minimum corner
     double spacingMetres;     ///< edge of a cell
@@ -69,7 +68,7 @@ struct GridVolume {
     std::span<const GridField> fields;
 };
 
-/// Who wants to know. A method calls one of the functions for each part of its cloud, usually one once.
+/// Receives a cloud's representation. A method calls one function for each part of its cloud, usually a single call.
 class DUSTBENCH_API VolumeVisitor {
  public:
     virtual ~VolumeVisitor();
