@@ -1,4 +1,4 @@
-// A puff's opacity along the pixel's ray: α(b) = 1 − exp(−τ·exp(−b²/2s²)), premultiplied with its colour.
+// Opacity of a puff along the pixel's ray: α(b) = 1 − exp(−τ·exp(−b²/2s²)), premultiplied with its colour.
 in vec3 puff;
 flat in float nearness;
 #ifdef SOFT
@@ -29,10 +29,11 @@ float errorFunction(float x) {
     return sign(x) * (1.0 - 1.0 / ((p4 * p4) * (p4 * p4)));
 }
 
-/// Share of the puff's depth between the eye and the scene: ½·[erf((t1 − tc)/√2s) − erf((0 − tc)/√2s)].
+/// Fraction of the puff's depth between the eye and the scene: ½·[erf((t1 − tc)/√2s) − erf((0 − tc)/√2s)].
 float shareBeforeScene() {
     float rayLength = length(toQuad);
-    // Reversed depth is near distance / distance along the axis; w is the quad's distance along it.
+    // Reversed depth is near distance / distance along the axis; gl_FragCoord.w is 1 / the quad's distance along the
+    // axis.
     float depth = texelFetch(sceneDepth, ivec2(gl_FragCoord.xy), 0).r;
     float scene = nearMetres / max(depth, 1e-9) * rayLength * gl_FragCoord.w;
     float foot = dot(toCentre.xyz, toQuad) / rayLength;
@@ -53,7 +54,7 @@ void main() {
     float depth = puff.z * texel.a;
     vec3 lit = puffColour * (shadeScale * texel.rgb);
 #else
-    // On a plane at the centre's distance d, offset u belongs to a ray that passes at b² = u²/(1 + u²/d²).
+    // On a plane at the centre's distance d, the ray at offset u passes the centre at b² = u²/(1 + u²/d²).
     float offset = dot(puff.xy, puff.xy);
     float depth = exp2(puff.z - offset / (1.0 + offset * nearness));
     vec3 lit = puffColour;

@@ -1,10 +1,10 @@
-// Puffs as camera-facing quads, all in one instanced draw call.
+// Draws puffs as camera-facing quads in one instanced draw call.
 //
-// A puff of peak opacity α and radius r is drawn as 1 − exp(−τ·exp(−b²/2s²)), b being the distance of the pixel's ray
-// from its centre, on a quad of half-side 1.5 r = 3s. Textured puffs take the Gaussian's place with the same mass.
+// A puff of peak opacity α and radius r is drawn with opacity 1 − exp(−τ·exp(−b²/2s²)), where b is the distance of the
+// pixel's ray from its centre, on a quad of half-side 1.5 r = 3s. A texture replaces the Gaussian, with the same mass.
 //
-// Units: m. Frame: world. Colours: linear RGB. Owns: the instances, on the GPU. Threads: the OpenGL thread's.
-// Source: Carr2006, 3.1. Departs: opacity by Beer and Lambert's law instead of a picture's own.
+// Units: m. Frame: world. Colours: linear RGB. Owns: the instances, on the GPU. Threads: the OpenGL thread.
+// Source: Carr2006, 3.1. Departs: opacity by the Beer–Lambert law instead of a picture's own.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -18,32 +18,34 @@
 namespace dustbench::draw {
 
 enum class Facing {
-    viewpoint,  ///< each quad perpendicular to the ray to its centre; b is exact
-    viewplane,  ///< all quads parallel to the picture; b is measured in that plane, too long away from its middle
+    viewpoint,  ///< each quad is perpendicular to the ray to its centre; b is exact
+    viewplane,  ///< all quads are parallel to the image; b is measured in that plane and too large away from the image
+                ///< centre
 };
 inline constexpr Choices<Facing> facings{{"viewpoint", Facing::viewpoint}, {"viewplane", Facing::viewplane}};
 
 struct BillboardStyle {
     Facing facing = Facing::viewpoint;
-    /// Each puff ends at the scene behind it, by the closed form, instead of being cut off by the depth test.
+    /// Fades each puff out at the scene behind it, in closed form, instead of clipping it by the depth test.
     bool soft = false;
-    /// Light is added and nothing is covered, as by fire: C = αC_puff + C, in any order.
+    /// Adds light without covering anything, as fire does: C = αC_puff + C, in any order.
     bool additive = false;
 };
 
 class DUSTBENCH_API Billboards : public InstanceBatch {
  public:
-    /// `pictures` (may be null: Gaussian puffs) must outlive this.
+    /// `pictures` must outlive this; null selects Gaussian puffs.
     Billboards(gpu::Device& device, const BillboardStyle& style, const PuffTextures* pictures = nullptr);
 
     /// x y z radius opacity [picture] [red green blue]
     [[nodiscard]] InstanceLayout layout(bool coloured) const {
         return {5u + (framed() ? 1u : 0u) + (coloured ? 3u : 0u), coloured};
     }
-    /// Whether a billboard says which picture it shows: 0..frames()−1, with a share where they are cross-faded.
+    /// Whether each billboard names the picture it shows: 0..frames()−1, with a fraction for cross-fading.
     [[nodiscard]] bool framed() const { return pictures_ != nullptr; }
 
-    /// Draws what was mapped last, as often as wanted. `colourOfAll` is for billboards without colours of their own.
+    /// Draws the instances mapped last; may be called repeatedly. `colourOfAll` applies to billboards without own
+    /// colours.
     void draw(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer);
 
  private:

@@ -1,11 +1,11 @@
-// Corners of camera-facing quads, pulled from the instances: SHAPES_AT_ONCE quads in each drawn instance.
+// Corners of camera-facing quads, pulled from the instance buffer: SHAPES_AT_ONCE quads per drawn instance.
 layout(std430, binding = 0) readonly buffer Instances {
     float values[];  // x y z radius opacity [frame] [red green blue]
 };
 uniform int count;
 uniform vec3 eye;
 uniform mat4 worldToEye;
-uniform vec4 projection;  // x and y scale, near distance, depth of the puff picture
+uniform vec4 projection;  // x and y scale, near distance, optical depth scale of the puff picture
 
 out vec3 puff;           // offset from the centre, such that |offset|² = b²/(2s²)·log2(e); optical depth
 flat out float nearness;  // (offset length 1 / distance)²
@@ -22,7 +22,7 @@ flat out vec3 puffColour;
 
 const float log2e = 1.44269504;
 
-/// −log2(1 − α) = τ·log2(e); by its series where the difference from 1 would lose digits.
+/// −log2(1 − α) = τ·log2(e); a series for small α, where 1 − α would lose digits.
 float opticalDepth(float opacity) {
     if (opacity > 0.05) return -log2(1.0 - opacity);
     return log2e * opacity * (1.0 + opacity * (1.0 / 2 + opacity * (1.0 / 3 + opacity * (1.0 / 4 + opacity / 5))));
@@ -33,7 +33,7 @@ void main() {
     int base = min(wanted, count - 1) * FLOATS;
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1 & 1) * 2.0 - 1.0;
 
-    // The eye is taken off first: what is left is small near the eye, where it matters.
+    // Subtract the eye first, so that coordinates near the eye keep their precision.
     vec3 centre = mat3(worldToEye) * (vec3(values[base], values[base + 1], values[base + 2]) - eye);
     float distance = length(centre);
     bool drawn = wanted < count && distance > 1e-4;
@@ -43,7 +43,7 @@ void main() {
     vec3 right = vec3(1, 0, 0), up = vec3(0, 1, 0);
     nearness = 0.0;
 #else
-    // Perpendicular to the ray to the centre; `right` stays level in the picture.
+    // Perpendicular to the ray to the centre; `right` stays horizontal in the image.
     vec3 sight = drawn ? centre / distance : vec3(0, 0, -1);
     vec3 right = vec3(-sight.z, 0, sight.x) * inversesqrt(max(sight.x * sight.x + sight.z * sight.z, 1e-12));
     vec3 up = cross(right, sight);

@@ -24,7 +24,7 @@ struct Puff {
     float frame = 0;
 };
 
-/// From near the origin along −z.
+/// A canvas that looks along −z from an eye away from the origin.
 class Canvas : public TestCanvas {
  public:
     Canvas() : TestCanvas(160, 120, {100.5, 2.25, -40.125}, {0, 0, -1}) {}
@@ -48,10 +48,10 @@ class Canvas : public TestCanvas {
         return picture([&](const gpu::Layer& layer) { billboards.draw(view, colourOfAll, layer); });
     }
 
-    /// Opacity of a puff along a pixel's ray, cut at `wall` along the axis and at the eye where `soft`.
+    /// Opacity of a puff along a pixel's ray; if `soft`, cut at `wall` along the axis and at the eye.
     struct Expected {
         double opacity;
-        double planeOffset;  ///< of the ray from the centre, in the plane through it that faces the eye
+        double planeOffset;  ///< offset of the ray from the centre, in the plane through the centre that faces the eye
     };
     [[nodiscard]] Expected expected(const Puff& puff, int x, int y, std::optional<double> wall = {},
                                     bool soft = false) const {
@@ -141,7 +141,7 @@ TEST(Billboards, EndSoftlyAtTheScene) {
         Billboards billboards(Canvas::device(), {facing, true});
         for (const double wall : {8.5, 9.5, 10.0, 10.2, 11.5, 20.0}) {
             canvas.setWall(wall);
-            // In the middle of the view both facings measure b alike.
+            // In the middle of the view both facings measure the same b.
             const Puff puff{canvas.at({0, 0, -10}), 1, 0.9f};
             expectPuff(canvas, canvas.draw(billboards, {puff}), puff, facing == Facing::viewpoint ? 1e-5 : 6e-3, wall,
                        true);
@@ -185,7 +185,7 @@ TEST(Billboards, DrawAllThereAreAndTheSameAgain) {
     Canvas canvas;
     Billboards billboards(Canvas::device(), {});
     for (const std::size_t count : {0u, 1u, 63u, 64u, 65u, 200u, 7u}) {
-        // Thin puffs on one spot: their depths add up.
+        // Thin puffs at the same place: their depths add up.
         const std::vector<Puff> puffs(count, Puff{canvas.at({0, 0, -10}), 2, 0.01f});
         const pictures::Image image = canvas.draw(billboards, puffs);
         EXPECT_EQ(billboards.count(), count);
@@ -199,7 +199,7 @@ TEST(Billboards, TakeAMillion) {
     Billboards billboards(Canvas::device(), {});
     const Puff puff{canvas.at({0, 0, -10}), 0.1f, 4e-6f};
     const pictures::Image image = canvas.draw(billboards, std::vector<Puff>(1'000'000, puff));
-    // Depths add up; a float's α of some 1e-6 has but a few digits, and the blending rounds a million times.
+    // Depths add up. An α of about 1e-6 has only a few digits in a float, and blending rounds a million times.
     const double depth = -1e6 * std::log1p(-canvas.expected(puff, 80, 60).opacity);
     EXPECT_NEAR(-std::log1p(-static_cast<double>(image.at(80, 60).a)), depth, 0.1 * depth);
     EXPECT_GE(billboards.gpuBytes(), 20'000'000u);
@@ -218,7 +218,7 @@ double totalDepth(const pictures::Image& image) {
 
 TEST(PuffTextures, KeepTheMassAndTheColourOfThePuff) {
     Canvas canvas;
-    canvas.view.camera.verticalFieldOfView = 0.1;  // from afar, where rays are parallel
+    canvas.view.camera.verticalFieldOfView = 0.1;  // from far away, where rays are nearly parallel
     Billboards plain(Canvas::device(), {});
     for (const char* name : {"puff.png", "puffs.png", "puff_animated.png"}) {
         const PuffTextures pictures(Canvas::device(), textures(name), PuffTextures::Frames::separate);

@@ -1,4 +1,4 @@
-// Puts a method's layer over the opaque scene and encodes it for a display: the last step of a frame.
+// Composites a method's layer over the opaque scene and encodes the result for display: the last step of a frame.
 #pragma once
 
 #include <memory>

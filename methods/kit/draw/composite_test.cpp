@@ -21,7 +21,7 @@ gpu::Texture filled(gpu::Device& device, gpu::Format format, int width, int heig
         const float alpha = share(engine);
         for (int channel = 0; channel < 3; ++channel) {
             const float value = share(engine);
-            values.push_back(brightest * alpha * value * value * value);  // many dark ones
+            values.push_back(brightest * alpha * value * value * value);  // many dark values
         }
         values.push_back(alpha);
     }
@@ -47,7 +47,7 @@ TEST(Composite, EqualsOverAndEncodingOnTheCpuToOneStep) {
         }
         EXPECT_EQ(got.pixels[i].a, 1);
     }
-    // Rounding alone makes a quarter of a step on average.
+    // Rounding alone causes a quarter of a step on average.
     EXPECT_LT(offBy / (3.0 * 61 * 47), 0.27 / 255);
 }
 

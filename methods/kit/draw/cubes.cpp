@@ -8,10 +8,10 @@
 namespace dustbench::draw {
 namespace {
 
-/// As many vertices in an instance as billboards have.
+/// Gives an instance as many vertices as for billboards.
 constexpr std::size_t cubesAtOnce = 32;
 
-/// Corner bits 1, 2, 4 are set towards the eye along x, y, z; the vertex shader knows where that is.
+/// Corner bits 1, 2, 4 are set on the side towards the eye along x, y, z; the vertex shader resolves that side.
 std::vector<std::uint32_t> cornersOfACube() {
     std::vector<std::uint32_t> corners;
     for (const std::uint32_t towardsTheEye : {0u, 1u})

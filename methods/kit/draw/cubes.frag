@@ -1,4 +1,4 @@
-// One face of a cube, of the same premultiplied colour all over.
+// One face of a cube, in a single premultiplied colour.
 flat in vec4 face;
 layout(location = 0) out vec4 colour;
 

@@ -1,5 +1,5 @@
-// Corners of cubes, pulled from the instances: SHAPES_AT_ONCE cubes in each drawn instance. Bits 1, 2 and 4 of a corner
-// are set on the side towards the eye, so that one order of faces, those with the bits unset first, does for all.
+// Corners of cubes, pulled from the instance buffer: SHAPES_AT_ONCE cubes per drawn instance. Bits 1, 2 and 4 of a
+// corner are set on the side towards the eye, so that one order of faces, unset bits first, suits every view.
 layout(std430, binding = 0) readonly buffer Instances {
     float values[];  // x y z edge τ [red green blue]
 };
@@ -13,7 +13,7 @@ uniform vec3 colourOfAll;
 
 flat out vec4 face;  // premultiplied
 
-/// 1 − exp(−x); by its series where the difference from 1 would lose digits.
+/// 1 − exp(−x); a series for small x, where the difference from 1 would lose digits.
 float opacityOf(float x) {
     if (x > 0.05) return 1.0 - exp(-x);
     return x * (1.0 - x / 2 * (1.0 - x / 3 * (1.0 - x / 4)));
@@ -23,13 +23,14 @@ void main() {
     int wanted = gl_InstanceID * SHAPES_AT_ONCE + (gl_VertexID >> 3);
     int base = min(wanted, count - 1) * FLOATS;
 
-    // The eye is taken off first: what is left is small near the eye, where it matters.
+    // Subtract the eye first, so that coordinates near the eye keep their precision.
     vec3 centre = vec3(values[base], values[base + 1], values[base + 2]) - eye;
     float halfEdge = wanted < count ? 0.5 * values[base + 3] : 0.0;
     vec3 towards = mix(vec3(-halfEdge), vec3(halfEdge), lessThan(centre, vec3(0)));
     bvec3 bits = bvec3(ivec3(gl_VertexID) & ivec3(1, 2, 4));
     vec3 position = mat3(worldToEye) * (centre + mix(-towards, towards, bits));
-    // A face in the plane of the ground must not flicker: all count as nearer by less than a pixel is wide.
+    // Moves every face slightly nearer, by less than the width of a pixel, so that faces coplanar with the ground do
+    // not flicker.
     gl_Position = vec4(position.xy * projection.xy, projection.z * (1.0 + 1.0 / 1024), -position.z);
 
     float alpha = opacityOf(0.5 * values[base + 4]);

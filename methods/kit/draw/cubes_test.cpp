@@ -21,7 +21,7 @@ struct Cube {
     glm::vec3 colour{1};
 };
 
-/// From near the origin along −z, unless turned.
+/// A canvas that looks along −z, unless turned, from an eye away from the origin.
 class Canvas : public TestCanvas {
  public:
     Canvas() : TestCanvas(160, 120, {100.5, 2.25, -40.125}, {0, 0, -1}) {}
@@ -44,7 +44,8 @@ class Canvas : public TestCanvas {
         return picture([&](const gpu::Layer& layer) { cubes.draw(view, colourOfAll, layer); });
     }
 
-    /// The faces of one cube that a pixel's ray crosses, and whether an edge is so near that either answer will do.
+    /// The faces of one cube that a pixel's ray crosses, and whether an edge is so close that either result is
+    /// acceptable.
     struct Crossing {
         int faces = 0;
         bool doubtful = false;
@@ -62,7 +63,7 @@ class Canvas : public TestCanvas {
                 if (!std::isfinite(t) || t <= 0) continue;
                 const glm::dvec3 hit = t * ray - centre;
                 const double u = std::abs(hit[(axis + 1) % 3]), v = std::abs(hit[(axis + 2) % 3]);
-                const double along = t * glm::dot(ray, forward) / (1 + 1.0 / 1024);  // as the depth test takes it
+                const double along = t * glm::dot(ray, forward) / (1 + 1.0 / 1024);  // as in the depth test
                 // Rasterisers round corners to 1/256 of a pixel, here 8e-3 wide at unit distance.
                 const double fromEdge = std::max(u, v) - half, margin = 5e-5 * t / std::abs(ray[axis]);
                 const double fromNear = along - view.camera.nearMetres, fromWall = last - along;
@@ -81,7 +82,8 @@ double opacityOf(double depth) {
     return -std::expm1(-depth);
 }
 
-/// Every pixel against the same faces put over one another in double precision; returns how many had something in them.
+/// Compares every pixel with the same faces composited in double precision. Returns the number of pixels that are not
+/// empty.
 int expectFaces(const Canvas& canvas, const pictures::Image& image, const std::vector<Cube>& farToNear, bool coloured) {
     int filled = 0, doubtful = 0;
     for (int y = 0; y < image.height; ++y)
@@ -151,7 +153,7 @@ TEST(Cubes, AreTheirFacesPutOverOneAnother) {
     std::uniform_real_distribution<float> wide(-1, 1), share(0, 1);
     int filled = 0;
     for (int round = 0; round < 12; ++round) {
-        // Anywhere, to any side; in odd rounds before and behind a wall, in each third one all around the eye.
+        // Random direction; in odd rounds with a wall, in every third round all around the eye.
         canvas.view.camera.target =
             canvas.view.camera.eye + glm::dvec3(wide(random), 0.5f * wide(random), wide(random));
         canvas.setWall(round % 2 ? std::optional<double>(9) : std::nullopt, 80);
@@ -180,7 +182,7 @@ TEST(Cubes, FromWithinShowOneFace) {
     for (const glm::vec3& centre :
          {glm::vec3(0), glm::vec3(0.9f, 0.9f, -0.9f), glm::vec3(-0.5f, 0.2f, 0.85f), glm::vec3(0, 0, -0.999f)}) {
         const pictures::Image image = canvas.draw(cubes, {{canvas.at(centre), 2, 0.8f}});
-        // Only the face that the eye nearly touches may be cut by the near plane.
+        // Only the face that the eye nearly touches may be clipped by the near plane.
         if (centre.z < 0.85f)
             for (const glm::vec4& pixel : image.pixels) ASSERT_NEAR(pixel.a, half, 1e-6);
         else
@@ -192,7 +194,7 @@ TEST(Cubes, AreCutByTheNearPlaneNotBrokenByIt) {
     Canvas canvas;
     canvas.view.camera.target = canvas.view.camera.eye + glm::dvec3(1, -0.7, -1.3);
     Cubes cubes(Canvas::device());
-    // Near faces closer than the near plane's 0.1 m, corners behind the eye, one cube wholly nearer than the plane.
+    // Faces closer than the near plane's 0.1 m, corners behind the eye, and one cube entirely before the near plane.
     for (const Cube& cube : {Cube{canvas.at({1.05f, 0, 0}), 2, 1}, Cube{canvas.at({0.6f, -0.6f, -0.6f}), 1.1f, 2},
                              Cube{canvas.at({3, -2.03f, -3}), 4, 0.5f}, Cube{canvas.at({0.03f, 0, -0.03f}), 0.05f, 3}})
         expectFaces(canvas, canvas.draw(cubes, {cube}), {cube}, false);

@@ -13,7 +13,7 @@
 namespace dustbench::draw {
 namespace {
 
-/// Below this many points a block, a second thread costs more than it brings.
+/// With fewer points per block, a second thread costs more than it saves.
 constexpr std::size_t pointsPerBlock = 50'000;
 
 std::size_t blocksFor(std::size_t count) {
@@ -21,7 +21,7 @@ std::size_t blocksFor(std::size_t count) {
     return std::clamp<std::size_t>(std::min(threads, count / pointsPerBlock), 1, radixMaximumBlocks);
 }
 
-/// |p − e|²: orders as the distance does.
+/// |p − e|²: has the same order as the distance.
 struct SquaredDistance {
     const float *x, *y, *z;
     float ex, ey, ez;
@@ -37,7 +37,7 @@ struct GivenDepth {
     float operator()(std::size_t i) const { return depths[i]; }
 };
 
-/// Room for `count`, with an eighth to spare so that a slowly growing cloud does not allocate each frame.
+/// Room for `count` elements plus an eighth, so that a slowly growing cloud does not allocate each frame.
 template <typename T>
 void hold(LedgerVector<T>& memory, std::size_t count) {
     if (memory.size() >= count) return;

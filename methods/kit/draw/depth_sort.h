@@ -1,8 +1,8 @@
-// The order in which translucent things are drawn: from the farthest to the nearest.
+// Sorts translucent primitives from the farthest to the nearest, the order in which they are drawn.
 //
-// Units: any, the same for all points. Owns: its working memory, on a ledger, kept from call to call (20 bytes a
-// point). Threads: one caller at a time; `radix` uses the current oneTBB arena. The order is the same at any number of
-// threads. Source: Carr2006, 3.1 (quicksort, far to near).
+// Units: any, the same for all points. Owns: its working memory (20 bytes per point), booked on a ledger and kept
+// between calls. Threads: one caller at a time; `radix` uses the current oneTBB arena. The order does not depend on the
+// number of threads. Source: Carr2006, 3.1 (quicksort, far to near).
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@
 namespace dustbench::draw {
 
 enum class SortKind {
-    quicksort,  ///< the paper's
-    radix,      ///< by the digits of the depth: linear in the number of points
-    none,       ///< as they come
+    quicksort,  ///< as in the paper
+    radix,      ///< radix sort of the depth; linear in the number of points
+    none,       ///< keeps the given order
 };
 inline constexpr Choices<SortKind> sortKinds{
     {"quicksort", SortKind::quicksort}, {"radix", SortKind::radix}, {"none", SortKind::none}};
 
-/// Coordinates of points, a column each; all of the same length.
+/// Coordinates of points, one column per axis; all columns have the same length.
 struct PointColumns {
     std::span<const float> x, y, z;
 };
@@ -31,10 +31,10 @@ class DUSTBENCH_API DepthSort {
  public:
     explicit DepthSort(MemoryLedger& ledger);
 
-    /// Indices of the points by falling distance from the eye; of equally distant ones the lower index comes first.
-    /// Valid until the next call. Points must be finite.
+    /// Indices of the points by decreasing distance from the eye; ties by ascending index. Valid until the next call.
+    /// Points must be finite.
     std::span<const std::uint32_t> farToNear(SortKind kind, const PointColumns& points, const glm::vec3& eye);
-    /// The same by given depths, the largest first.
+    /// The same for given depths, largest first.
     std::span<const std::uint32_t> farToNear(SortKind kind, std::span<const float> depths);
 
  private:

@@ -1,4 +1,5 @@
-// Far-to-near order of (depth, index): ours beside what one would pick otherwise, on the same points in the same run.
+// Benchmarks far-to-near order of (depth, index): this sort and common alternatives, on the same points in the same
+// run.
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/parallel_sort.h>
 #include <oneapi/tbb/task_arena.h>
@@ -21,7 +22,7 @@ struct Points {
     [[nodiscard]] float squaredDistance(std::size_t i) const { return x[i] * x[i] + y[i] * y[i] + z[i] * z[i]; }
 };
 
-/// A trail of dust 60 m long before an eye in the origin.
+/// A 60 m trail of dust in front of an eye at the origin.
 const Points& trail(std::size_t count) {
     static std::array<Points, 8> made;
     Points& points = made[static_cast<std::size_t>(std::log10(static_cast<double>(count)))];
@@ -56,7 +57,7 @@ std::vector<DepthIndex>& keyed(const Points& points) {
     return elements;
 }
 
-/// What a careful engineer writes in ten minutes: keys stored first, histograms in one sweep, three scatters.
+/// A straightforward radix sort: stores keys first, computes histograms in one pass, then scatters three times.
 void plainRadix(const Points& points, std::vector<DepthIndex>& a, std::vector<DepthIndex>& b) {
     std::array<std::array<std::uint32_t, 2048>, 3> counts{};
     const std::size_t count = points.x.size();

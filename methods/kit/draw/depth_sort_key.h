@@ -1,4 +1,4 @@
-// Depths as integers whose ascending order is far to near, joined with the point's index into one sortable number.
+// Maps depths to integers whose ascending order is far to near, and packs them with the point's index into one key.
 #pragma once
 
 #include <bit>
@@ -6,15 +6,15 @@
 
 namespace dustbench::draw {
 
-/// The key of a depth: the larger the depth, the smaller the key; −0 and 0 are one depth.
+/// The key of a depth: the larger the depth, the smaller the key. −0 and 0 have the same key.
 [[nodiscard]] inline std::uint32_t farFirstKey(float depth) {
-    // Floats order as their bits do, negative ones in reverse: flip the sign of the former, all of the latter.
+    // Floats order as their bits do, negative ones in reverse: flip the sign bit if positive, all bits if negative.
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(depth + 0.0f);
     const std::uint32_t flip = static_cast<std::uint32_t>(static_cast<std::int32_t>(bits) >> 31) | 0x80000000u;
     return ~(bits ^ flip);
 }
 
-/// Ascending order is far to near, and by index among equals.
+/// Ascending order is far to near; ties by index.
 [[nodiscard]] inline std::uint64_t keyedIndex(std::uint32_t key, std::size_t index) {
     return static_cast<std::uint64_t>(key) << 32 | static_cast<std::uint32_t>(index);
 }

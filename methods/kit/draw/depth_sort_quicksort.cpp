@@ -18,7 +18,7 @@ void insertionSort(std::uint64_t* first, std::uint64_t* last) {
     }
 }
 
-/// Orders first, middle and last, which leaves sentinels at both ends, and returns the median.
+/// Orders the first, middle and last element, which leaves sentinels at both ends. Returns the median.
 std::uint64_t medianOfThree(std::uint64_t& a, std::uint64_t& b, std::uint64_t& c) {
     if (b < a) std::swap(a, b);
     if (c < b) std::swap(b, c);
@@ -26,7 +26,7 @@ std::uint64_t medianOfThree(std::uint64_t& a, std::uint64_t& b, std::uint64_t& c
     return b;
 }
 
-/// Hoare's partition: everything before the returned position is at most the pivot, everything from it on at least.
+/// Hoare's partition: elements before the returned position are ≤ the pivot, elements from it on are ≥ the pivot.
 std::uint64_t* partition(std::uint64_t* first, std::uint64_t* last) {
     const std::uint64_t pivot = medianOfThree(*first, first[(last - first) / 2], last[-1]);
     std::uint64_t* left = first;
@@ -43,13 +43,13 @@ std::uint64_t* partition(std::uint64_t* first, std::uint64_t* last) {
 
 void sortRange(std::uint64_t* first, std::uint64_t* last, int splitsLeft) {
     while (last - first > insertionLength) {
-        if (splitsLeft-- == 0) {  // an input made to defeat the pivots: heaps do not mind
+        if (splitsLeft-- == 0) {  // too many splits, as for adversarial input: fall back to heap sort
             std::make_heap(first, last);
             std::sort_heap(first, last);
             return;
         }
         std::uint64_t* const middle = partition(first, last);
-        // The longer side is left to the loop, so that the stack stays logarithmic.
+        // The loop handles the longer side, so that the stack depth stays logarithmic.
         if (middle - first < last - middle) {
             sortRange(first, middle, splitsLeft);
             first = middle;

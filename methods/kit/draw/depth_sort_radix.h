@@ -1,8 +1,8 @@
-// Least-significant-digit radix sort of depths: stable, far to near, in as few and as narrow digits as the depths span.
+// Least-significant-digit radix sort of depths, stable, far to near; the depths' range sets number and width of digits.
 //
-// A cloud's depths share their leading bits. With the minimum key taken off, what is left has 27 bits or so: three
-// digits of 9 bits, whose 512 buckets stay in the first-level cache where the 2048 of 11 bits do not. Threads: works
-// over the current oneTBB arena in `blocks`; a stable sort has one result, whatever the blocks.
+// A cloud's depths share their leading bits. After subtracting the minimum key about 27 bits remain: three digits of 9
+// bits, whose 512 buckets stay in the first-level cache, unlike the 2048 buckets of 11 bits. Threads: works over the
+// current oneTBB arena in `blocks`; the result does not depend on the blocks, because the sort is stable.
 #pragma once
 
 #include <algorithm>
@@ -21,12 +21,12 @@ inline constexpr int radixMaximumBits = 11;
 inline constexpr std::size_t radixMaximumBuckets = std::size_t{1} << radixMaximumBits;
 inline constexpr std::size_t radixMaximumDigits = 3;
 inline constexpr std::size_t radixMaximumBlocks = 16;
-/// Counts of one digit in every block, or of every digit in a lone one.
+/// Counts of one digit for every block, or of every digit for a single block.
 inline constexpr std::size_t radixCounts = std::max(radixMaximumBlocks, radixMaximumDigits) * radixMaximumBuckets;
 
 class RadixSort {
  public:
-    /// `front`, `back` and `order` are as long as there are points; `counts` is radixCounts long.
+    /// `front`, `back` and `order` have one element per point; `counts` has radixCounts elements.
     RadixSort(std::span<std::uint64_t> front, std::span<std::uint64_t> back, std::span<std::uint32_t> order,
               std::span<std::uint32_t> counts, std::size_t blocks)
         : from_(front.data()),
@@ -36,7 +36,7 @@ class RadixSort {
           count_(order.size()),
           blocks_(std::clamp<std::size_t>(blocks, 1, radixMaximumBlocks)) {}
 
-    /// Writes the indices by falling `depth(index)` into `order`.
+    /// Writes the indices by decreasing `depth(index)` into `order`.
     template <typename Depth>
     void sort(const Depth& depth) {
         if (count_ == 0) return;
@@ -46,7 +46,7 @@ class RadixSort {
             for (std::size_t i = 0; i < count_; ++i) order_[i] = static_cast<std::uint32_t>(i);
             return;
         }
-        // The keys lie in `order` until the first digit has been dealt out.
+        // The keys are stored in `order` until the first digit has been scattered.
         const auto keys = [order = order_](std::size_t i) { return keyedIndex(order[i], i); };
         const auto toOrder = [order = order_](std::size_t place, std::uint64_t element) {
             order[place] = indexOf(element);
@@ -66,7 +66,8 @@ class RadixSort {
 
  private:
     [[nodiscard]] std::size_t begin(std::size_t block) const { return count_ * block / blocks_; }
-    /// (key, i) ↦ the i-th digit of the key from `firstDigit` on. By value: the loops keep it in registers.
+    /// (key, i) ↦ the i-th digit of the key, counted from `firstDigit`. Captures by value: the loops keep it in
+    /// registers.
     [[nodiscard]] auto digitsFrom(int firstDigit) const {
         return [minimum = minimum_, mask = static_cast<std::uint32_t>(buckets_ - 1), bits = bits_,
                 first = bits_ * firstDigit](std::uint32_t key, int digit) {
@@ -101,13 +102,13 @@ class RadixSort {
 
     void chooseDigits() {
         const int span = std::bit_width(maximum_ - minimum_);
-        // Two at least: the keys and the result share their memory.
+        // At least two digits, because keys and result share memory.
         digits_ = span == 0 ? 0 : std::max(2, (span + radixMaximumBits - 1) / radixMaximumBits);
         bits_ = digits_ == 0 ? 0 : (span + digits_ - 1) / digits_;
         buckets_ = std::size_t{1} << bits_;
     }
 
-    /// A lone block keeps the counts of all digits, several blocks those of the digit whose turn it is.
+    /// A single block keeps the counts of all digits; several blocks keep those of the current digit.
     [[nodiscard]] std::uint32_t* countsOf(int digit, std::size_t block) const {
         return counts_ + (blocks_ == 1 ? static_cast<std::size_t>(digit) : block) * buckets_;
     }
@@ -127,14 +128,14 @@ class RadixSort {
         }
     }
 
-    /// One digit's turn: elements in order, each to the next place of its bucket.
+    /// Scatters by one digit: elements in order, each to the next position in its bucket.
     template <typename Source, typename Target>
     void deal(int digit, const Source& source, const Target& target) {
         if (blocks_ > 1)
             forBlocks([&](std::size_t block) { count<1>(digit, block, source); });
         else if (digit == 0)
             digits_ == 2 ? count<2>(0, 0, source) : count<3>(0, 0, source);
-        // Counts become places: bucket by bucket, and within a bucket block by block.
+        // Counts become offsets: bucket by bucket, and within a bucket block by block.
         std::uint32_t place = 0;
         for (std::size_t bucket = 0; bucket < buckets_; ++bucket)
             for (std::size_t block = 0; block < blocks_; ++block)

@@ -22,7 +22,7 @@ Order sorted(SortKind kind, const std::vector<float>& depths) {
     return {order.begin(), order.end()};
 }
 
-/// An independent way to the same order.
+/// The same order, computed independently.
 Order stableSorted(const std::vector<float>& depths) {
     Order order(depths.size());
     std::iota(order.begin(), order.end(), 0u);

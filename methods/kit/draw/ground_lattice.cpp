@@ -8,7 +8,7 @@
 namespace dustbench::draw {
 namespace {
 
-constexpr double reachMetres = 30e3;  // the air has hidden the ground long before
+constexpr double reachMetres = 30e3;  // haze hides the ground well before this distance
 constexpr int flatCellsAcross = 8;
 constexpr int reliefCellsAcross = 48;
 constexpr int blockCells = 8;
@@ -18,7 +18,8 @@ constexpr int blockCells = 8;
 GroundLattice::GroundLattice(const scene::Terrain& terrain) : terrain_(terrain) {
     if (!terrain.isFlat()) {
         across_ = reliefCellsAcross;
-        // Cells of about a metre: finer than coarse samples, so that two triangles follow the bilinear form between.
+        // Cells of about a metre: finer than coarse samples, so that two triangles approximate the bilinear form in
+        // between.
         cellMetres_ = static_cast<double>(terrain.spacingMetres());
         while (cellMetres_ > 1.5) cellMetres_ /= 2;
         while (cellMetres_ < 0.75) cellMetres_ *= 2;
@@ -29,8 +30,8 @@ GroundLattice::GroundLattice(const scene::Terrain& terrain) : terrain_(terrain) 
 }
 
 std::int64_t GroundLattice::centreOf(int level, double coordinate, double origin) const {
-    // Twice the ring's own stride keeps its rim on the lattice of the next ring; the inner rings move together, so that
-    // a driving camera does not renew them at every metre.
+    // A step of twice the ring's stride keeps its rim on the next ring's lattice. The inner rings share one step, so
+    // that a moving camera does not rebuild them every metre.
     const auto shared = static_cast<std::int64_t>(std::bit_floor(static_cast<unsigned>(across_ / 8)));
     const std::int64_t step = std::max(shared, 2 * stride(level));
     const double cells = (coordinate - origin) / cellMetres_;
@@ -92,8 +93,8 @@ void GroundLattice::makeVertices(int level) {
 }
 
 std::uint32_t GroundLattice::vertexOf(int level, int i, int j) const {
-    // On the rim every other vertex does not exist in the next ring: it is drawn in to its neighbour, so that both
-    // rings share their edges and no sky shines through.
+    // Odd rim vertices do not exist in the next ring: snap each to its neighbour, so that both rings share their edges
+    // and leave no cracks.
     if ((j == 0 || j == across_) && i % 2 == 1) --i;
     if ((i == 0 || i == across_) && j % 2 == 1) --j;
     const int side = across_ + 1;
@@ -134,7 +135,7 @@ void GroundLattice::makeBlock(int level, int firstColumn, int firstRow) {
 
 void GroundLattice::appendVisible(const glm::mat4& anchorToClip, std::vector<std::uint32_t>& indices) const {
     const glm::mat4 rows = glm::transpose(anchorToClip);
-    // Inside where −w ≤ x ≤ w, −w ≤ y ≤ w and z ≤ w (nearer than the near plane is z > w).
+    // Inside the view: −w ≤ x ≤ w, −w ≤ y ≤ w and z ≤ w (z > w is nearer than the near plane).
     const std::array<glm::vec4, 5> planes{rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1],
                                           rows[3] - rows[2]};
     for (const Block& block : blocks_) {

@@ -1,8 +1,8 @@
-// The ground's triangles round the eye: rings of square cells, each ring twice as coarse as the one inside it, out to
-// the horizon.
+// The ground's triangles around the eye: nested rings of square cells, each ring twice as coarse as the one inside it,
+// out to the horizon.
 //
-// Units: metres. Frame: world for what goes in; vertices are relative to anchor(), a lattice point near the eye, so
-// that floats stay precise however far from the world's origin. Threads: one at a time.
+// Units: metres. Frame: inputs in the world; vertices are relative to anchor(), a lattice point near the eye, so that
+// floats stay precise far from the world's origin. Threads: one at a time.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct GroundVertex {
     glm::vec3 normal;
 };
 
-/// A rectangle of the ground seen from above: x and z.
+/// An axis-aligned rectangle of the ground in x and z.
 struct GroundRectangle {
     glm::dvec2 minimum;
     glm::dvec2 maximum;
@@ -30,28 +30,28 @@ class GroundLattice {
     /// `terrain` must outlive the lattice.
     explicit GroundLattice(const scene::Terrain& terrain);
 
-    /// Centres the rings on the eye. True where vertices and indices are new.
+    /// Centres the rings on the eye. Returns true if vertices and indices have changed.
     bool moveTo(const glm::dvec3& eye);
 
     [[nodiscard]] const glm::dvec3& anchor() const { return anchor_; }
     [[nodiscard]] std::span<const GroundVertex> vertices() const { return vertices_; }
-    /// More indices than this are never appended at once.
+    /// Upper bound on the number of indices that one call appends.
     [[nodiscard]] std::size_t maximumIndices() const {
         return static_cast<std::size_t>(levels_ * across_ * across_) * 6;
     }
 
-    /// Triangles that may be seen, the finest first. `anchorToClip` has a reversed infinite depth range.
+    /// Appends the triangles that may be visible, finest first. `anchorToClip` has a reversed infinite depth range.
     void appendVisible(const glm::mat4& anchorToClip, std::vector<std::uint32_t>& indices) const;
-    /// Triangles whose bounds touch any of the rectangles, each of them once.
+    /// Appends the triangles whose bounds touch any of the rectangles, each triangle once.
     void appendWithin(std::span<const GroundRectangle> rectangles, std::vector<std::uint32_t>& indices) const;
 
  private:
-    /// A square of cells that is kept or left out as one.
+    /// A square of cells that is culled as a unit.
     struct Block {
         glm::vec3 minimum, maximum;
         std::size_t firstIndex, lastIndex;
     };
-    /// Least corner of one ring, in finest cells.
+    /// Minimum corner of a ring, in finest cells.
     struct Corner {
         std::int64_t x, z;
     };

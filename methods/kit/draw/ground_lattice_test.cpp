@@ -34,7 +34,7 @@ std::set<Triangle> trianglesOf(const std::vector<std::uint32_t>& indices) {
     return result;
 }
 
-/// Every directed edge has its opposite, exactly once, but on the outermost rim.
+/// Every directed edge, except on the outermost rim, has exactly one opposite edge.
 void expectNoHoles(const GroundLattice& lattice) {
     const auto vertices = lattice.vertices();
     const std::vector<std::uint32_t> indices = everything(lattice);

@@ -14,11 +14,11 @@
 namespace dustbench::draw {
 namespace {
 
-/// Packed ground is darker than the dust it gives off.
+/// Packed ground is darker than the dust that comes off it.
 constexpr float packedShare = 0.52f;
 
-/// Half the width of the strip that the track's ruts lie in, and where the strip is cut along its length, so that a
-/// triangle's depth does not span all of the scene's.
+/// Half the width of the strip that holds the track's ruts, and the cuts along its length, which keep each triangle's
+/// depth range short.
 constexpr float trackHalfWidthMetres = 2.7f;
 constexpr std::array<float, 13> trackCutsMetres{-4096, -1024, -256, -64, -16, -4, 0, 4, 16, 64, 256, 1024, 4096};
 
@@ -143,7 +143,7 @@ void GroundPass::draw(const glm::dvec3& eye, const glm::mat4& eyeToClip, std::sp
 }
 
 void GroundPass::drawTrack() {
-    // Level ground hides nothing of itself and is the first thing drawn: what lies on it needs no depth test.
+    // The track needs no depth test: level ground does not occlude itself and is drawn first.
     const auto across = static_cast<float>(-lattice_.anchor().z);
     corners_.clear();
     for (std::size_t i = 0; i + 1 < trackCutsMetres.size(); ++i)
@@ -167,7 +167,7 @@ void GroundPass::drawShadedRectangles(std::span<const GroundRectangle> shaded) {
 }
 
 void GroundPass::drawShadedTriangles(std::span<const GroundRectangle> shaded) {
-    // The very triangles of the first pass, so that their depths are equal to the last bit.
+    // The same triangles as in the first pass, so that their depths are bit-identical.
     indices_.clear();
     lattice_.appendWithin(shaded, indices_);
     refill(shadedIndices_, indices_);

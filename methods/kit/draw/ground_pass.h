@@ -1,6 +1,6 @@
-// Draws the ground: lattice, textures, the worn track on level ground, and the places where shadows may fall.
+// Draws the ground: lattice, textures, the worn track on level ground, and the areas where shadows may fall.
 //
-// Units: metres. Owns: its buffers, textures and programs. The moment's uniform block is bound by whoever calls.
+// Units: metres. Owns: its buffers, textures and programs. The caller binds the moment's uniform block.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ class GroundPass {
     /// `device` and `scene` must outlive the pass.
     GroundPass(gpu::Device& device, const scene::Scene& scene);
 
-    /// Colour and depth of the ground as seen from `eye`. Shadows are looked up within `shaded` alone: there the ground
-    /// is drawn a second time, which is cheaper than asking for shadows everywhere.
+    /// Draws the ground's colour and depth as seen from `eye`. Shadows are sampled only within `shaded`, where the
+    /// ground is drawn a second time; this is cheaper than sampling shadows everywhere.
     void draw(const glm::dvec3& eye, const glm::mat4& eyeToClip, std::span<const GroundRectangle> shaded);
 
     /// Mean albedo of the ground.

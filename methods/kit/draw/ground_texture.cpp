@@ -10,14 +10,14 @@
 namespace dustbench::draw {
 namespace {
 
-constexpr std::uint64_t seed = 0x6475737462656e63;  // any constant: every run shows the same ground
+constexpr std::uint64_t seed = 0x6475737462656e63;  // arbitrary constant: all runs show the same ground
 
 constexpr std::size_t rowsPerBlock = 32;
 
-/// What each field draws its random numbers from.
+/// Random streams of the fields.
 enum Stream : std::uint32_t { reliefNoise = 0, toneNoise = 100, hueNoise = 200, patchNoise = 300, stones = 400 };
 
-/// A square of numbers that repeats at its edges.
+/// A periodic square field of numbers.
 class Field {
  public:
     explicit Field(int size) : size_(size), values_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size)) {}
@@ -49,14 +49,15 @@ void forEachRow(int rows, const Work& work) {
     });
 }
 
-/// Adds gradient noise of `periods` random slopes along the tile's side. Source: Perlin2002.
+/// Adds gradient noise with a periodic lattice of `periods` random slopes along each side. Source: Perlin2002.
 void addNoise(Field& field, int periods, float amplitude, std::uint32_t stream) {
     std::vector<glm::vec2> slopes(static_cast<std::size_t>(periods) * static_cast<std::size_t>(periods));
     for (std::size_t i = 0; i < slopes.size(); ++i) {
         const auto random = maths::uniform4(seed, stream, i);
         slopes[i] = {maths::centred(random[0]), maths::centred(random[1])};
     }
-    // Where each texel's centre falls along one axis: two lattice points, the share between them, the same faded.
+    // Position of a texel's centre along one axis: two lattice points, the fraction between them, and the faded
+    // fraction.
     struct Place {
         std::size_t before, after;
         float share, faded;
@@ -86,7 +87,8 @@ void addNoise(Field& field, int periods, float amplitude, std::uint32_t stream) 
     });
 }
 
-/// Octaves from `firstPeriods` on, each of twice the frequency and `persistence` of the amplitude.
+/// Octaves of noise from `firstPeriods` on; each has twice the frequency and `persistence` times the amplitude of the
+/// last.
 Field makeNoise(int size, int firstPeriods, int octaves, float amplitude, float persistence, std::uint32_t stream) {
     Field field(size);
     for (int octave = 0; octave < octaves; ++octave, amplitude *= persistence)
@@ -94,7 +96,7 @@ Field makeNoise(int size, int firstPeriods, int octaves, float amplitude, float 
     return field;
 }
 
-/// Half-buried stones: each a dome on the relief with a tone of its own.
+/// Adds half-buried stones: each a dome on the relief with its own tone.
 void addStones(Field& relief, Field& tone, int count) {
     const auto size = static_cast<float>(relief.size());
     for (int n = 0; n < count; ++n) {
@@ -125,13 +127,13 @@ std::uint8_t toByte(float share) {
 }  // namespace
 
 std::vector<std::uint8_t> makeGroundDetail(glm::vec3 albedo, glm::vec3 toSun) {
-    // Heights in texels, so that slopes are plain differences.
+    // Heights are in texels, so that slopes are plain differences.
     Field relief = makeNoise(detailTexels, 16, 5, 3.6f, 0.56f, reliefNoise);
     Field tone = makeNoise(detailTexels, 16, 5, 0.26f, 0.8f, toneNoise);
     Field hue = makeNoise(detailTexels, 16, 4, 0.07f, 0.8f, hueNoise);
     addStones(relief, tone, 5200);
 
-    // A low sun would bury everything in shade; the relief is there to be seen, not to be exact.
+    // Raises a low sun, which would put everything in shade: the relief must be visible rather than exact.
     const glm::vec3 light = glm::normalize(glm::vec3(toSun.x, std::max(toSun.y, 0.5f), toSun.z));
     std::vector<glm::vec3> colours;
     glm::dvec3 sum(0);

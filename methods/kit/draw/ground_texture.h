@@ -1,8 +1,8 @@
-// What the ground looks like from near and from far: two seamless tiles of packed dirt with gravel, made from noise.
+// Textures of the ground, near and far: two seamless noise-based tiles of packed dirt with gravel.
 //
-// The first holds grains and stones as albedo with the relief's own light and shade in it; the second holds patches of
-// tens of metres, so that the first one's repetition is not seen.
-// Units: metres. Deterministic: the same tiles for the same arguments. Threads: pure.
+// The first holds grains and stones as albedo with the relief's shading baked in. The second holds patches of tens of
+// metres, which hide the repetition of the first.
+// Units: metres. Deterministic: the same arguments give the same tiles. Threads: pure.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ inline constexpr int patchTexels = 512;
 /// A whole number of detail tiles, so that one phase serves both.
 inline constexpr double patchTileMetres = 256;
 
-/// RGBA, sRGB encoded; the mean in linear light is `albedo`. `toSun` lights the relief.
+/// RGBA, sRGB encoded; the mean in linear light is `albedo`. `toSun` gives the direction of the light on the relief.
 [[nodiscard]] std::vector<std::uint8_t> makeGroundDetail(glm::vec3 albedo, glm::vec3 toSun);
 
-/// RGBA, linear: factors of the albedo, 128 for one.
+/// RGBA, linear: factors of the albedo; 128 stands for 1.
 [[nodiscard]] std::vector<std::uint8_t> makeGroundPatches();
 
 }  // namespace dustbench::draw

@@ -17,7 +17,7 @@ float channelAt(const std::vector<std::uint8_t>& bytes, int size, int x, int y, 
     return static_cast<float>(bytes[texel * 4 + static_cast<std::size_t>(channel)]) / 255;
 }
 
-/// Mean step between the two rows (or columns) on either side of `line`.
+/// Mean difference between the two rows (or columns) on either side of `line`.
 double stepAcross(const std::vector<std::uint8_t>& bytes, int size, int line, bool rows) {
     double sum = 0;
     for (int i = 0; i < size; ++i) {

@@ -1,10 +1,11 @@
-// Many small shapes in one instanced draw call: their values in a buffer that shaders pull from.
+// Draws many small shapes in one instanced draw call; shaders pull the shapes' values from a buffer.
 //
-// Several shapes share one instance, because one each costs software rasterisers a run of their vertex pipeline a shape
-// (reports/decisions/0002-billboard-drawing.md). Shaders are given SHAPES_AT_ONCE and FLOATS, and COLOURED where each
-// shape brings a colour of its own; they read `values[]` at storage binding 0 and are told `count`, how many there are.
+// Several shapes share one instance, because with one shape per instance software rasterisers run their vertex pipeline
+// once per shape (reports/decisions/0002-billboard-drawing.md). Shaders get the definitions SHAPES_AT_ONCE and FLOATS,
+// and COLOURED if each shape has its own colour. They read `values[]` at storage binding 0; the uniform `count` is the
+// number of shapes.
 //
-// Owns: values, corners and programs, on the GPU. Threads: the OpenGL thread's.
+// Owns: values, corners and programs, on the GPU. Threads: the OpenGL thread.
 #pragma once
 
 #include <cstddef>
@@ -25,16 +26,16 @@
 
 namespace dustbench::draw {
 
-/// Where the values of one shape lie.
+/// Layout of the values of one shape.
 struct InstanceLayout {
-    std::size_t floats = 0;  ///< in all, the colour included
-    bool coloured = false;   ///< red green blue at the end, where not all have one colour
+    std::size_t floats = 0;  ///< total per shape, colour included
+    bool coloured = false;   ///< red green blue at the end, unless all shapes share one colour
 };
 
-/// For a pass of one kind of shape to derive from.
+/// Base class for a pass that draws one kind of shape.
 class DUSTBENCH_API InstanceBatch {
  public:
-    /// GPU memory for `count` shapes in drawing order; write-only, to be filled and unmapped.
+    /// GPU memory for `count` shapes in drawing order; write-only; fill it, then call `unmap`.
     [[nodiscard]] std::span<float> map(std::size_t count, const InstanceLayout& layout);
     void unmap();
 
@@ -43,24 +44,24 @@ class DUSTBENCH_API InstanceBatch {
 
  protected:
     struct Shape {
-        const char* name;  ///< in labels and messages: `cubes`
+        const char* name;  ///< used in labels and messages: `cubes`
         gpu::ShaderFile vertex, fragment;
         std::vector<std::uint32_t> corners;  ///< vertex numbers of one shape's triangles
-        std::uint32_t vertices;              ///< of one shape: the next one's numbers begin after them
-        std::size_t atOnce;                  ///< shapes in an instance
+        std::uint32_t vertices;              ///< per shape; the next shape's vertex numbers begin after them
+        std::size_t atOnce;                  ///< shapes per instance
         std::map<std::string, std::string> definitions{};
-        /// Points and lines have no corners: their shaders count vertices, `vertices` of each shape.
+        /// Points and lines have no corners; their shaders receive vertex numbers, `vertices` per shape.
         gpu::Primitives primitives = gpu::Primitives::triangles;
     };
     InstanceBatch(gpu::Device& device, Shape shape);
     ~InstanceBatch() = default;
 
-    /// For what was mapped last, made when first wanted; `count`, `eye` and `worldToEye` are set, the pass's own
-    /// uniforms are not.
+    /// The program for the instances mapped last, compiled on first use. Sets `count`, `eye` and `worldToEye`; the pass
+    /// sets its own uniforms.
     [[nodiscard]] gpu::Program& program(const scene::View& view);
-    /// Draws what was mapped last into the target that is bound.
+    /// Draws the instances mapped last into the bound target.
     void drawInstances(const gpu::Program& program, const gpu::DrawState& state);
-    /// The same, blended into `layer` where nothing of the scene is nearer; `projection` is set for it.
+    /// The same, blended into `layer` with the scene's depth test; sets `projection`.
     void drawWithinScene(gpu::Program& program, const scene::View& view, const gpu::Layer& layer);
     [[nodiscard]] const InstanceLayout& layoutOfAll() const { return layout_; }
 

@@ -1,6 +1,6 @@
-// Particles as lines one pixel wide, from where each is back along its velocity, all in one draw call.
+// Draws particles as lines one pixel wide, from each position back along the velocity, in one draw call.
 //
-// Units: m, m/s, s. Frame: world. Colours: linear RGB. Owns: the instances, on the GPU. Threads: the OpenGL thread's.
+// Units: m, m/s, s. Frame: world. Colours: linear RGB. Owns: the instances, on the GPU. Threads: the OpenGL thread.
 // Source: JuckelBeckhaus2007, 4.4.
 #pragma once
 
@@ -13,8 +13,8 @@
 namespace dustbench::draw {
 
 struct LineStyle {
-    float seconds = 1.0f / 60;  ///< whose way a line shows
-    bool additive = false;      ///< as BillboardStyle has it
+    float seconds = 1.0f / 60;  ///< a line covers the distance travelled in this time
+    bool additive = false;      ///< as in BillboardStyle
 };
 
 class DUSTBENCH_API Lines : public InstanceBatch {
@@ -24,7 +24,7 @@ class DUSTBENCH_API Lines : public InstanceBatch {
     /// x y z velocity (3) opacity red green blue
     [[nodiscard]] static InstanceLayout layout() { return {10, true}; }
 
-    /// Draws what was mapped last, as often as wanted.
+    /// Draws the instances mapped last; may be called repeatedly.
     void draw(const scene::View& view, const gpu::Layer& layer);
 
  private:

@@ -1,4 +1,4 @@
-// Two vertices a particle, pulled from the instances: where it is, and where it was.
+// Two vertices per particle, pulled from the instance buffer: the current position and an earlier one.
 layout(std430, binding = 0) readonly buffer Instances {
     float values[];  // x y z velocity opacity red green blue
 };

@@ -1,4 +1,4 @@
-// A solid as the sun sees it: depth alone.
+// A solid as seen from the sun: depth only.
 layout(location = 0) in vec3 position;
 uniform mat4 toLight;
 void main() {

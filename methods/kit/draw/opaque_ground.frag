@@ -1,5 +1,5 @@
-// Textured ground under sun and sky. RELIEF: a height field. TRACK: two worn ruts along the world's x axis.
-// SHADED: shadows are looked up; without it the sun reaches everything.
+// Textured ground lit by sun and sky. RELIEF: a height field. TRACK: two worn ruts along the world's x axis.
+// SHADED: samples shadows; without it all ground is in the sun.
 layout(location = 0) in vec3 fromEye;
 layout(location = 1) in vec2 place;
 #ifdef RELIEF
@@ -15,7 +15,7 @@ layout(binding = 1) uniform sampler2D patches;
 layout(location = 0) out vec4 colour;
 
 #ifdef TRACK
-// A Gaussian groove of width s seen through a pixel of width w: both widths add in squares, the area stays.
+// A Gaussian groove of width s seen through a pixel of width w: the widths add in quadrature, the area is constant.
 float groove(float distance, float width, float pixel) {
     float seen2 = width * width + pixel * pixel;
     return width * inversesqrt(seen2) * exp2(-0.7213475 * distance * distance / seen2);

@@ -2,7 +2,7 @@ layout(location = 0) in vec3 position;  // relative to the anchor
 layout(location = 1) in vec3 normal;
 
 uniform vec3 anchorFromEye;
-uniform vec2 anchorPhase;  // where the anchor lies in the patch tile, in tiles
+uniform vec2 anchorPhase;  // the anchor's position in the patch tile, in tiles
 #ifdef TRACK
 uniform float anchorAcross;  // the anchor's world z
 layout(location = 3) out float acrossTrack;

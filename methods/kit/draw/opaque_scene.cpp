@@ -22,12 +22,12 @@ namespace dustbench::draw {
 namespace {
 
 constexpr int vehicleShadowTexels = 512;  // 12 mm each; twice as many cost 3 ms more on two cores of llvmpipe
-// Solids stand still: their map is drawn anew only when the eye has gone a step, and then holds for metres around.
+// Solids are static: their map is redrawn only when the eye has moved a step, and covers the area around it.
 constexpr int solidShadowTexels = 2048;
 constexpr double solidShadowReachMetres = 80;
 constexpr double solidShadowStepMetres = 32;
 constexpr double solidMarginMetres = 0.3;    // a few of the map's texels
-constexpr double vehicleMarginMetres = 0.8;  // the darkening beside the vehicle reaches 0.7 m
+constexpr double vehicleMarginMetres = 0.8;  // the darkening around the vehicle reaches 0.7 m
 constexpr float bodyGloss = 1;
 constexpr float wheelGloss = 0.1f;
 constexpr float solidGloss = 0.1f;
@@ -44,7 +44,7 @@ glm::mat4 moved(glm::mat4 matrix, const glm::dvec3& by) {
     return matrix;
 }
 
-/// The same vehicle in a world whose origin is `origin`: what follows in floats is then precise.
+/// The vehicle relative to `origin`, so that later arithmetic in floats is precise.
 scene::VehicleState relativeTo(scene::VehicleState vehicle, const glm::dvec3& origin) {
     vehicle.position -= origin;
     for (scene::WheelState& wheel : vehicle.wheels) {
@@ -55,7 +55,7 @@ scene::VehicleState relativeTo(scene::VehicleState vehicle, const glm::dvec3& or
 }
 
 struct PlacedSolid {
-    std::shared_ptr<const SolidMesh> mesh;  ///< one for all solids of the same shape
+    std::shared_ptr<const SolidMesh> mesh;  ///< shared by all solids of the same shape
     glm::mat4 toWorld;
     glm::dvec3 centre;
     double radiusMetres;
@@ -65,7 +65,7 @@ struct PlacedSolid {
     }
 };
 
-/// Whether a sphere reaches into the view: inside is where −w ≤ x ≤ w, −w ≤ y ≤ w and w ≥ 0.
+/// Whether a sphere may be in view; the inside is −w ≤ x ≤ w, −w ≤ y ≤ w and w ≥ 0.
 bool mayBeSeen(const glm::mat4& eyeToClip, const glm::vec3& centre, float radius) {
     const glm::mat4 rows = glm::transpose(eyeToClip);
     for (const glm::vec4& plane : {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3]})
@@ -133,7 +133,7 @@ OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& device, int wi
     if (scene.vehicle) {
         body.emplace(device, scene.vehicle->body);
         wheel.emplace(device, scene.vehicle->wheel);
-        // The wheels reach a little beyond the body, below and ahead.
+        // The wheels extend slightly beyond the body, below and ahead.
         const double reach = static_cast<double>(body->radiusMetres()) + 2 * static_cast<double>(wheel->radiusMetres());
         vehicleShadow.emplace(device, "vehicle shadow", vehicleShadowTexels, reach, toSun);
     }
@@ -267,13 +267,13 @@ void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view) 
     own.findFootprints(eye, poses);
 
     own.target.bind();
-    own.target.clearDepth();  // ground and sky leave no pixel out: colour needs no clearing
+    own.target.clearDepth();  // ground and sky cover every pixel: the colour needs no clearing
     if (own.vehicleShadow) own.vehicleShadow->depth().bind(2);
     if (own.solidShadow) own.solidShadow->depth().bind(3);
     own.ground.draw(eye, own.now.eyeToClip, own.footprints);
     own.drawSolids(eye);
     if (own.body) own.drawVehicle(poses);
-    // Last: where something stands, the depth test spares the sky its shader.
+    // Drawn last, so that the depth test skips the sky's shader behind other surfaces.
     gpu::draw(own.skyProgram, own.noVertices, {.depthTest = true}, gpu::Primitives::triangles, 3);
 }
 

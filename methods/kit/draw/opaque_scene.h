@@ -1,4 +1,4 @@
-// Draws what is solid: sky and sun, textured ground, solids, the vehicle with its wheels, and their shadow.
+// Draws the opaque scene: sky and sun, textured ground, solids, the vehicle with its wheels, and shadows.
 //
 // Units: linear colour, scene metres. Depth: reversed, 32-bit float. Owns: its colour and depth targets.
 #pragma once
@@ -18,7 +18,7 @@ class DUSTBENCH_API OpaqueScene {
     OpaqueScene(const OpaqueScene&) = delete;
     OpaqueScene& operator=(const OpaqueScene&) = delete;
 
-    /// Draws the moment into colour() and depth(). `view` has the size given at construction.
+    /// Draws the given state into colour() and depth(). `view` must have the size given at construction.
     void draw(const scene::SceneState& state, const scene::View& view);
 
     [[nodiscard]] const gpu::Texture& colour() const;  ///< RGBA16F, linear, alpha 1

@@ -19,7 +19,7 @@ struct Box {
     [[nodiscard]] Box grown(double by) const { return {minimum - by, maximum + by}; }
 };
 
-/// Distance along the ray to the box, if it is hit (slabs).
+/// Distance along the ray to the box, if it is hit (slab test).
 std::optional<double> hit(const Box& box, const glm::dvec3& from, const glm::dvec3& direction) {
     double enter = 0, leave = INFINITY;
     for (int axis = 0; axis < 3; ++axis) {
@@ -160,7 +160,7 @@ TEST_F(OpaqueSceneTest, GroundIsDarkWhereTheRayToTheSunHitsABox) {
 }
 
 TEST_F(OpaqueSceneTest, EveryPieceOfALongMeshThrowsItsShadow) {
-    // One solid of 1.2 km: posts 30 m apart, 5 m across.
+    // One solid of 1.2 km: posts 30 m apart and 5 m across.
     scene::Scene bare = test::underAHighSun(), withPosts = bare;
     auto posts = std::make_shared<scene::Mesh>();
     for (int n = 0; n < 40; ++n)
@@ -171,7 +171,7 @@ TEST_F(OpaqueSceneTest, EveryPieceOfALongMeshThrowsItsShadow) {
     withPosts.solidPoses.resize(1);
     const glm::dvec3 toSun = glm::normalize(glm::dvec3(bare.lights.toSun));
     for (const double at : {0.0, 600.0, 1170.0}) {
-        const glm::dvec3 shadow = glm::dvec3(at, 2, 0) - toSun * (2 / toSun.y);  // of a point within the post
+        const glm::dvec3 shadow = glm::dvec3(at, 2, 0) - toSun * (2 / toSun.y);  // shadow of a point within the post
         const scene::View view = test::viewFrom(shadow + glm::dvec3(-4, 5, -3), shadow, 81, 61);
         const float share = brightness(draw(withPosts, {}, view).colour.at(40, 30)) /
                             brightness(draw(bare, {}, view).colour.at(40, 30));
@@ -203,7 +203,8 @@ TEST_F(OpaqueSceneTest, VehicleThrowsItsShadowWhereverItStands) {
                     EXPECT_LT(share, 0.6f) << x << ", " << y;
                     ++dark;
                 } else if (!hit(all.grown(0.05), place, toSun) && !hit(all.grown(0.8), place, {1e-9, 1, 1e-9})) {
-                    EXPECT_NEAR(share, 1, 0.02f) << x << ", " << y;  // another triangle: the texture's last bits
+                    EXPECT_NEAR(share, 1, 0.02f) << x << ", " << y;  // a different triangle: the texture coordinates'
+                                                                     // last bits may differ
                 }
             }
         EXPECT_GT(dark, 100);

@@ -1,4 +1,4 @@
-// Share of the sun's light that reaches a point. VEHICLE and SOLIDS say which casters the scene has.
+// Fraction of the sun's light that reaches a point. VEHICLE and SOLIDS tell which casters the scene has.
 #ifdef VEHICLE
 layout(binding = 2) uniform sampler2DShadow vehicleShadow;
 #endif
@@ -6,22 +6,22 @@ layout(binding = 2) uniform sampler2DShadow vehicleShadow;
 layout(binding = 3) uniform sampler2DShadow solidShadow;
 #endif
 
-// Beyond the map's far end still lies behind every caster: depths below 0 count as 0.
-// The vehicle's texels are as fine as the pixels: one bilinear comparison.
+// Points beyond the map's far end are behind all casters: depths below 0 count as 0.
+// The vehicle's texels are as fine as the pixels, so one bilinear comparison suffices.
 float sharpShare(sampler2DShadow map, vec3 place) {
     return texture(map, vec3(place.xy, max(place.z, 0.0)));
 }
 
-// The solids' texels are coarser: two comparisons aslant to the rows hide their steps.
+// The solids' texels are coarser: two comparisons, offset diagonally, hide the steps.
 float softShare(sampler2DShadow map, vec3 place) {
     vec2 aside = vec2(0.7, 0.3) / vec2(textureSize(map, 0));
     float depth = max(place.z, 0.0);
     float share = 0.5 * (texture(map, vec3(place.xy + aside, depth)) + texture(map, vec3(place.xy - aside, depth)));
-    vec2 off = abs(place.xy - 0.5);  // solids reach beyond the map: outside it nothing is known, and all is lit
+    vec2 off = abs(place.xy - 0.5);  // outside the map shadows are unknown, and everything is lit
     return max(share, smoothstep(0.44, 0.49, max(off.x, off.y)));
 }
 
-// `lift`: how far to step off the surface, in shadow texels, so that it does not shade itself.
+// `lift`: offset along the normal, in shadow texels, that prevents self-shadowing.
 float sunShare(vec3 fromEye, vec3 normal, float lift) {
     float share = 1.0;
 #ifdef VEHICLE
@@ -35,7 +35,7 @@ float sunShare(vec3 fromEye, vec3 normal, float lift) {
     return share;
 }
 
-// Share of the sky that the ground beside and below the vehicle still sees.
+// Fraction of the sky that is visible from the ground beside and below the vehicle.
 float skyShare(vec3 fromEye) {
 #ifdef VEHICLE
     vec3 own = (eyeToVehicle * vec4(fromEye, 1.0)).xyz;

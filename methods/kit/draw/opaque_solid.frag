@@ -1,4 +1,4 @@
-// A matt body under a coat that mirrors sky, ground and sun by Fresnel's law.
+// A matt body under a clear coat that reflects sky, ground and sun by Fresnel's law.
 layout(location = 0) in vec3 fromEye;
 layout(location = 1) in vec3 outwards;
 layout(location = 2) in vec3 diffuse;
@@ -10,15 +10,15 @@ layout(location = 0) out vec4 colour;
 void main() {
     vec3 towardsEye = -normalize(fromEye);
     vec3 normal = normalize(outwards);
-    if (dot(normal, towardsEye) < 0.0) normal = -normal;  // meshes from elsewhere may wind either way
+    if (dot(normal, towardsEye) < 0.0) normal = -normal;  // external meshes may have either winding
 
-    // The sky lights the upper half of what a surface sees, the ground the lower.
+    // The sky lights the upper hemisphere of a surface, the ground the lower.
     float facing = max(dot(normal, toSun.xyz), 0.0);
     float lit = facing > 0.0 ? sunShare(fromEye, normal, 2.5) : 0.0;
     vec3 around = mix(groundLight.rgb, ambient.rgb, 0.5 + 0.5 * normal.y);
     vec3 body = diffuse * (sun.rgb * (facing * lit) + around);
 
-    // Schlick: F = F0 + (1 − F0)(1 − cos θ)⁵, F0 = 0.04 of lacquer and glass.
+    // Schlick: F = F0 + (1 − F0)(1 − cos θ)⁵, with F0 = 0.04 for lacquer and glass.
     float grazing = 1.0 - dot(normal, towardsEye);
     float grazing2 = grazing * grazing;
     float mirrored = gloss * (0.04 + 0.96 * grazing2 * grazing2 * grazing);

@@ -1,4 +1,4 @@
-layout(location = 0) in vec3 position;  // the object's own frame
+layout(location = 0) in vec3 position;  // in the object's frame
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 albedo;
 

@@ -45,7 +45,7 @@ inline scene::VehicleModel boxVehicle() {
     return model;
 }
 
-/// An empty scene whose sun stands so high, over so dim a sky, that shadows are short and dark.
+/// An empty scene with a high sun and a dim sky, so that shadows are short and dark.
 inline scene::Scene underAHighSun() {
     scene::Scene scene;
     scene.lights.toSun = {0.45f, 0.62f, 0.64f};
@@ -71,7 +71,7 @@ inline scene::SceneState vehicleAt(const scene::Scene& scene, double x, double z
     return state;
 }
 
-/// Dunes of tens of metres on a grid of `samples`² heights, `spacing` metres apart, about the origin.
+/// Dunes tens of metres long on a grid of `samples`² heights, `spacing` metres apart, centred on the origin.
 inline scene::Terrain dunes(int samples, float spacing) {
     std::vector<float> heights;
     for (int j = 0; j < samples; ++j)

@@ -1,4 +1,4 @@
-// A flat square, or a round sprite: premultiplied. `a` is the opacity; of a sprite, the depth τ·log2(e) in its middle.
+// A flat square or a round sprite, premultiplied. `a` is the opacity; for a sprite, τ·log2(e) at its centre.
 flat in vec4 pointColour;
 layout(location = 0) out vec4 colour;
 

@@ -1,11 +1,11 @@
-// Particles as points or point sprites, one vertex each, all in one draw call.
+// Draws particles as points or point sprites, one vertex each, in one draw call.
 //
-// A point is a flat square of opacity α; a sprite is round, α(b) = 1 − exp(−τ·exp(−b²/2s²)) out to b = 3s, as a
-// billboard is, at a fraction of its cost. Either is as wide as a number of pixels says, or as the particle is at its
-// distance (half-side 1.5 r = 3s); none is wider than 255 pixels, nor narrower than one. The sprite's picture is a
-// billboard's near the middle of the view; away from it, perspective is left out.
+// A point is a flat square of opacity α. A sprite is round, α(b) = 1 − exp(−τ·exp(−b²/2s²)) out to b = 3s, like a
+// billboard at a fraction of the cost. Sizes are given in pixels, or follow from the particle's radius and distance
+// (half-side 1.5 r = 3s); they are limited to 1..255 pixels. Near the middle of the view a sprite matches a billboard;
+// away from it, the sprite ignores perspective.
 //
-// Units: m, pixels. Frame: world. Colours: linear RGB. Owns: the instances, on the GPU. Threads: the OpenGL thread's.
+// Units: m, pixels. Frame: world. Colours: linear RGB. Owns: the instances, on the GPU. Threads: the OpenGL thread.
 // Source: JuckelBeckhaus2007, 4.4.
 #pragma once
 
@@ -19,8 +19,8 @@ namespace dustbench::draw {
 
 struct PointStyle {
     bool sprite = false;
-    float pixels = 0;       ///< wide; 0: as large as each particle is
-    bool additive = false;  ///< as BillboardStyle has it
+    float pixels = 0;       ///< width; 0: each particle's own size
+    bool additive = false;  ///< as in BillboardStyle
 };
 
 class DUSTBENCH_API Points : public InstanceBatch {
@@ -30,7 +30,7 @@ class DUSTBENCH_API Points : public InstanceBatch {
     /// x y z radius opacity red green blue
     [[nodiscard]] static InstanceLayout layout() { return {8, true}; }
 
-    /// Draws what was mapped last, as often as wanted.
+    /// Draws the instances mapped last; may be called repeatedly.
     void draw(const scene::View& view, const gpu::Layer& layer);
 
  private:

@@ -1,4 +1,4 @@
-// One vertex a particle, pulled from the instances.
+// One vertex per particle, pulled from the instance buffer.
 layout(std430, binding = 0) readonly buffer Instances {
     float values[];  // x y z radius opacity red green blue
 };

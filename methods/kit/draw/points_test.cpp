@@ -24,7 +24,7 @@ class Canvas : public TestCanvas {
         return picture([&](const gpu::Layer& layer) { points.draw(view, layer); });
     }
     [[nodiscard]] std::vector<float> inTheMiddle(float radius, float opacity, float distance = 10) const {
-        // The middle of pixel (80, 60), so that a sprite of odd width is symmetric.
+        // The centre of pixel (80, 60), so that a sprite of odd width is symmetric.
         const glm::vec3 place = view.rayDirection(80.5, 60.5);
         const glm::vec3 at = place * (distance / -place.z);
         return {at.x, at.y, at.z, radius, opacity, 1, 0.5f, 0.25f};

@@ -21,7 +21,7 @@ double luminance(const glm::dvec3& colour) {
     return 0.2126 * colour.r + 0.7152 * colour.g + 0.0722 * colour.b;
 }
 
-/// One frame's texels, rows from the bottom: shade (mean 1) and relative optical depth (mean gaussianMean()).
+/// One frame's texels, rows from the bottom: shading (mean 1) and relative optical depth (mean gaussianMean()).
 std::vector<glm::vec4> normalisedFrame(const pictures::Image& image, int frame, const std::string& file) {
     const int edge = image.height;
     double depth = 0, light = 0;
@@ -31,7 +31,7 @@ std::vector<glm::vec4> normalisedFrame(const pictures::Image& image, int frame, 
             const glm::vec4 texel = image.at(frame * edge + x, y);
             texels.push_back(texel);
             depth += static_cast<double>(texel.a);
-            light += luminance(glm::vec3(texel));  // premultiplied: weighted already
+            light += luminance(glm::vec3(texel));  // premultiplied, so already weighted
         }
     if (depth <= 0 || light <= 0)
         throw InputError("puff picture '" + file + "': frame " + std::to_string(frame) +

@@ -1,8 +1,8 @@
-// Pictures of puffs that take the Gaussian's place: one, several, or the frames of an animation.
+// Textures that replace a puff's Gaussian: one picture, several, or the frames of an animation.
 //
-// A file is a strip of square frames side by side. Its alpha is read as optical depth, scaled so that each frame's mean
-// over the quad is that of the Gaussian exp(−b²/2s²) over its quad: the mass of a puff stays the same. Its colour is
-// shade, scaled so that each frame's mean luminance, weighted with the alpha, is 1: the colour of a cloud stays too.
+// A file is a strip of square frames side by side. Its alpha is read as optical depth and scaled so that each frame's
+// mean over the quad equals that of the Gaussian exp(−b²/2s²): a puff keeps its mass. Its colour is shading, scaled so
+// that each frame's mean luminance, weighted by alpha, is 1: a cloud keeps its colour.
 //
 // Owns: the texture array.
 #pragma once
@@ -18,15 +18,15 @@ class DUSTBENCH_API PuffTextures {
  public:
     enum class Frames { separate, crossFaded };
 
-    /// Throws InputError where the file cannot be read, is no strip of square frames, or has an empty frame.
+    /// Throws InputError if the file cannot be read, is not a strip of square frames, or has an empty frame.
     PuffTextures(gpu::Device& device, const std::filesystem::path& file, Frames frames);
 
     [[nodiscard]] int frames() const { return texture_.depth(); }
     [[nodiscard]] bool crossFaded() const { return frames_ == Frames::crossFaded; }
     [[nodiscard]] const gpu::Texture& texture() const { return texture_; }
-    /// What a stored alpha of 1 stands for, relative to the puff's τ.
+    /// Optical depth of a stored alpha of 1, relative to the puff's τ.
     [[nodiscard]] float opticalDepthScale() const { return opticalDepthScale_; }
-    /// What a stored colour of 1 stands for, relative to the puff's colour.
+    /// Colour of a stored colour of 1, relative to the puff's colour.
     [[nodiscard]] float shadeScale() const { return shadeScale_; }
 
  private:

@@ -1,6 +1,6 @@
-// Brings textures back from the GPU as images and depths.
+// Reads textures back from the GPU as images and depths.
 //
-// Rows from the top. Threads: the device's. Each call waits for the GPU.
+// Rows from the top. Threads: the device's thread. Each call waits for the GPU.
 #pragma once
 
 #include <vector>
@@ -14,10 +14,10 @@ class Texture;
 
 namespace dustbench::draw {
 
-/// A flat texture of four channels, values as they are stored. Throws std::invalid_argument for any other.
+/// Reads a 2D texture of four channels; values as stored. Throws std::invalid_argument for any other texture.
 [[nodiscard]] DUSTBENCH_API pictures::Image readBack(const gpu::Texture& texture);
 
-/// Depths of a flat Depth32F texture. Throws std::invalid_argument for any other.
+/// Reads the depths of a 2D Depth32F texture. Throws std::invalid_argument for any other texture.
 [[nodiscard]] DUSTBENCH_API std::vector<float> readBackDepth(const gpu::Texture& texture);
 
 }  // namespace dustbench::draw

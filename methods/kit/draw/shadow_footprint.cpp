@@ -12,14 +12,14 @@ namespace {
 
 constexpr double minimumSunHeight = 0.1;  // sine of 6°
 constexpr int samplesAcross = 9;
-constexpr double binMetres = 8;  // triangles this near to each other stand together
+constexpr double binMetres = 8;  // triangles in the same bin form one group
 
 void take(GroundRectangle& rectangle, const glm::dvec3& point) {
     rectangle.minimum = glm::min(rectangle.minimum, glm::dvec2(point.x, point.z));
     rectangle.maximum = glm::max(rectangle.maximum, glm::dvec2(point.x, point.z));
 }
 
-/// Lowest of a few heights under the rectangle.
+/// The lowest of several height samples under the rectangle.
 double lowestGround(const GroundRectangle& rectangle, const scene::Terrain& terrain) {
     if (terrain.isFlat()) return 0;
     double lowest = INFINITY;
@@ -44,7 +44,7 @@ GroundRectangle shadowFootprint(const glm::vec3& minimum, const glm::vec3& maxim
     GroundRectangle box{glm::dvec2(INFINITY), glm::dvec2(-INFINITY)};
     for (const glm::dvec3& corner : corners) take(box, corner);
 
-    // p − s·(p.y − ground)/s.y; the ground under the shadow is known once the shadow is: two rounds.
+    // p − s·(p.y − ground)/s.y. The ground height depends on the shadow's extent: two iterations.
     const glm::dvec3 slant = glm::dvec3(toSun) / std::max(static_cast<double>(toSun.y), minimumSunHeight);
     GroundRectangle shadow = box;
     for (int round = 0; round < 2; ++round) {
@@ -92,7 +92,7 @@ void joinOverlapping(std::vector<GroundRectangle>& rectangles) {
         rectangles[i] = {glm::min(rectangles[i].minimum, other->minimum),
                          glm::max(rectangles[i].maximum, other->maximum)};
         rectangles.erase(other);
-        i = 0;  // the larger one may overlap what the smaller did not
+        i = 0;  // the merged rectangle may overlap others
     }
 }
 

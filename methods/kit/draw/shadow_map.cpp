@@ -5,7 +5,7 @@
 namespace dustbench::draw {
 namespace {
 
-/// Rows: two axes across the sun's rays, and the direction to the sun.
+/// Rows: two axes perpendicular to the sun's rays, and the direction to the sun.
 glm::dmat3 lightAxes(const glm::dvec3& toSun) {
     const glm::dvec3 towards = glm::normalize(toSun);
     const glm::dvec3 other = std::abs(towards.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
@@ -17,7 +17,8 @@ glm::dmat3 lightAxes(const glm::dvec3& toSun) {
 
 ShadowMap::ShadowMap(gpu::Device& device, std::string_view label, int texels, double radiusMetres,
                      const glm::vec3& toSun)
-    // A margin of texels stays empty, so that beyond the edge, where the last texel is carried on, all is lit.
+    // A margin of texels stays empty, so that everything beyond the edge is lit, where sampling clamps to the last
+    // texel.
     : radius_(radiusMetres * texels / (texels - 8)),
       axes_(lightAxes(glm::dvec3(toSun))),
       depth_(gpu::Texture::make2D(device, label, gpu::Format::depth32F, texels, texels, gpu::Filter::linear)),

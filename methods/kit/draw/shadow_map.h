@@ -1,6 +1,6 @@
-// Depth of a group of casters as the sun sees them: a square of parallel rays about a centre.
+// Depth map of a group of shadow casters as seen from the sun: an orthographic square around a centre.
 //
-// Units: metres; depth is reversed: 1 next to the sun, 0 on the far side. Owns: its depth texture.
+// Units: metres; depth is reversed: 1 nearest to the sun, 0 on the far side. Owns: its depth texture.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,17 +14,17 @@ namespace dustbench::draw {
 
 class ShadowMap {
  public:
-    /// Takes in casters within `radiusMetres` of the centre that `aim` names.
+    /// Covers casters within `radiusMetres` of the centre passed to `aim`.
     ShadowMap(gpu::Device& device, std::string_view label, int texels, double radiusMetres, const glm::vec3& toSun);
 
-    /// The centre moves in whole texels, so that the shadow's edge does not crawl as the casters move.
+    /// Moves the centre in whole texels, so that shadow edges do not crawl as the casters move.
     void aim(const glm::dvec3& centre);
-    /// Draws go here from now on; everything is lit again.
+    /// Binds the map as the target of subsequent draws and clears it to fully lit.
     void bindAndClear() const;
 
     /// From positions relative to `eye` (world axes) to the map's clip space.
     [[nodiscard]] glm::mat4 eyeToLight(const glm::dvec3& eye) const;
-    /// The same to texture coordinates.
+    /// From the same positions to texture coordinates.
     [[nodiscard]] glm::mat4 eyeToTexture(const glm::dvec3& eye) const;
 
     [[nodiscard]] const gpu::Texture& depth() const { return depth_; }
@@ -33,7 +33,7 @@ class ShadowMap {
  private:
     double radius_;
     glm::dmat3 axes_;       ///< rows: right, up, towards the sun
-    glm::dvec3 centre_{0};  ///< along these axes
+    glm::dvec3 centre_{0};  ///< in these axes
     gpu::Texture depth_;
     gpu::Framebuffer target_;
 };

@@ -1,6 +1,6 @@
-// A solid's triangles on the GPU.
+// A solid's triangle mesh on the GPU.
 //
-// Units: metres. Frame: the object's own. Owns: its buffers.
+// Units: metres. Frame: the object's. Owns: its buffers.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -22,7 +22,7 @@ class DUSTBENCH_API SolidMesh {
     [[nodiscard]] const glm::vec3& minimum() const { return minimum_; }
     [[nodiscard]] const glm::vec3& maximum() const { return maximum_; }
     [[nodiscard]] glm::vec3 centre() const { return (minimum_ + maximum_) / 2.0f; }
-    /// Of the sphere about centre() that holds every vertex.
+    /// Radius of the sphere about centre() that contains all vertices.
     [[nodiscard]] float radiusMetres() const { return radius_; }
 
  private:

@@ -1,6 +1,6 @@
-// A small picture for tests and benchmarks of what draws: a view, opaque depths of any kind, a layer over them.
+// A small image for tests and benchmarks of drawing code: a view, arbitrary opaque depths, and a layer over them.
 //
-// Owns: one OpenGL context for the whole program, and the layer. Depths: reversed, as scene/view.h has them.
+// Owns: one OpenGL context for the whole program, and the layer. Depths: reversed, as in contract/view.h.
 #pragma once
 
 #include <limits>
@@ -38,7 +38,7 @@ class TestCanvas {
     }
     [[nodiscard]] glm::vec3 at(const glm::vec3& fromEye) const { return glm::vec3(view.camera.eye) + fromEye; }
 
-    /// An opaque wall from a column on to the right, its distance along the axis; or nothing at all.
+    /// Sets an opaque wall from a column to the right edge, at a distance along the axis; or removes it.
     void setWall(std::optional<double> distance, int fromColumn = 0) {
         wall_ = distance;
         wallFrom_ = fromColumn;
@@ -49,9 +49,9 @@ class TestCanvas {
         depth_.write(std::span<const float>(depths));
     }
     [[nodiscard]] bool isWalled(int x) const { return wall_ && x >= wallFrom_; }
-    /// Distance of the wall in a column; infinite where there is none.
+    /// Distance of the wall in a column; infinite if there is none.
     [[nodiscard]] double wallAt(int x) const { return isWalled(x) ? *wall_ : std::numeric_limits<double>::infinity(); }
-    /// Opaque flat ground so far below the eye, as exact as its depths can be.
+    /// Sets opaque flat ground at `below` metres under the eye, as exact as float depths allow.
     void setGround(double below) {
         wall_.reset();
         const glm::dvec3 forward = glm::normalize(view.camera.target - view.camera.eye);
@@ -65,7 +65,7 @@ class TestCanvas {
         depth_.write(std::span<const float>(depths));
     }
 
-    /// What `draw(layer)` leaves in the layer, cleared before.
+    /// Clears the layer, calls `draw(layer)` and returns the layer's picture.
     template <typename Draw>
     pictures::Image picture(const Draw& draw) {
         layer_->clear();
