@@ -18,7 +18,7 @@ class Records {
         if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
     }
 
-    /// The next record that is not blank; false at the end.
+    /// Reads the next non-blank record; false at the end.
     bool next(std::vector<std::string>& cells, std::size_t& line) {
         do {
             if (at_ >= text_.size()) return false;

@@ -1,4 +1,4 @@
-// Tables of numbers and texts as RFC 4180: header always, '.' decimals, empty = missing.
+// Reads and writes CSV tables by RFC 4180: always a header, '.' as decimal point, empty cells for missing values.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace dustbench::files {
 
-/// A table in memory, read whole. Throws InputError with file, line and what was expected.
+/// A table read into memory. Throws InputError with the file, the line and what was expected.
 class DUSTBENCH_API CsvTable {
  public:
     static CsvTable parseFile(const std::filesystem::path& file);
@@ -21,7 +21,7 @@ class DUSTBENCH_API CsvTable {
     [[nodiscard]] const std::string& cell(std::size_t row, std::string_view column) const;
     /// The cell as a finite number.
     [[nodiscard]] double number(std::size_t row, std::string_view column) const;
-    /// `file:line: ` of a row: the start of an error message.
+    /// `file:line: ` of a row: prefix for an error message.
     [[nodiscard]] std::string where(std::size_t row) const;
 
  private:
@@ -33,7 +33,7 @@ class DUSTBENCH_API CsvTable {
     std::vector<std::size_t> lines_;
 };
 
-/// A cell's text, quoted where it must be.
+/// A cell's text, quoted if necessary.
 [[nodiscard]] DUSTBENCH_API std::string csvCell(std::string_view text);
 /// The shortest text that reads back as the same number; empty for NaN and infinities.
 [[nodiscard]] DUSTBENCH_API std::string csvNumber(double value);

@@ -15,12 +15,12 @@
 
 namespace dustbench::files {
 
-/// The document is shared by all readers of its tables; `table` points into it.
+/// All readers of a document's tables share the document; `table` points into it.
 struct TomlReader::State {
     std::shared_ptr<const toml::table> document;
     const toml::table* table;
     std::string file;
-    std::string path;  ///< of the table within the document, for messages
+    std::string path;  ///< path of the table within the document, for messages
     std::set<std::string, std::less<>> known;
 };
 
@@ -88,7 +88,7 @@ std::vector<std::string> TomlReader::keys() const {
 
 namespace {
 
-/// The node under a key, marked as known; throws where it is missing.
+/// Returns the node under a key; throws if it is missing.
 const toml::node& require(const TomlReader& reader, const toml::table& table, std::string_view key,
                           std::string_view path, std::string_view expected) {
     if (const toml::node* node = table.get(key)) return *node;

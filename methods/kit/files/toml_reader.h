@@ -1,6 +1,6 @@
-// Reads a TOML file with errors a person can act on: file, line, key, what was got, what is expected.
+// Reads TOML files and reports precise errors: file, line, key, the value received and the value expected.
 //
-// The library behind it stays out of this header, so that few files pay for it.
+// The underlying library is not included here, so that few files pay for its compile time.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@
 
 namespace dustbench::files {
 
-/// One table of a TOML file. Every reader of a key marks it as known; `finish` refuses the rest, with the nearest name.
-/// All members throw InputError, `scenes/flat.toml:12: key 'wind' … got …, expected …`.
+/// One table of a TOML file. Reading a key marks it as known; `finish` rejects all other keys and suggests the nearest
+/// name. All members throw InputError, `scenes/flat.toml:12: key 'wind' … got …, expected …`.
 class DUSTBENCH_API TomlReader {
  public:
     static TomlReader parseFile(const std::filesystem::path& file);
-    /// `name` stands for the file in messages.
+    /// `name` is the file name used in messages.
     static TomlReader parseText(std::string_view text, std::string name);
     TomlReader(TomlReader&&) noexcept;
     TomlReader& operator=(TomlReader&&) noexcept;
@@ -48,21 +48,21 @@ class DUSTBENCH_API TomlReader {
     }
     [[nodiscard]] glm::dvec3 vector3(std::string_view key);
     [[nodiscard]] glm::dvec3 vector3(std::string_view key, glm::dvec3 initial);
-    /// An array of numbers, at least `minimum` of them.
+    /// An array of at least `minimum` numbers.
     [[nodiscard]] std::vector<double> numbers(std::string_view key, std::size_t minimum = 0);
-    /// An array of texts, or one text for an array of one.
+    /// An array of texts; a single text counts as an array of one.
     [[nodiscard]] std::vector<std::string> texts(std::string_view key);
-    /// A number, boolean or text, as text; or an array of them. For values whose type somebody else declares.
+    /// A number, boolean or text, as text; or an array of them. For values whose type is declared elsewhere.
     [[nodiscard]] std::vector<std::string> scalars(std::string_view key);
 
     [[nodiscard]] TomlReader table(std::string_view key);
-    /// An array of tables (`[[key]]`); empty where the key is missing.
+    /// An array of tables (`[[key]]`); empty if the key is missing.
     [[nodiscard]] std::vector<TomlReader> tables(std::string_view key);
 
-    /// Throws where the table has a key that nobody asked for.
+    /// Throws if the table has a key that was never read.
     void finish() const;
 
-    /// `file:line: ` of a key, or of the table where the key is empty or missing: the start of an error message.
+    /// `file:line: ` of a key, or of the table if the key is empty or missing: prefix for an error message.
     [[nodiscard]] std::string where(std::string_view key = {}) const;
 
  private:
