@@ -19,7 +19,7 @@ bool isHardwareDevice(const Adapter& adapter) {
     return adapter.platform == Platform::device && adapter.kind == Kind::hardware;
 }
 
-/// The lower, the sooner it is taken.
+/// Order of preference; the lowest rank is taken first.
 int rank(const Adapter& adapter) {
     if (isHardwareDevice(adapter)) return 0;
     return adapter.platform == Platform::surfaceless ? 1 : 2;
@@ -94,7 +94,7 @@ std::optional<std::size_t> adapterOfIndex(std::span<const Adapter> adapters, std
 std::size_t findAdapter(std::span<const Adapter> adapters, std::string_view asked) {
     if (const auto index = adapterOfIndex(adapters, asked)) return *index;
     const std::string wanted = lowerCase(asked);
-    // A number is an index alone: `--adapter 5` must not find `LLVM 15`.
+    // A number only ever means an index: `--adapter 5` must not match `LLVM 15`.
     const bool isNumber = !asked.empty() && asked.find_first_not_of("0123456789") == std::string_view::npos;
     std::vector<std::size_t> equal, found;
     for (std::size_t i = 0; i < adapters.size() && !isNumber; ++i) {

@@ -1,6 +1,6 @@
-// A way to OpenGL that this machine's EGL offers, and the rules by which one is taken.
+// An OpenGL adapter offered by this machine's EGL, and the rules that choose one.
 //
-// Pure: EGL itself is asked in egl_context.h.
+// Pure: egl_context.h queries EGL.
 #pragma once
 
 #include <cstddef>
@@ -16,41 +16,39 @@ struct Adapter {
     enum class Kind { hardware, software };
     enum class Platform { device, surfaceless };
 
-    int index = 0;  ///< its place in the list
-    /// `NVIDIA H200/PCIe/SSE2 (/dev/dri/renderD128)`, or `surfaceless`. Of a device on which no context was made yet,
-    /// what EGL says: `EGL device 0 (/dev/dri/renderD128)`.
+    int index = 0;  ///< position in the list
+    /// `NVIDIA H200/PCIe/SSE2 (/dev/dri/renderD128)`, or `surfaceless`. For a device without a context so far, EGL's
+    /// own description: `EGL device 0 (/dev/dri/renderD128)`.
     std::string name{};
-    std::string renderer{};  ///< OpenGL's; empty until a context was made
+    std::string renderer{};  ///< OpenGL's renderer; empty until a context has been made
     Kind kind = Kind::hardware;
     Platform platform = Platform::device;
-    std::string problem{};  ///< why it gives no OpenGL 4.5; empty: it does, or was not tried
+    std::string problem{};  ///< why it provides no OpenGL 4.5; empty if it does, or was not tried
 };
 
 [[nodiscard]] DUSTBENCH_API std::string_view kindName(Adapter::Kind kind);
 [[nodiscard]] DUSTBENCH_API std::string_view platformName(Adapter::Platform platform);
 
-/// True for the renderers that draw on the CPU.
+/// True for renderers that draw on the CPU.
 [[nodiscard]] bool isSoftwareRenderer(std::string_view renderer);
 
-/// The one to take where none is asked for: the first hardware device, else surfaceless, else a software device, of
-/// those that have no problem. None where all have one.
+/// The default choice: the first hardware device, else surfaceless, else a software device, among adapters without a
+/// problem. Empty if every adapter has one.
 [[nodiscard]] std::optional<std::size_t> preferredAdapter(std::span<const Adapter> adapters);
-/// Has adapters opened, the preferred one of what is known first, until that one is open. `open` fills in the kind and
-/// the problem that it finds: what EGL calls hardware may turn out to be drawn by the CPU. None where all have a
-/// problem.
+/// Opens the currently preferred adapter until one opens and remains preferred. `open` sets the kind and any problem
+/// that it finds, since a device that EGL calls hardware may draw on the CPU. Empty if every adapter has a problem.
 [[nodiscard]] std::optional<std::size_t> takePreferred(std::span<Adapter> adapters,
                                                        const std::function<void(Adapter&)>& open);
-/// Why `preferredAdapter` takes this one, in a few words, with the hardware that could not be taken.
+/// Short reason for the choice of `preferredAdapter`, with the hardware adapters that could not be used.
 [[nodiscard]] std::string whyPreferred(std::span<const Adapter> adapters, std::size_t preferred);
 
-/// The one whose index is asked for, if there is one.
+/// The adapter with the requested index, if it exists.
 [[nodiscard]] std::optional<std::size_t> adapterOfIndex(std::span<const Adapter> adapters, std::string_view asked);
-/// The one with this index or name, else the only one whose name contains this text; case does not matter. A number is
-/// an index.
-/// Throws InputError with the list where none or several do.
+/// The adapter with this index or name, else the only one whose name contains this text, ignoring case. A number is an
+/// index. Throws InputError with the list if no adapter or several adapters match.
 [[nodiscard]] DUSTBENCH_API std::size_t findAdapter(std::span<const Adapter> adapters, std::string_view asked);
 
-/// `0 surfaceless: no display; 1 …`: those with a problem, each with it.
+/// `0 surfaceless: no display; 1 …`: the adapters with problems, and the problem of each.
 [[nodiscard]] std::string problemsOf(std::span<const Adapter> adapters);
 
 }  // namespace dustbench::gpu

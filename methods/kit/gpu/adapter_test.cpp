@@ -1,4 +1,4 @@
-// Which adapter is taken, on machines made up for it.
+// Tests the choice of adapter on simulated machines.
 #include "methods/kit/gpu/adapter.h"
 
 #include <gmock/gmock.h>
@@ -19,14 +19,14 @@ Adapter device(const std::string& name, Kind kind, const std::string& problem = 
     return {.name = name, .kind = kind, .platform = Platform::device, .problem = problem};
 }
 
-/// With the surfaceless platform behind the devices, and counted.
+/// Appends the surfaceless platform to the devices and numbers them.
 std::vector<Adapter> machine(std::vector<Adapter> devices) {
     devices.push_back({.name = "surfaceless", .kind = Kind::software, .platform = Platform::surfaceless});
     for (std::size_t i = 0; i < devices.size(); ++i) devices[i].index = static_cast<int>(i);
     return devices;
 }
 
-/// What a test says of a choice: the name and the reason.
+/// The choice as text: the name and the reason.
 std::string taken(const std::vector<Adapter>& adapters) {
     const auto preferred = preferredAdapter(adapters);
     return preferred ? adapters[*preferred].name + ", " + whyPreferred(adapters, *preferred) : "none";

@@ -1,4 +1,4 @@
-// Bytes booked on a ledger for as long as an object lives.
+// Books bytes on a ledger for an object's lifetime.
 #pragma once
 
 #include <utility>

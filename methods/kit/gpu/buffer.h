@@ -1,6 +1,6 @@
 // A block of GPU memory.
 //
-// Owns: the OpenGL buffer; its bytes are on the device's ledger under `label`.
+// Owns: the OpenGL buffer. Its bytes are booked on the device's ledger under `label`.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace dustbench::gpu {
 
 class DUSTBENCH_API Buffer {
  public:
-    /// An empty buffer of no bytes; assign one before use.
+    /// An empty buffer; assign a real one before use.
     Buffer() = default;
     /// Contents are undefined until written.
     Buffer(Device& device, std::string_view label, std::size_t bytes);
@@ -26,22 +26,22 @@ class DUSTBENCH_API Buffer {
         write(data);
     }
 
-    /// Replaces the first `data.size()` elements. Throws std::out_of_range where they do not fit.
+    /// Replaces the first `data.size()` elements. Throws std::out_of_range if they do not fit.
     template <typename T>
     void write(std::span<const T> data) {
         writeBytes(data.data(), data.size_bytes());
     }
-    /// Reads the first `data.size()` elements back (waits for the GPU).
+    /// Reads back the first `data.size()` elements. Waits for the GPU.
     template <typename T>
     void read(std::span<T> data) const {
         readBytes(data.data(), data.size_bytes());
     }
 
-    /// All bytes become 0.
+    /// Sets all bytes to 0.
     void clear();
 
-    /// Hands out `bytes` of memory to fill; the old contents are given up, so nothing waits for draws still queued.
-    /// The memory is write-only and valid until `unmap`.
+    /// Returns `bytes` of memory to fill. Discards the old contents, so that it need not wait for queued draws. The
+    /// memory is write-only and valid until `unmap`.
     [[nodiscard]] void* mapForWriting(std::size_t bytes);
     void unmap();
 

@@ -1,4 +1,4 @@
-// A load of known shape for the self-test of timer queries: arithmetic that no compiler can leave out.
+// A known load for the self-test of timer queries: arithmetic that the compiler cannot optimise away.
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Values { float values[]; };
 uniform int rounds;

@@ -27,7 +27,7 @@ struct Opened {
 };
 
 Opened openAsked(const std::string& asked) {
-    // Only a name needs all of them tried, since they are named after their renderers.
+    // Only a name requires trying every adapter, because names come from the renderers.
     std::vector<Adapter> adapters = offeredAdapters();
     if (!adapterOfIndex(adapters, asked)) adapters = listAdapters();
     Adapter& adapter = adapters[findAdapter(adapters, asked)];
@@ -94,14 +94,14 @@ void Device::begin() {
     info_.renderer = textOf(GL_RENDERER);
     info_.version = textOf(GL_VERSION);
     listenToDebugOutput();
-    glEnable(GL_PROGRAM_POINT_SIZE);               // shaders say how large points are
+    glEnable(GL_PROGRAM_POINT_SIZE);               // shaders set the size of points
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);  // reversed depth keeps its precision only without the −1..1 remap
 }
 
 Device::~Device() = default;
 
 std::optional<std::int64_t> Device::driverFreeBytes() const {
-    // The first of the numbers, in KiB, of either extension is what is free.
+    // With either extension the first value is the free memory in KiB.
     std::array<GLint, 4> kibibytes{};
     if (epoxy_has_gl_extension("GL_NVX_gpu_memory_info"))
         glGetIntegerv(GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX, kibibytes.data());

@@ -1,4 +1,4 @@
-// The device beside contexts that others made, and on each adapter of this machine.
+// Tests the device with foreign contexts, and on each adapter of this machine.
 #include "methods/kit/gpu/device.h"
 
 #include <epoxy/egl.h>
@@ -20,7 +20,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A context that is none of gpu/'s, current from the beginning.
+/// A context that does not belong to gpu/; current from construction.
 class StrangersContext {
  public:
     StrangersContext(int major, int minor, EGLint profile) {
@@ -52,8 +52,8 @@ class StrangersContext {
     EGLContext context_ = EGL_NO_CONTEXT;
 };
 
-/// The far corner's pixel, with its depth as red, after a point of 8 pixels was drawn in the corner across: it is as
-/// large as its shader says, and at depth 0, only where Device has set its state.
+/// Draws a point of 8 pixels in one corner and returns the pixel in the opposite corner, with the depth as red. The
+/// point has the shader's size, and depth 0, only if Device has set its state.
 std::vector<float> pointDrawnOn(Device& device) {
     constexpr ShaderFile vertex{"test/point.vert", R"(
 void main() { gl_Position = vec4(0.9, 0.9, 0, 1); gl_PointSize = 8; })"};
@@ -71,7 +71,7 @@ void main() { colour = vec4(gl_FragCoord.z, 0.25, 0.5, 1); })"};
     return {pixels.begin(), pixels.begin() + 4};
 }
 
-/// Asks for an adapter while it lives.
+/// Requests an adapter for its lifetime.
 class Asked {
  public:
     explicit Asked(const std::string& adapter) { askForAdapter(adapter); }
@@ -115,7 +115,7 @@ TEST(AdoptedDevice, TakesNoContextThatIsTooOldOrMissing) {
         }
     }
     {
-        // Mesa takes the version asked for as it is where it has no core profile yet.
+        // Core profiles do not exist in this version: Mesa creates the requested version regardless.
         const StrangersContext context(2, 1, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT);
         ASSERT_TRUE(context.isCurrent());
         EXPECT_THAT(adopt(), HasSubstr("the current context is '"));

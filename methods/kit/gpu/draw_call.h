@@ -1,4 +1,4 @@
-// Fixed-function state and draw calls. Every draw says all of its state, so none can leak from one pass into the next.
+// Fixed-function state and draw calls. Every draw sets all of its state, so that none leaks into the next pass.
 #pragma once
 
 #include "methods/kit/gpu/program.h"

@@ -11,7 +11,7 @@
 namespace dustbench::gpu {
 namespace {
 
-/// EGL_EXT_device_drm_render_node, which libepoxy 1.5 does not know.
+/// EGL_EXT_device_drm_render_node, which libepoxy 1.5 does not define.
 constexpr EGLint renderNodeFile = 0x3377;
 
 std::string eglErrorText() {
@@ -43,7 +43,7 @@ std::vector<EGLDeviceEXT> eglDevices() {
     return devices;
 }
 
-/// ` (/dev/dri/renderD128)`, ` (CUDA 1)`, or nothing where the driver does not tell.
+/// ` (/dev/dri/renderD128)`, ` (CUDA 1)`, or empty if the driver reports neither.
 std::string nodeOf(EGLDeviceEXT device, const char* extensions) {
     for (const auto& [extension, name] :
          {std::pair{"EGL_EXT_device_drm_render_node", renderNodeFile}, {"EGL_EXT_device_drm", EGL_DRM_DEVICE_FILE_EXT}})
@@ -64,7 +64,7 @@ Adapter describe(EGLDeviceEXT device, int index) {
     return adapter;
 }
 
-/// Makes what was current when it was made current again.
+/// Restores the context that was current at construction.
 class CurrentContextKept {
  public:
     CurrentContextKept() = default;
@@ -90,7 +90,7 @@ EglContext::~EglContext() {
     eglDestroyContext(display_, context_);
 }
 
-/// Empty, or why there is no context.
+/// Empty, or the reason why there is no context.
 std::string EglContext::connect(const Adapter& adapter) {
     if (adapter.platform == Adapter::Platform::surfaceless)
         display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
@@ -138,7 +138,7 @@ std::unique_ptr<EglContext> EglContext::open(Adapter& adapter) {
 }
 
 std::vector<Adapter> offeredAdapters() {
-    setenv("EGL_LOG_LEVEL", "fatal", 0);  // a failure is told once, by whoever asks for a context
+    setenv("EGL_LOG_LEVEL", "fatal", 0);  // failures are reported once, by the code that requests a context
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base"))
         throw InputError(
             "OpenGL 4.5 is needed: this machine's EGL has no EGL_EXT_platform_base; install Mesa's EGL and DRI "

@@ -1,6 +1,6 @@
 // An OpenGL 4.5 core context without a window, on one of the adapters that EGL offers.
 //
-// Owns: the context; displays stay with the process, since another context may use them. Threads: the one that made it.
+// Owns: the context. Displays stay with the process, since other contexts may use them. Threads: the one that made it.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,8 @@ namespace dustbench::gpu {
 
 class EglContext {
  public:
-    /// Makes a context and makes it current. Fills in the adapter's renderer, name and kind; or its problem, and gives
-    /// none.
+    /// Makes a context and makes it current. Sets the adapter's renderer, name and kind; on failure sets its problem
+    /// and returns null.
     [[nodiscard]] static std::unique_ptr<EglContext> open(Adapter& adapter);
     ~EglContext();
     EglContext(const EglContext&) = delete;
@@ -28,10 +28,10 @@ class EglContext {
     void* context_ = nullptr;
 };
 
-/// What EGL offers, its devices first, none of it tried: names and kinds are what EGL says. Throws InputError where EGL
-/// offers nothing of the sort.
+/// The adapters that EGL offers, devices first, untested: names and kinds are EGL's. Throws InputError if EGL offers
+/// none.
 [[nodiscard]] std::vector<Adapter> offeredAdapters();
-/// The same, each tried with a context that is gone again; what was current stays current. Throws InputError.
+/// The same, each tested with a temporary context; the current context stays current. Throws InputError.
 [[nodiscard]] DUSTBENCH_API std::vector<Adapter> listAdapters();
 
 }  // namespace dustbench::gpu

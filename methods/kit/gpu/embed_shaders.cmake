@@ -1,4 +1,4 @@
-# Writes HEADER: one `constexpr gpu::ShaderFile` per shader file of a module, its name kept for error messages.
+# Writes HEADER: one `constexpr gpu::ShaderFile` per shader file of a module; error messages use the file names.
 # cmake -DMODULE=… -DHEADER=… -DFILES="a;b" -P embed_shaders.cmake
 set(TEXT "// Generated from the shader files of ${MODULE}.\n#pragma once\n#include \"methods/kit/gpu/shader_file.h\"\n\n")
 string(APPEND TEXT "namespace dustbench::${MODULE}_shaders {\n")

@@ -1,4 +1,4 @@
-// A mark in the queue of GPU work that can be waited for.
+// A marker in the GPU's command queue that the CPU can wait for.
 #pragma once
 
 namespace dustbench::gpu {
@@ -6,13 +6,13 @@ namespace dustbench::gpu {
 class DUSTBENCH_API Fence {
  public:
     Fence() = default;
-    /// A mark behind all work queued so far.
+    /// A marker after all work queued so far.
     [[nodiscard]] static Fence afterQueuedWork();
     ~Fence();
     Fence(Fence&& other) noexcept;
     Fence& operator=(Fence&& other) noexcept;
 
-    /// Blocks until the work before the mark is done; returns at once where there is no mark.
+    /// Blocks until the work before the marker is done; returns at once if there is no marker.
     void wait();
 
  private:

@@ -1,4 +1,4 @@
-// Texture formats the project uses, by their OpenGL meaning.
+// Texture formats of the project, named after OpenGL's.
 #pragma once
 
 #include <cstddef>

@@ -40,7 +40,7 @@ void Framebuffer::clearColour(float red, float green, float blue, float alpha) c
 
 void Framebuffer::clearDepth() const {
     const float farthest = 0;
-    glDepthMask(GL_TRUE);  // a mask left off would swallow the clear
+    glDepthMask(GL_TRUE);  // clears obey the depth mask
     glClearNamedFramebufferfv(name_.get(), GL_DEPTH, 0, &farthest);
 }
 

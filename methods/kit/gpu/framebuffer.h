@@ -1,4 +1,4 @@
-// Textures that are drawn into.
+// A set of textures as render target.
 //
 // Owns: the OpenGL framebuffer, not the textures, which must outlive it.
 #pragma once
@@ -14,13 +14,13 @@ namespace dustbench::gpu {
 class DUSTBENCH_API Framebuffer {
  public:
     Framebuffer() = default;
-    /// Either may be null, not both. Throws std::runtime_error where OpenGL refuses the combination.
+    /// Either may be null, but not both. Throws std::runtime_error if OpenGL rejects the combination.
     Framebuffer(Device& device, std::string_view label, const Texture* colour, const Texture* depth);
 
-    /// Draws go here from now on, into the whole of it.
+    /// Directs subsequent draws to this framebuffer, over its whole area.
     void bind() const;
     void clearColour(float red, float green, float blue, float alpha) const;
-    /// To the far end of the reversed depth range: 0.
+    /// Clears to 0, the far end of the reversed depth range.
     void clearDepth() const;
 
  private:

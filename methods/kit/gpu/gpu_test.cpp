@@ -1,4 +1,4 @@
-// The GPU layer against what it promises, on whatever OpenGL this machine has.
+// Tests the GPU layer's contracts on this machine's OpenGL.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ TEST(Buffer, GivesBackWhatWasWrittenByEitherWay) {
     mapped.clear();
     mapped.read(std::span<float>(second));
     EXPECT_EQ(second, std::vector<float>(1000, 0));
-    EXPECT_GE(device.maximumStorageBytes(), std::size_t{1} << 27);  // what OpenGL 4.5 promises
+    EXPECT_GE(device.maximumStorageBytes(), std::size_t{1} << 27);  // the minimum that OpenGL 4.5 guarantees
 }
 
 TEST(Buffer, RefusesMoreThanItHolds) {
@@ -218,7 +218,7 @@ TEST(Fence, WaitsForTheWorkBeforeIt) {
     Fence fence = Fence::afterQueuedWork();
     fence.wait();
     EXPECT_TRUE(query.milliseconds().has_value());
-    fence.wait();  // no mark any more: returns at once
+    fence.wait();  // no marker any more: returns at once
 }
 
 TEST(TimerQuery, SelfTestComesToAnAnswer) {

@@ -1,6 +1,6 @@
-// Where a method draws: its own colour target over the opaque scene's depth.
+// The render target of a method: its own colour over the opaque scene's depth.
 //
-// Units: depth is reversed (scene/view.h). Frame: image rows from the bottom, as OpenGL has them.
+// Units: depth is reversed (contract/view.h). Frame: image rows from the bottom, as in OpenGL.
 #pragma once
 
 #include "methods/kit/gpu/framebuffer.h"
@@ -10,13 +10,13 @@ namespace dustbench::gpu {
 
 class DUSTBENCH_API Layer {
  public:
-    /// `sceneDepth` (Depth32F) must outlive the layer. `format`: Rgba32F, or Rgba16F where the user asks for it.
+    /// `sceneDepth` (Depth32F) must outlive the layer. `format`: rgba32F, or rgba16F if the user asks for it.
     Layer(Device& device, const Texture& sceneDepth, Format format = Format::rgba32F);
 
     void clear();
-    /// Target with the scene's depth attached: depth test on, depth writes off.
+    /// Binds with the scene's depth attached: depth test on, depth writes off.
     void bindWithSceneDepth() const;
-    /// Target without a depth attachment, so that `sceneDepth()` may be sampled in the same pass.
+    /// Binds without a depth attachment, so that `sceneDepth()` may be sampled in the same pass.
     void bindColourOnly() const;
 
     [[nodiscard]] const Texture& sceneDepth() const { return sceneDepth_; }

@@ -1,4 +1,4 @@
-// The number that OpenGL knows an object by, owned.
+// Owns an OpenGL object name.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
-// A linked program from shader files.
+// A linked program built from shader files.
 //
-// Owns: the OpenGL program. The files carry no #version line: it is 450 core, followed by the definitions given here
-// and by the shared `.glsl` pieces, so that a compile error names the file and its own line.
+// Owns: the OpenGL program. The files carry no #version line: version 450 core, the definitions given here and the
+// shared `.glsl` pieces are prepended, so that compile errors name the file and its own line.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +23,12 @@ namespace dustbench::gpu {
 class DUSTBENCH_API Program {
  public:
     Program() = default;
-    /// The stage follows from the file's ending: .vert .frag .comp; .glsl pieces go before each of them.
-    /// `definitions` become `#define NAME VALUE` lines. Throws std::runtime_error with the driver's log.
+    /// The file extension selects the stage: .vert .frag .comp; .glsl pieces are prepended to each stage. `definitions`
+    /// become `#define NAME VALUE` lines. Throws std::runtime_error with the driver's log.
     Program(Device& device, std::string_view label, std::initializer_list<ShaderFile> files,
             const std::map<std::string, std::string>& definitions = {});
 
-    /// Sets a uniform. Throws std::invalid_argument where the program has none of that name.
+    /// Sets a uniform. Throws std::invalid_argument if the program has none of that name.
     void set(std::string_view uniform, float value);
     void set(std::string_view uniform, int value);
     void set(std::string_view uniform, glm::ivec3 value);
@@ -38,7 +38,7 @@ class DUSTBENCH_API Program {
     void set(std::string_view uniform, const glm::mat4& value);
 
     void use() const;
-    /// Runs a compute program over groups of work items, and makes its writes visible to what follows.
+    /// Runs a compute program over the given work groups and makes its writes visible to subsequent commands.
     void dispatch(int groupsX, int groupsY, int groupsZ) const;
 
  private:
@@ -49,12 +49,13 @@ class DUSTBENCH_API Program {
     std::map<std::string, int, std::less<>> locations_;
 };
 
-/// A shader as OpenGL gets it: the file with all that goes before it.
+/// A shader as passed to OpenGL: the file and everything prepended to it.
 struct CompiledShader {
     ShaderFile file;
     std::string source;
 };
-/// Hears the shaders of every program that is made from now on, before OpenGL does. For tests; an empty one ends it.
+/// Calls `listener` with the shaders of every program made from now on, before OpenGL compiles them. For tests; an
+/// empty listener removes it.
 void listenToPrograms(std::function<void(std::string_view label, std::span<const CompiledShader>)> listener);
 
 }  // namespace dustbench::gpu

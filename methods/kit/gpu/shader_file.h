@@ -1,4 +1,4 @@
-// A shader's text as embedded at build time, with the file name that compile errors are reported under.
+// A shader's text, embedded at build time, with the file name for compile errors.
 #pragma once
 
 #include <string_view>

@@ -1,7 +1,7 @@
 // A 2D, 2D-array or 3D texture of fixed size.
 //
-// Owns: the OpenGL texture; its bytes are on the device's ledger under `label`.
-// Frame: rows from the bottom, as OpenGL has them. Edges clamp unless told otherwise.
+// Owns: the OpenGL texture. Its bytes are booked on the device's ledger under `label`.
+// Frame: rows from the bottom, as in OpenGL. Edges clamp by default.
 #pragma once
 
 #include <cstdint>
@@ -30,15 +30,15 @@ class DUSTBENCH_API Texture {
                                         int depth, Filter filter = Filter::linear);
 
     /// All texels, tightly packed in the texture's own channels: bytes for the 8-bit formats, floats for the others.
-    /// Makes the mipmaps where the filter asks for them. Throws std::invalid_argument for a wrong number of values.
+    /// Generates mipmaps if the filter needs them. Throws std::invalid_argument for a wrong number of values.
     void write(std::span<const std::uint8_t> values);
     void write(std::span<const float> values);
-    /// One layer of an array.
+    /// Writes one layer of an array.
     void writeLayer(int layer, std::span<const std::uint8_t> values);
-    /// All texels as floats, tightly packed (waits for the GPU).
+    /// All texels as floats, tightly packed. Waits for the GPU.
     [[nodiscard]] std::vector<float> readFloats() const;
 
-    /// Compare on sampling (`sampler2DShadow`): 1 where the reference is at least the stored depth (reversed depth).
+    /// Enables comparison on sampling (`sampler2DShadow`): 1 if the reference is ≥ the stored depth (reversed depth).
     void setDepthComparison();
 
     void bind(std::uint32_t unit) const;

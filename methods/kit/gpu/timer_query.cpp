@@ -35,7 +35,7 @@ std::optional<double> TimerQuery::milliseconds() const {
 
 bool timerQueriesAreTrue(Device& device) {
     constexpr int items = 64 * 1024;
-    constexpr double enoughMs = 5;  // far above what reading either clock costs
+    constexpr double enoughMs = 5;  // far above the cost of reading either clock
     const std::vector<float> start(items, 0.25f);
     Buffer values(device, "timer self-test", std::span<const float>(start));
     Program load(device, "timer self-test", {gpu_shaders::busy_comp});

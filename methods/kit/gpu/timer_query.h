@@ -1,6 +1,6 @@
-// GPU time of a stretch of work, asked for now and read later so that nothing waits.
+// Measures GPU time of a section of commands; results are read later, so that nothing waits.
 //
-// Some drivers answer with nonsense (llvmpipe: 0.02 ms for 59); `timerQueriesAreTrue` finds out.
+// Some drivers report wrong times (llvmpipe: 0.02 ms instead of 59); `timerQueriesAreTrue` detects them.
 #pragma once
 
 #include <optional>
@@ -17,14 +17,14 @@ class DUSTBENCH_API TimerQuery {
 
     void begin();
     void end();
-    /// Empty while the GPU is not done yet.
+    /// Empty until the GPU has finished.
     [[nodiscard]] std::optional<double> milliseconds() const;
 
  private:
     Name name_;
 };
 
-/// Draws a known load and compares the query with fenced wall time: true where they agree within a factor of two.
+/// Draws a known load and compares the query with fenced wall time; true if they agree within a factor of two.
 [[nodiscard]] DUSTBENCH_API bool timerQueriesAreTrue(Device& device);
 
 }  // namespace dustbench::gpu

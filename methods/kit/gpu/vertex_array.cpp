@@ -12,7 +12,8 @@ VertexArray::VertexArray(Device&) {
 
 void VertexArray::attribute(int location, int components, const Buffer& buffer, std::size_t stride, std::size_t offset,
                             Advance advance) {
-    const auto slot = static_cast<GLuint>(location);  // one binding point an attribute: buffers are never mixed up
+    const auto slot = static_cast<GLuint>(location);  // one binding point per attribute, so that buffers are never
+                                                      // mixed up
     glVertexArrayVertexBuffer(name_.get(), slot, buffer.name().get(), 0, static_cast<GLsizei>(stride));
     glEnableVertexArrayAttrib(name_.get(), slot);
     glVertexArrayAttribFormat(name_.get(), slot, components, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));

@@ -1,4 +1,4 @@
-// Which buffers feed which vertex attributes.
+// Assigns buffers to vertex attributes.
 //
 // Owns: the OpenGL vertex array, not the buffers, which must outlive it.
 #pragma once
@@ -18,7 +18,7 @@ class VertexArray {
     VertexArray() = default;
     explicit VertexArray(Device& device);
 
-    /// Attribute `location` takes `components` floats at `offset` of each element of `stride` bytes.
+    /// Attribute `location` reads `components` floats at `offset` of each element of `stride` bytes.
     void attribute(int location, int components, const Buffer& buffer, std::size_t stride, std::size_t offset,
                    Advance advance = Advance::perVertex);
     /// Indices are 32-bit.
