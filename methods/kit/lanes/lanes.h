@@ -1,7 +1,6 @@
-// Vectors of numbers that the compiler maps to whatever registers there are, and what kernels do with all lanes at
-// once.
+// Vectors of numbers that the compiler maps to the available registers, and operations on all lanes at once.
 //
-// None crosses a library's border: vectors wider than the target's registers are passed in memory.
+// Vectors must not cross a library boundary: those wider than the target's registers are passed in memory.
 #pragma once
 
 #include <cstring>
@@ -26,7 +25,7 @@ template <typename Number, typename Vector>
     std::memcpy(to, &vector, sizeof(Vector));
 }
 
-/// The smaller and the larger of two, lane by lane; `bound` where `x` is not a number.
+/// The lane-wise minimum and maximum; `bound` if `x` is NaN.
 template <typename Vector>
 [[gnu::always_inline]] inline Vector atMost(const Vector& x, const Vector& bound) {
     return x < bound ? x : bound;
