@@ -1,7 +1,7 @@
 // Cubic Bézier curves of scalars and vectors over t in [0, 1].
 //
-// Threads: pure. Source: Thesis, 4.4.3 (de Casteljau); Farin2002, ch. 4. Departs: the printed weight (N − t) is (1 −
-// t).
+// Threads: pure. Source: Thesis, 4.4.3 (de Casteljau); Farin2002, ch. 4. Departs: uses (1 − t) for the printed weight
+// (N − t).
 #pragma once
 
 namespace dustbench::maths {
@@ -18,7 +18,7 @@ template <typename T>
     return interpolate(interpolate(p01, p12, t), interpolate(p12, p23, t), t);
 }
 
-/// The same curve as c0 + c1·t + c2·t² + c3·t³: a third of the work where one curve is evaluated many times.
+/// The same curve as c0 + c1·t + c2·t² + c3·t³: a third of the work if one curve is evaluated many times.
 template <typename T>
 struct CubicPolynomial {
     T c0{}, c1{}, c2{}, c3{};

@@ -1,4 +1,4 @@
-// A hash of plain bytes, to tell whether two states are the same. Not for secrets.
+// A hash of plain bytes for comparing states. Not cryptographic.
 //
 // Threads: pure. Source: Eastlake2019 (FNV-1a, 64 bits).
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace dustbench::maths {
 
-/// FNV-1a, fed piece by piece: hash ← (hash xor byte)·prime.
+/// FNV-1a, updated incrementally: hash ← (hash xor byte)·prime.
 class Hash {
  public:
     template <typename T>

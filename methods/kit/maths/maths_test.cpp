@@ -18,7 +18,7 @@ namespace {
 
 using Words = std::array<std::uint32_t, 4>;
 
-// Random123's known answers for philox4x32-10: (counter, key) → words. The counter is (serial, stream, draw).
+// Random123's known-answer tests for philox4x32-10: (counter, key) → words. The counter is (serial, stream, draw).
 TEST(Philox, GivesTheKnownAnswers) {
     EXPECT_EQ(randomWords(0, 0, 0, 0), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
     EXPECT_EQ(randomWords(~0ULL, ~0U, ~0ULL, ~0U), (Words{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
@@ -127,7 +127,7 @@ TEST(Bezier, StaysInTheHullOfItsPointsAndVectorsAreThreeScalars) {
     }
 }
 
-// The draft's own test vectors.
+// Test vectors from the draft.
 TEST(Hash, GivesTheKnownAnswersOfFnv1a) {
     EXPECT_EQ(Hash{}.value(), 0xcbf29ce484222325ULL);
     EXPECT_EQ(Hash{}.add("a").value(), 0xaf63dc4c8601ec8cULL);

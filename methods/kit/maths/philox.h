@@ -1,7 +1,7 @@
-// Random numbers as a pure function of (seed, stream, serial, draw): no state, so any thread may ask for any of them.
-//
-// Philox4x32-10. Key: the seed's two halves. Counter: the serial's two halves, the stream, the draw; so that two draws
-// share a counter only where all four agree.
+// Random numbers as a pure function of (seed, stream, serial, draw): stateless, so that any thread may compute any of
+// them.
+// Philox4x32-10. Key: the seed's two halves. Counter: the serial's two halves, the stream and the draw. Two draws share
+// a counter only if all three agree.
 // Threads: pure. Source: Salmon2011, sections 3.3 and 5 (implementation: Random123).
 #pragma once
 
@@ -21,7 +21,7 @@ namespace dustbench::maths {
     return {words[0], words[1], words[2], words[3]};
 }
 
-/// The upper 24 bits as a number in [0, 1): every value is a float, and 1 is never reached.
+/// The upper 24 bits as a number in [0, 1): every value is exact as a float, and 1 is excluded.
 [[nodiscard]] constexpr float unitFloat(std::uint32_t word) {
     return static_cast<float>(word >> 8) * 0x1p-24f;
 }

@@ -12,16 +12,16 @@
 
 namespace dustbench::maths {
 
-/// `paper`: the formula as printed. `fixed`: what the text says it gives.
+/// `paper`: the formula as printed. `fixed`: a formula with the distribution that the text claims.
 enum class SamplingMode { paper, fixed };
 
-/// Uniform on the unit disc: r = √u, angle = v. Departs: no rejection, so that every point takes two numbers.
+/// Uniform on the unit disc: r = √u, angle = v. Departs: no rejection, so that every point needs exactly two numbers.
 [[nodiscard]] inline glm::vec2 discPoint(float u, float v) {
     const float r = std::sqrt(u);
     return {r * cosineOfTurns(v), r * sineOfTurns(v)};
 }
 
-/// Two unit vectors that make a right-handed frame (first, second, axis) with the unit vector `axis`.
+/// Two unit vectors that form a right-handed frame (first, second, axis) with the unit vector `axis`.
 struct Tangents {
     glm::vec3 first, second;
 };
@@ -34,7 +34,7 @@ struct Tangents {
 }
 
 /// Directions within a half angle βmax of an axis.
-/// paper: β = √u·βmax, said to be uniform, which it is for small cones alone (claim R20).
+/// paper: β = √u·βmax, which the paper calls uniform; true only for small cones (claim R20).
 /// fixed: cos β = 1 − u·(1 − cos βmax), uniform on the cap by Archimedes.
 class Cone {
  public:

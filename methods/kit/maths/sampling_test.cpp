@@ -14,10 +14,10 @@ namespace dustbench::maths {
 namespace {
 
 constexpr int count = 100000;
-// Kolmogorov and Smirnov: D·√n above 1.95 has probability 0.001 for a sample of the stated law.
+// Kolmogorov–Smirnov: for a sample of the stated distribution, D·√n exceeds 1.95 with probability 0.001.
 const double limit = 1.95 / std::sqrt(static_cast<double>(count));
 
-/// Largest distance between the sample's distribution and `law`.
+/// Maximum distance between the sample's distribution and `law`.
 double distance(const std::function<double(std::uint64_t)>& sample, const std::function<double(double)>& law) {
     std::vector<double> values(count);
     for (std::uint64_t i = 0; i < count; ++i) values[i] = sample(i);
@@ -67,7 +67,7 @@ TEST(Tangents, MakeARightHandedOrthonormalFrame) {
     }
 }
 
-/// Distance of cos β from the uniform law on a cap of half angle βmax.
+/// Distance of cos β from the uniform distribution on a cap of half angle βmax.
 double coneDistance(SamplingMode mode, double halfAngleTurns) {
     const glm::vec3 axis = glm::normalize(glm::vec3(0.3f, 0.8f, -0.5f));
     const dustbench::maths::Cone cone(mode, axis, static_cast<float>(halfAngleTurns));
@@ -85,7 +85,7 @@ TEST(Cone, FixedIsUniformAtEveryAngle) {
         EXPECT_LT(coneDistance(SamplingMode::fixed, degrees / 360), limit) << degrees;
 }
 
-// Claim R20: the limits of the paper's law are 0.006 at 30° and 0.056 at 90°.
+// Claim R20: the limits of the paper's distribution are 0.006 at 30° and 0.056 at 90°.
 TEST(Cone, PaperIsNotUniformWhereTheConeIsWide) {
     EXPECT_NEAR(coneDistance(SamplingMode::paper, 30.0 / 360), 0.006, limit);
     EXPECT_NEAR(coneDistance(SamplingMode::paper, 90.0 / 360), 0.056, limit);

@@ -1,4 +1,4 @@
-// The sRGB transfer function (IEC 61966-2-1), one channel.
+// The sRGB transfer function (IEC 61966-2-1) for one channel.
 //
 // Threads: pure.
 #pragma once
@@ -8,7 +8,7 @@
 
 namespace dustbench::maths {
 
-/// The argument is clamped to [0, 1]; NaN counts as 0, so that a faulty pixel cannot take a whole file with it.
+/// Clamps the argument to [0, 1]; NaN becomes 0, so that a faulty pixel does not spoil a whole file.
 [[nodiscard]] inline float encodeSrgb(float linear) {
     const float value = linear > 0 ? std::min(linear, 1.0f) : 0.0f;
     return value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1 / 2.4f) - 0.055f;

@@ -1,9 +1,9 @@
-// The one optical model: a puff of radius r and peak opacity α is a Gaussian of extinction.
+// The optical model: a puff of radius r and peak opacity α is a Gaussian of extinction.
 //
 //     σ(x) = τ/(√(2π)·s) · exp(−|x − c|²/2s²),   s = r/2,   τ = −ln(1 − α)
 //
-// Units: metres, extinction per metre; optical depth has none. Threads: pure.
-// By the law of Beer and Lambert; a Gaussian, so that every integral along a ray has a closed form.
+// Units: metres, extinction per metre; optical depth is dimensionless. Threads: pure.
+// Opacity follows the Beer–Lambert law. A Gaussian has a closed form for every integral along a ray.
 #pragma once
 
 #include <cmath>
@@ -34,7 +34,7 @@ namespace dustbench::maths {
            std::exp(-distanceMetres * distanceMetres / (2 * s * s));
 }
 
-/// ∫ σ dt along a ray from t0 to t1 (distances in metres) that passes the centre at distance b, its foot at tc:
+/// ∫ σ dt along a ray from t0 to t1 (distances in metres) whose closest approach to the centre is b, at distance tc:
 /// τ·exp(−b²/2s²)·½·[erf((t1 − tc)/(√2·s)) − erf((t0 − tc)/(√2·s))]
 [[nodiscard]] inline double rayOpticalDepth(double opacity, double radiusMetres, double b, double tc, double t0,
                                             double t1) {
@@ -44,7 +44,7 @@ namespace dustbench::maths {
            (std::erf((t1 - tc) * scale) - std::erf((t0 - tc) * scale));
 }
 
-/// What a billboard draws at distance b from its centre: α(b) = 1 − exp(−τ·exp(−b²/2s²)).
+/// Opacity of a billboard at distance b from its centre: α(b) = 1 − exp(−τ·exp(−b²/2s²)).
 [[nodiscard]] inline double billboardOpacity(double opacity, double radiusMetres, double b) {
     const double s = puffDeviationMetres(radiusMetres);
     return -std::expm1(-puffOpticalDepth(opacity) * std::exp(-b * b / (2 * s * s)));

@@ -7,7 +7,7 @@
 namespace dustbench::maths {
 namespace {
 
-/// Simpson's rule over `pieces` (even) pieces.
+/// Simpson's rule with `pieces` (even) intervals.
 double integral(const std::function<double(double)>& f, double from, double to, int pieces = 4000) {
     const double h = (to - from) / pieces;
     double sum = f(from) + f(to);

@@ -1,12 +1,12 @@
-// A cheap, divergence-free gust field: four plane waves, each blowing across its own direction.
+// A cheap, divergence-free gust field: four plane waves, each with velocity transverse to its wave vector.
 //
-//     u(x, t) = Σ aⱼ·eⱼ·w(kⱼ·x − fⱼ·t + φⱼ),   eⱼ ⊥ kⱼ   ⇒   ∇·u = 0, whatever the wave's shape w
+//     u(x, t) = Σ aⱼ·eⱼ·w(kⱼ·x − fⱼ·t + φⱼ),   eⱼ ⊥ kⱼ   ⇒   ∇·u = 0 for any waveform w
 //
-// Wavelengths lⱼ = L·0.729ʲ; speeds follow l^⅓ and periods l^⅔, as eddies of one energy cascade do. The k lie along the
-// diagonals of a cube and the e in its faces, so that a wave costs a dozen operations.
+// Wavelengths lⱼ = L·0.729ʲ; speeds scale as l^⅓ and periods as l^⅔, as for eddies of one energy cascade. The k lie
+// along the diagonals of a cube and the e in its faces, so that a wave costs a dozen operations.
 // Units: m, s, m/s, turns. Threads: pure.
-// Source: Kraichnan1970, Eq. 7 (random Fourier modes). Departs: four fixed directions for many random ones; parabolas
-// for sines.
+// Source: Kraichnan1970, Eq. 7 (random Fourier modes). Departs: four fixed directions instead of many random ones;
+// parabolas instead of sines.
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@ struct GustField {
     }
 };
 
-/// The field at `timeSeconds`, carried along by `drift` (m/s). `rmsSpeed`: √⟨|u|²⟩ over space.
+/// The field at `timeSeconds`, advected by `drift` (m/s). `rmsSpeed`: √⟨|u|²⟩ over space.
 [[nodiscard]] inline GustField gustField(double rmsSpeed, double longestMetres, double longestSeconds,
                                          const glm::dvec3& drift, double timeSeconds, std::uint64_t seed,
                                          std::uint32_t stream) {

@@ -55,7 +55,7 @@ TEST(Turbulence, HasTheSpeedAskedForOnAverage) {
 
 TEST(Turbulence, DriftsWithTheWind) {
     const glm::dvec3 wind{2, 0, -1}, at{5, 1, 7};
-    // With the period far longer than the time, all that happens is that the field is carried along.
+    // If the period is far longer than the time step, the field is only advected.
     const GustField now = gustField(1, 4, 1e9, wind, 0, 9, 1), later = gustField(1, 4, 1e9, wind, 1.5, 9, 1);
     EXPECT_LT(glm::length(gustAt(later, at + 1.5 * wind) - gustAt(now, at)), 1e-5);
 }
