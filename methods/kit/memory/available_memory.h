@@ -1,4 +1,4 @@
-// How much more memory this process could have, as the kernel counts it.
+// How much more memory this process can allocate, as reported by the kernel.
 #pragma once
 
 #include <cstddef>
@@ -8,13 +8,13 @@
 
 namespace dustbench {
 
-/// What can still be allocated without swapping (`MemAvailable`), or within the process's own limit (`ulimit -v`).
+/// Memory that can be allocated without swapping (`MemAvailable`), or within the process's own limit (`ulimit -v`).
 [[nodiscard]] DUSTBENCH_API std::int64_t availableBytes();
 
-/// `structure` as a message names it. Throws InputError with both numbers where `bytes` more are not available.
+/// Throws InputError with both numbers unless `bytes` more are available; `structure` is the name in the message.
 DUSTBENCH_API void requireAvailable(std::string_view structure, std::size_t bytes);
 
-/// A line `NAME: 123 kB` of one of the kernel's files, such as /proc/meminfo; nothing where it has none.
+/// The value of a line `NAME: 123 kB` in a kernel file such as /proc/meminfo; empty if there is no such line.
 [[nodiscard]] DUSTBENCH_API std::optional<std::int64_t> bytesInKernelFile(const char* file, std::string_view name);
 
 }  // namespace dustbench

@@ -17,7 +17,7 @@ TEST(AvailableMemory, IsNoMoreThanTheProcesssOwnLimitLeaves) {
     EXPECT_GT(machine, 1 << 20);
     rlimit before{};
     getrlimit(RLIMIT_AS, &before);
-    const rlimit tight{rlim_t{1} << 20, before.rlim_max};  // less than the process has already
+    const rlimit tight{rlim_t{1} << 20, before.rlim_max};  // less than the process already uses
     setrlimit(RLIMIT_AS, &tight);
     const std::int64_t left = availableBytes();
     setrlimit(RLIMIT_AS, &before);

@@ -10,8 +10,8 @@
 namespace dustbench {
 namespace {
 
-/// Lines into the first page, and 4 KiB blocks: what caches choose their sets by. Far apart for arrays that are made
-/// one after the other.
+/// Offsets in cache lines within a 4 KiB block, and in blocks: both select cache sets. Consecutive arrays get distant
+/// offsets.
 constexpr std::size_t line = 64, linesOfBlock = 64, blocks = 8;
 std::size_t nextOffset() {
     static std::atomic<std::size_t> made{0};
@@ -25,12 +25,12 @@ void* allocateLarge(const MemoryAccount& account, std::size_t bytes) {
     requireAvailable(account.structure(), bytes);
     const std::size_t offset = nextOffset();
     auto* const pages = static_cast<std::byte*>(::operator new (offset + bytes, std::align_val_t{largePage}));
-    madvise(pages, offset + bytes, MADV_HUGEPAGE);  // a wish: where it is not granted, all works as well
+    madvise(pages, offset + bytes, MADV_HUGEPAGE);  // a hint: everything works without it
     return pages + offset;
 }
 
 void freeLarge(void* memory) {
-    // All offsets are smaller than a page.
+    // Offsets are smaller than a page.
     auto* const bytes = static_cast<std::byte*>(memory);
     ::operator delete (bytes - reinterpret_cast<std::uintptr_t>(memory) % largePage, std::align_val_t{largePage});
 }

@@ -1,4 +1,4 @@
-// Exact bytes by structure: accounts that allocators and GPU objects book on.
+// Exact bytes by structure: allocators and GPU objects book them on accounts.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace dustbench {
 
-/// The bytes held under one name. Threads: safe to book on from any.
+/// The bytes held under one name. Threads: any thread may book.
 class DUSTBENCH_API MemoryAccount {
  public:
     explicit MemoryAccount(std::string structure) : structure_(std::move(structure)) {}
@@ -30,7 +30,7 @@ class DUSTBENCH_API MemoryAccount {
     std::atomic<std::size_t> bytes_{0};
 };
 
-/// A set of accounts, made on first use. Owns the accounts; it must outlive everything booked on them.
+/// A set of accounts, created on first use. Owns the accounts; must outlive everything booked on them.
 class DUSTBENCH_API MemoryLedger {
  public:
     [[nodiscard]] MemoryAccount& account(std::string_view structure);
@@ -43,17 +43,17 @@ class DUSTBENCH_API MemoryLedger {
     std::list<MemoryAccount> accounts_;
 };
 
-/// From here on an array is large.
+/// Arrays of at least this many bytes are large.
 inline constexpr std::size_t largePage = std::size_t{2} << 20;
 
-/// Memory for a large array, in large pages, which save address look-ups where the system grants them. Each array
-/// begins elsewhere in its first page: side by side at the same place of their pages, the columns of a store would all
-/// want the same few lines of a cache. Throws InputError where the machine has not that much left.
+/// Allocates a large array in huge pages if the system grants them, which saves address translations. Arrays start at
+/// different offsets in their first page; otherwise the columns of a store would compete for the same cache lines.
+/// Throws InputError if the machine has too little memory left.
 [[nodiscard]] DUSTBENCH_API void* allocateLarge(const MemoryAccount& account, std::size_t bytes);
 DUSTBENCH_API void freeLarge(void* memory);
 
-/// Standard allocator that books on an account; InputError where the machine has not enough. Memory is aligned to a
-/// cache line (64 bytes) for the vector units.
+/// Standard allocator that books on an account. Throws InputError if the machine has too little memory. Memory is
+/// aligned to a cache line (64 bytes) for the vector units.
 template <typename T>
 class LedgerAllocator {
  public:
@@ -92,7 +92,7 @@ class LedgerAllocator {
     MemoryAccount* account_;
 };
 
-/// A vector whose bytes are on a ledger: `LedgerVector<float> x{ledger.account("positions")};`
+/// A vector whose bytes are booked on a ledger: `LedgerVector<float> x{ledger.account("positions")};`
 template <typename T>
 class LedgerVector : public std::vector<T, LedgerAllocator<T>> {
  public:

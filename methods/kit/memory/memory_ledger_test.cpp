@@ -18,7 +18,7 @@ TEST(MemoryLedger, BooksExactBytesOfSmallAndLargeArrays) {
         EXPECT_EQ(ledger.account("few").bytes(), 4000u);
         EXPECT_EQ(ledger.account("many").bytes(), 4 * largePage);
         EXPECT_EQ(ledger.totalBytes(), 4000 + 4 * largePage);
-        many.resize(2 * largePage);  // moves
+        many.resize(2 * largePage);  // relocates
         EXPECT_EQ(ledger.account("many").bytes(), 4 * many.capacity());
     }
     EXPECT_EQ(ledger.totalBytes(), 0u);
