@@ -20,7 +20,7 @@
 namespace dustbench::meshes {
 namespace {
 
-/// No mesh of this many elements is meant; a number like it is a broken header.
+/// No real mesh has this many elements; a larger count means a broken header.
 constexpr std::int64_t maximumElements = 100'000'000;
 
 std::string wholeFile(const std::filesystem::path& file) {
@@ -48,7 +48,7 @@ std::optional<Number> parse(std::string_view text) {
     return value;
 }
 
-/// A text's lines one by one, with their number for messages.
+/// Iterates over a text's lines and counts them for messages.
 class Lines {
  public:
     Lines(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {}
@@ -77,7 +77,7 @@ class Lines {
     std::size_t number_ = 0;
 };
 
-/// One corner of a face: `7`, `7/2`, `7//3` or `7/2/3`, counted from 1, or from the end where negative.
+/// Checks one corner of a face: `7`, `7/2`, `7//3` or `7/2/3`, counted from 1, or from the end if negative.
 void checkCorner(const Lines& lines, std::string_view corner, const std::array<std::int64_t, 3>& given) {
     static constexpr std::array kinds{"vertex", "texture coordinate", "normal"};
     std::size_t part = 0;
@@ -97,7 +97,7 @@ void checkCorner(const Lines& lines, std::string_view corner, const std::array<s
 }
 
 struct PlyProperty {
-    std::size_t countBytes = 0;  ///< of a list's count; 0: no list
+    std::size_t countBytes = 0;  ///< size of a list's count; 0: not a list
     std::size_t valueBytes = 0;
 };
 

@@ -1,16 +1,16 @@
-// Checks OBJ and PLY files before a reader that trusts them sees them: counts, indices and numbers must fit together.
+// Validates OBJ and PLY files before a trusting reader parses them: counts, indices and numbers must be consistent.
 #pragma once
 
 #include <filesystem>
 
 namespace dustbench::meshes {
 
-/// Every number of `v`, `vt`, `vn` is finite, and every face names what has been given. Throws InputError with file and
-/// line.
+/// Checks that every number of `v`, `vt`, `vn` is finite and that every face refers to existing elements. Throws
+/// InputError with file and line.
 void checkObj(const std::filesystem::path& file);
 
-/// The header is sound and the body (ASCII or binary) holds all that it announces. Throws InputError with file and
-/// line, or with the element that is cut off.
+/// Checks that the header is valid and that the body (ASCII or binary) holds everything announced. Throws InputError
+/// with file and line, or with the truncated element.
 void checkPly(const std::filesystem::path& file);
 
 }  // namespace dustbench::meshes

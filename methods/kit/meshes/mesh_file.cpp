@@ -32,7 +32,7 @@ namespace {
 
 constexpr double creaseDegrees = 35;
 
-/// Takes VTK's complaints instead of standard error, and keeps the first.
+/// Captures VTK's errors and warnings, which would otherwise go to standard error, and keeps the first.
 class Complaints {
  public:
     Complaints() {
@@ -47,7 +47,7 @@ class Complaints {
         object.AddObserver("WarningEvent", command_);
     }
     [[nodiscard]] bool any() const { return !first_.empty(); }
-    /// The first complaint as one line, without VTK's own source position before it.
+    /// The first message as one line, without VTK's source position.
     [[nodiscard]] std::string line() const {
         std::string text = first_;
         if (const auto colon = text.find("): "); colon != std::string::npos) text.erase(0, colon + 3);
@@ -83,7 +83,7 @@ glm::vec3 tuple(vtkDataArray& array, vtkIdType index) {
     return {values[0], values[1], values[2]};
 }
 
-/// Colours of points or of faces, where there are any: 8 bit, sRGB.
+/// Colours of points or of faces, if present: 8 bit, sRGB.
 vtkUnsignedCharArray* coloursOf(vtkDataSetAttributes& attributes) {
     auto* colours = vtkUnsignedCharArray::SafeDownCast(attributes.GetScalars());
     return colours && colours->GetNumberOfComponents() >= 3 ? colours : nullptr;
@@ -116,7 +116,7 @@ scene::Mesh convert(vtkPolyData& surface, const glm::vec3& colour) {
         const vtkIdType* corners = nullptr;
         triangles->GetCellAtId(i, count, corners);
         for (vtkIdType k = 0; k < count; ++k) {
-            // Corners are not shared where faces have colours of their own.
+            // Corners are not shared if faces have their own colours.
             mesh.indices.push_back(
                 static_cast<std::uint32_t>(faceColours ? mesh.positions.size() : static_cast<std::size_t>(corners[k])));
             if (faceColours) addPoint(corners[k], linearColour(*faceColours, i));
@@ -125,7 +125,7 @@ scene::Mesh convert(vtkPolyData& surface, const glm::vec3& colour) {
     return mesh;
 }
 
-/// VTK's filters trust the indices of what its readers give.
+/// VTK's filters do not check the indices that its readers return.
 void checkGeometry(vtkPolyData& surface, const std::filesystem::path& file) {
     const vtkIdType points = surface.GetNumberOfPoints();
     for (vtkIdType i = 0; i < points; ++i)
@@ -172,7 +172,7 @@ scene::Mesh readMesh(const std::filesystem::path& file, const glm::vec3& colour)
         vtkNew<vtkPolyDataNormals> normals;
         normals->SetInputData(surface);
         normals->SetFeatureAngle(creaseDegrees);
-        normals->ConsistencyOff();  // the winding says which side is outside
+        normals->ConsistencyOff();  // the winding defines the outside
         normals->Update();
         surface = normals->GetOutput();
     }

@@ -10,8 +10,8 @@
 
 namespace dustbench::meshes {
 
-/// Polygons become triangles; missing normals are computed, with creases kept above 35 degrees. Colours of vertices or
-/// faces of a PLY file (8 bit, sRGB) are used, else `colour`. Throws InputError with the file and the reason.
+/// Triangulates polygons; computes missing normals, keeping creases above 35 degrees. Uses the vertex or face colours
+/// of a PLY file (8 bit, sRGB), else `colour`. Throws InputError with the file and the reason.
 [[nodiscard]] DUSTBENCH_API scene::Mesh readMesh(const std::filesystem::path& file, const glm::vec3& colour);
 
 }  // namespace dustbench::meshes

@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Six times the volume within a closed mesh; positive where its triangles face outside.
+/// Six times the volume of a closed mesh; positive if its triangles face outwards.
 double volume(const scene::Mesh& mesh) {
     double sum = 0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
