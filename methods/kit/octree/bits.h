@@ -1,4 +1,4 @@
-// Bits and bytes of words, many at once. Private to the builds.
+// Operations on the bits and bytes of words in parallel. Internal to the builders.
 //
 // Threads: pure.
 #pragma once
@@ -20,25 +20,25 @@ namespace dustbench::octree {
     return static_cast<std::uint32_t>(std::popcount(bits));
 }
 
-/// Bit k of eight to byte k.
+/// Maps bit k of eight to byte k.
 [[nodiscard]] constexpr std::uint64_t bitsToBytes(std::uint64_t bits) {
     return ((bits * 0x0101'0101'0101'0101ull & 0x8040'2010'0804'0201ull) + 0x7f7f'7f7f'7f7f'7f7full) >> 7 &
            0x0101'0101'0101'0101ull;
 }
 
-/// How many bits each byte has.
+/// Number of set bits in each byte.
 [[nodiscard]] constexpr std::uint64_t byteCounts(std::uint64_t bits) {
     bits -= bits >> 1 & 0x5555'5555'5555'5555ull;
     bits = (bits & 0x3333'3333'3333'3333ull) + (bits >> 2 & 0x3333'3333'3333'3333ull);
     return (bits + (bits >> 4)) & 0x0f0f'0f0f'0f0f'0f0full;
 }
 
-/// For each byte the sum of those before it.
+/// For each byte, the sum of the bytes before it.
 [[nodiscard]] constexpr std::uint64_t sumsBefore(std::uint64_t bytes) {
     return (bytes * 0x0101'0101'0101'0101ull) << 8;
 }
 
-/// A bit for each of 64 bytes that is not 0.
+/// One bit for each of 64 bytes, set if the byte is not 0.
 [[nodiscard]] inline std::uint64_t whichAreSet(const void* bytes) {
 #ifdef __AVX512BW__
     const __m512i all = _mm512_loadu_si512(bytes);
@@ -56,8 +56,8 @@ alignas(64) inline constexpr std::array<std::uint16_t, 32> zeroTo31 = [] {
     return numbers;
 }();
 
-/// The numbers of the bits that are set in `words`, in rising order. May write 31 numbers too many behind the last.
-/// Returns how many there are.
+/// The indices of the bits set in `words`, ascending. May write up to 31 extra numbers after the last. Returns their
+/// count.
 inline std::uint32_t numbersOfBits(std::span<const std::uint64_t> words, std::uint16_t* numbers) {
     std::uint32_t count = 0;
     for (std::size_t i = 0; i < words.size(); ++i) {

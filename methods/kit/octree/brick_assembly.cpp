@@ -24,7 +24,7 @@ void BrickAssembly::hold(const BrickPartition& partition, bool withMasses, bool 
     nodes_.hold(partition.bricks().size());
 }
 
-/// Few: sorted by place (equal places stay in the order of the store) and each place reduced to its winner.
+/// Sorts the few upper entries by place (equal places stay in store order) and reduces each place to its winner.
 std::size_t BrickAssembly::reduceUpper(std::span<CellEntry> upper, const VoxelRule& rule) {
     std::ranges::sort(upper, [](CellEntry a, CellEntry b) {
         return a.place() != b.place() ? a.place() < b.place() : a.index() < b.index();
@@ -47,13 +47,13 @@ std::size_t BrickAssembly::reduceUpper(std::span<CellEntry> upper, const VoxelRu
     return count;
 }
 
-/// Both lists in one pre-order: a voxel above a brick comes before all bricks inside it.
+/// Numbers both lists in one pre-order: a voxel above a brick precedes all bricks inside it.
 void BrickAssembly::numberVoxels(std::span<const Brick> bricks, std::span<const CellEntry> upper) {
     Place* const places = places_.hold(bricks.size());
     std::uint32_t* const upperPlaces = upperPlaces_.hold(upper.size());
     std::size_t above = 0;
     voxels_ = 0;
-    blocks_ = 1;  // the root's
+    blocks_ = 1;  // the root's block
     for (std::size_t i = 0; i < bricks.size(); ++i) {
         for (; above < upper.size() && upper[above].code() <= bricks[i].code; ++above) upperPlaces[above] = voxels_++;
         places[i] = {voxels_, blocks_};
@@ -84,7 +84,7 @@ void BrickAssembly::writeBricks(std::span<const Brick> bricks, Octree& tree) {
     });
 }
 
-/// The nodes from the root down to bricks and to the voxels above them.
+/// Adds the nodes from the root down to the bricks and to the voxels above them.
 void BrickAssembly::addTop(std::span<const Brick> bricks, std::span<const CellEntry> upper, Octree& tree) {
     for (std::size_t i = 0; i < bricks.size(); ++i) {
         const BrickNodes& nodes = nodes_.data()[i];
@@ -102,7 +102,7 @@ void BrickAssembly::assemble(BrickPartition& partition, const VoxelRule& rule, i
     numberVoxels(bricks, upper);
     tree.clear(depth);
     tree.setVoxels(voxels_, withMasses_);
-    // Where the brick is the whole world, its own block is the root's.
+    // If a brick is the whole world, its own block is the root's.
     tree.setBlocks(depth == brickRise ? std::max(blocks_ - 1, 1u) : blocks_);
     writeBricks(bricks, tree);
     for (std::size_t i = 0; i < upper.size(); ++i) {

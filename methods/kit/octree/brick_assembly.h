@@ -1,6 +1,7 @@
-// Puts the voxels of bricks, and those larger than a brick, together into one tree.
+// Assembles the voxels of bricks, and the voxels larger than a brick, into one tree.
 //
-// Owns: what is found in each brick, on a ledger. Threads: parallel over bricks; the same tree at any number.
+// Owns: the voxels found in each brick, booked on a ledger. Threads: parallel over bricks; the tree does not depend on
+// the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +14,12 @@
 
 namespace dustbench::octree {
 
-/// Where one brick's voxels are left, in pre-order.
+/// Output of one brick's reduction: its voxels in pre-order.
 struct BrickVoxels {
-    CellEntry* voxels;  ///< room for as many as the brick has particles
-    CellEntry* spare;   ///< working memory of the same size; null: not wanted
-    double* masses;     ///< beside them; null: not wanted
-    BrickNodes& nodes;  ///< to be set
+    CellEntry* voxels;  ///< capacity: as many as the brick has particles
+    CellEntry* spare;   ///< working memory of the same size; null if not requested
+    double* masses;     ///< one per voxel; null if not requested
+    BrickNodes& nodes;  ///< output
 };
 
 class DUSTBENCH_API BrickAssembly {
@@ -26,7 +27,7 @@ class DUSTBENCH_API BrickAssembly {
     explicit BrickAssembly(MemoryLedger& ledger);
 
     void hold(const BrickPartition& partition, bool withMasses, bool withSpare);
-    /// For brick number `i` of the partition.
+    /// Output arrays for brick number `i` of the partition.
     [[nodiscard]] BrickVoxels room(const Brick& brick, std::size_t i) {
         return {found_.data() + brick.first, withSpare_ ? spare_.data() + brick.first : nullptr,
                 withMasses_ ? masses_.data() + brick.first : nullptr, nodes_.data()[i]};

@@ -1,7 +1,7 @@
-// The layout of today for both methods: particles are sorted into bricks of 16³ cells once, each brick is reduced to
-// its voxels by itself, in parallel, and the bricks are put together.
+// The present-day layout for both methods: sort the particles into bricks of 16³ cells once, reduce each brick to its
+// voxels independently and in parallel, and assemble the bricks.
 //
-// Threads: uses the current oneTBB arena; the same tree at any number of threads.
+// Threads: uses the current oneTBB arena; the tree does not depend on the number of threads.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace dustbench::octree {
 
-/// `Reducer(rule)` is made once for several bricks; `reduce(partition, brick, voxels)` leaves the brick's voxels.
-/// `Reducer::needsSpare` asks for working memory.
+/// `Reducer(rule)` is constructed once for several bricks; `reduce(partition, brick, voxels)` writes the brick's
+/// voxels. `Reducer::needsSpare` requests working memory.
 template <typename Reducer>
 class BrickBuilder final : public OctreeBuilder {
  public:

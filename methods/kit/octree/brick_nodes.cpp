@@ -12,7 +12,7 @@
 namespace dustbench::octree {
 namespace {
 
-/// A bit for each byte that has any.
+/// One bit for each byte, set if the byte has any set bit.
 std::uint64_t anyOfEight(std::uint64_t bits) {
     bits |= bits >> 4;
     bits |= bits >> 2;
@@ -20,7 +20,7 @@ std::uint64_t anyOfEight(std::uint64_t bits) {
     return ((bits & 0x0101'0101'0101'0101ull) * 0x0102'0408'1020'4080ull) >> 56;
 }
 
-/// Numbers for the eight slots of a block; the compiler makes of it what vectors the processor has.
+/// Numbers for the eight slots of a block; the compiler maps them to the available vector registers.
 using EightSlots [[gnu::vector_size(64)]] = std::uint64_t;
 
 EightSlots bytesOf(std::uint64_t bytes) {
@@ -28,7 +28,7 @@ EightSlots bytesOf(std::uint64_t bytes) {
     return bytes >> shifts & 255;
 }
 
-/// The numbers where `flags` are not 0, else 0.
+/// Selects `numbers` where `flags` are not 0, else 0.
 EightSlots where(EightSlots flags, EightSlots numbers) {
     const EightSlots none{};
     return flags != 0 ? numbers : none;
@@ -40,7 +40,8 @@ void writeBlock(NodeBlock& block, EightSlots children, EightSlots voxels) {
     std::memcpy(static_cast<void*>(&block), &slots, sizeof(block));
 }
 
-/// Four cells of nine places, one and then the eight finest in it: the fours, and the finest by eights.
+/// Extracts four groups of nine places, each a cell followed by its eight finest cells: the bits of the four cells, and
+/// the bits of the finest cells as one byte per cell.
 struct FourCells {
     std::uint32_t own, finest;
 };
@@ -58,7 +59,7 @@ FourCells fourCells(std::uint64_t places) {
 #endif
 }
 
-/// At least 57 bits from a place on.
+/// At least 57 bits, starting at a place.
 std::uint64_t bitsFrom(const PlaceBits& bits, std::uint32_t place) {
     std::uint64_t word;
     std::memcpy(&word, reinterpret_cast<const char*>(bits.data()) + place / 8, sizeof(word));
@@ -72,7 +73,7 @@ void BrickNodes::set(const PlaceBits& voxels) {
     findNodes();
 }
 
-/// From pre-order to level by level.
+/// Converts the bits from pre-order to level order.
 void BrickNodes::sortByLevel(const PlaceBits& voxels) {
     std::fill_n(voxels_.data(), 8, 0);
     voxels_[0] = (bitsFrom(voxels, 1) & 1) << 1;
@@ -93,8 +94,8 @@ void BrickNodes::sortByLevel(const PlaceBits& voxels) {
     }
 }
 
-/// Every node: a voxel, or what has one below it. A word holds the children of the eight cells that are one byte of the
-/// word whose number has three bits less. A block for each cell whose children are no finest cells.
+/// Finds all nodes: cells with a voxel of their own or below. The children of the eight cells in one byte of a word are
+/// stored in one word, whose number has three bits more. Each cell whose children are not finest cells has a block.
 void BrickNodes::findNodes() {
     voxelCount_ = 0;
     for (const std::uint64_t word : voxels_) voxelCount_ += bitCount(word);
@@ -112,14 +113,14 @@ void BrickNodes::findNodes() {
 }
 
 struct BrickNodes::Writer {
-    const std::uint8_t* voxels;  ///< bytes of the bits: the eight children of a coarse cell c are byte c
+    const std::uint8_t* voxels;  ///< as bytes: byte c holds the eight children of the coarse cell c
     const std::uint8_t* nodes;
-    const std::uint64_t* fine;  ///< word w: the finest cells in the cell 64 + w
+    const std::uint64_t* fine;  ///< word w: the finest cells in cell 64 + w
     NodeBlock* blocks;
     std::uint32_t nextBlock;
     std::uint32_t nextVoxel;
 
-    /// The children of `location`, whose level lies `rise` above the finest, to `block`; then what is below them.
+    /// Writes the children of `location`, which is `rise` levels above the finest, to `block`, then their descendants.
     template <int rise>
     void write(std::uint32_t location, std::uint32_t block) {
         NodeBlock& out = blocks[block];
@@ -138,13 +139,13 @@ struct BrickNodes::Writer {
         }
     }
 
-    /// The eight children of `location`, with the finest cells in each as a family.
+    /// Writes the eight children of `location`, each with its finest cells as a family.
     void writeLowest(std::uint32_t location, std::uint32_t block) {
         const std::uint64_t finest = fine[location - 64], own = bitsToBytes(voxels[location]);
         const std::uint64_t before = sumsBefore(byteCounts(finest) + own);
         const EightSlots which = bytesOf(finest), isVoxel = bytesOf(own);
         const EightSlots families = NodeSlot::familyFlag | isVoxel * NodeSlot::ownVoxelFlag | which;
-        const std::uint64_t first = nextVoxel + 1;  // in a slot 0 means none
+        const std::uint64_t first = nextVoxel + 1;  // a slot stores the index + 1; 0 means none
         writeBlock(blocks[block], where(which, families), where(which | isVoxel, first + bytesOf(before)));
         nextVoxel += bitCount(finest) + bitCount(voxels[location]);
     }

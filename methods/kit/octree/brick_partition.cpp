@@ -14,25 +14,25 @@
 namespace dustbench::octree {
 namespace {
 
-/// Deeper: as few chunks as keep the threads busy, for each has counters of its own. The order is the same whatever
-/// their number.
+/// Above depth 8: as few chunks as keep the threads busy, since each has its own counters. The number of chunks does
+/// not affect the order.
 constexpr std::size_t chunksPerThread = 4;
 constexpr std::size_t minimumChunk = 16'384;
-/// Up to depth 8: a chunk's keys, ranks and words, 14 bytes a particle, stay in the second cache of one core until all
-/// are in place. Smaller ones where there are few particles, so that all threads have some.
+/// Up to depth 8: a chunk's keys, ranks and words, 14 bytes per particle, stay in one core's second-level cache until
+/// all are placed. Chunks are smaller if there are few particles, so that every thread gets some.
 constexpr std::size_t narrowChunksPerThread = 2, minimumNarrowChunk = 8192, maximumNarrowChunk = 65'536;
 static_assert(maximumNarrowChunk - 1 <= std::numeric_limits<std::uint16_t>::max(), "ranks have 16 bits");
-/// Particles whose words are made at once, by the vector units, before they are counted.
+/// Particles whose words the vector units compute at once, before they are counted.
 constexpr std::size_t stripSize = 1024;
-/// Bins whose particles are counted over all chunks at once.
+/// Bins whose counts are summed over all chunks at once.
 constexpr std::size_t binBlock = 512;
 constexpr std::uint32_t wideDigit = 4095;
 constexpr int wideIndexBits = 24;
 constexpr std::uint64_t wideIndexMask = (1u << wideIndexBits) - 1;
-/// So many leave no more than 32 bits for the priority.
+/// With at least this many index bits, at most 32 bits remain for the priority.
 constexpr int minimumIndexBits = 32 - brickPlaceBits;
 
-/// Counts a strip's bins: each particle's rank among those of its bin. Fetches the lines that its words may go to.
+/// Counts a strip's bins and returns each particle's rank within its bin. Prefetches the cache lines of the output.
 void rankInBins(std::span<const std::uint32_t> keys, const std::uint64_t* target, std::uint32_t* __restrict counts,
                 std::uint16_t* __restrict ranks) {
     constexpr std::size_t lineWords = 8;
@@ -43,14 +43,14 @@ void rankInBins(std::span<const std::uint32_t> keys, const std::uint64_t* target
     }
 }
 
-/// Each particle's word to its place in its bin.
+/// Writes each particle's word to its position in its bin.
 void scatter(std::span<const std::uint32_t> keys, const std::uint16_t* ranks, const std::uint32_t* starts,
              std::uint32_t firstParticle, BrickKey word, VoxelRule rule, std::uint64_t* sorted) {
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const std::uint32_t particle = firstParticle + static_cast<std::uint32_t>(i);
         sorted[starts[narrowBin(keys[i])] + ranks[i]] =
             word.make(rule.priority(particle), narrowPlace(keys[i]), particle);
-        asm volatile("");  // one by one: to store a vector to as many places takes longer
+        asm volatile("");  // prevents vectorisation: scattering a whole vector is slower
     }
 }
 
@@ -91,7 +91,7 @@ void BrickPartition::setChunks(std::size_t count, std::uint32_t bins) {
     binSums_.hold(bins_ + 1);
 }
 
-/// From how many to where the first one goes. Chunk by chunk over all bins, which the vector units take at once.
+/// Converts counts to start positions. Proceeds chunk by chunk over all bins, which vectorises.
 void BrickPartition::startBins() {
     std::uint32_t* const starts = binSums_.data();
     std::fill_n(starts, bins_ + 1, 0u);
@@ -110,8 +110,8 @@ void BrickPartition::startBins() {
     }
 }
 
-/// A row of ends for each chunk. Rows begin an odd number of cache lines apart, so that a bin's ends in all of them
-/// find room in the cache side by side.
+/// Reserves a row of ends for each chunk. Rows are an odd number of cache lines apart, so that the ends of one bin in
+/// all rows map to different cache sets.
 std::uint32_t* BrickPartition::holdRuns(std::size_t runs, std::uint32_t bins) {
     runs_ = runs;
     constexpr std::size_t lineEnds = 16;
@@ -119,8 +119,8 @@ std::uint32_t* BrickPartition::holdRuns(std::size_t runs, std::uint32_t bins) {
     return ends_.hold(runs_ * runStride_);
 }
 
-/// A stable counting sort by brick in each chunk. Two bins more: voxels above the bricks, and particles outside the
-/// world.
+/// A stable counting sort by brick in each chunk. Two further bins hold voxels above the bricks and particles outside
+/// the world.
 template <LevelRule rule>
 void BrickPartition::sortNarrow(const Puffs& store, const CellKernel<rule>& kernel, const VoxelRule& voxelRule,
                                 int depth) {
@@ -144,7 +144,7 @@ void BrickPartition::sortNarrow(const Puffs& store, const CellKernel<rule>& kern
         }
         std::exclusive_scan(starts, starts + bins + 1, starts, static_cast<std::uint32_t>(first));
         scatter({keys.data(), count}, ranks.data(), starts, static_cast<std::uint32_t>(first), key_, voxelRule, sorted);
-        // Outside the world is where those end up whose position is not a number.
+        // Particles with NaN positions count as outside the world.
         for (std::uint32_t i = starts[brickBins + 1]; i < starts[bins]; ++i)
             if (!isNumber(store, key_.particle(sorted[i]))) allNumbers = false;
     });
@@ -172,7 +172,7 @@ void BrickPartition::sortNarrow(const Puffs& store, const CellKernel<rule>& kern
     if (!allNumbers) checkPositions(store);
 }
 
-/// Two stable counting sorts, by the lower and by the upper twelve bits of the brick.
+/// Two stable counting sorts, by the lower and by the upper twelve bits of the brick code.
 template <LevelRule rule>
 void BrickPartition::sortWide(const Puffs& store, const CellKernel<rule>& kernel, const VoxelRule& voxelRule) {
     constexpr std::uint64_t aboveBricks = 1u << 24, outside = aboveBricks + 1;
@@ -242,7 +242,7 @@ void BrickPartition::scatterWide(const std::uint64_t* from, std::uint64_t* to, s
     });
 }
 
-/// Particles above the bricks, as entries of the whole tree.
+/// Collects particles above the bricks as entries of the whole tree.
 template <LevelRule rule>
 void BrickPartition::collectUpper(const Brick& above, const CellKernel<rule>& kernel) {
     CellEntry* upper = upper_.hold(above.count);

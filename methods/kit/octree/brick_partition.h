@@ -1,11 +1,11 @@
-// Sorts particles into bricks, keeping the order of the store inside each.
+// Sorts particles into bricks; keeps the store's order within each brick.
 //
-// Up to depth 8 each chunk of the store is sorted by itself, as large as the cache of one core holds: a brick's
-// particles are then a run in each chunk. Deeper, where bricks are too many to be counted in each chunk, all particles
-// are sorted at once, as one chunk.
+// Up to depth 8 each chunk of the store is sorted separately, in a size that fits the cache of one core; a brick's
+// particles then form a run in each chunk. At greater depths there are too many bricks to count in each chunk, and all
+// particles are sorted at once, as one chunk.
 //
-// Owns: its working memory, on a ledger, kept from frame to frame. Threads: parallel over fixed chunks of the store;
-// the same result at any number of threads.
+// Owns: its working memory, booked on a ledger and kept between frames. Threads: parallel over fixed chunks of the
+// store; the result does not depend on the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -23,19 +23,19 @@ namespace dustbench::octree {
 /// One brick that holds particles.
 struct Brick {
     std::uint64_t code = 0;              ///< Morton code of its first finest cell
-    std::uint32_t first = 0, count = 0;  ///< its particles among those of all bricks
-    std::uint32_t bin = 0;               ///< where its runs are looked up
+    std::uint32_t first = 0, count = 0;  ///< its range among the particles of all bricks
+    std::uint32_t bin = 0;               ///< index of its runs
 };
 
-/// The voxel at a place of a brick.
+/// The voxel at a place in a brick.
 [[nodiscard]] inline CellEntry voxelAt(const Brick& brick, std::uint32_t place, std::uint32_t particle) {
     return CellEntry(brick.code << 28 | std::uint64_t{codeAndRiseOfPlace[place]} << 24 | particle);
 }
 
-/// How a sorted particle is one word: the first bits of its priority, its place in the brick, its index. Of
-/// two particles in one cell the one with the higher word wins, unless their first bits are equal.
+/// Packs a sorted particle into one word: leading bits of its priority, its place in the brick, its index. Of two
+/// particles in one cell the one with the higher word wins, unless the leading bits are equal.
 struct BrickKey {
-    int indexBits = 24;  ///< enough for all particles
+    int indexBits = 24;  ///< enough for the number of particles
 
     [[nodiscard]] std::uint64_t make(std::uint32_t priority, std::uint32_t place, std::uint32_t particle) const {
         const std::uint64_t first = priority >> (brickPlaceBits + indexBits - 32);
@@ -56,20 +56,20 @@ class DUSTBENCH_API BrickPartition {
  public:
     explicit BrickPartition(MemoryLedger& ledger);
 
-    /// Throws as `checkPositions` and `checkCount` do (cell_kernel.h).
+    /// Throws like `checkPositions` and `checkCount` (cell_kernel.h).
     void sort(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings, const VoxelRule& voxelRule);
 
     /// In Morton order.
     [[nodiscard]] std::span<const Brick> bricks() const { return {bricks_.data(), brickCount_}; }
-    /// Particles in all bricks.
+    /// Number of particles in all bricks.
     [[nodiscard]] std::size_t size() const { return sortedCount_; }
-    /// Calls `visit(particle)` for each particle of a brick, in the order of the store, as `key()` has them.
+    /// Calls `visit(word)` for each particle of a brick, in store order; words are packed as by `key()`.
     template <typename Visit>
     void forEachParticle(const Brick& brick, const Visit& visit) const {
         const std::uint32_t* ends = ends_.data() + brick.bin;
         for (std::size_t run = 0; run < runs_; ++run, ends += runStride_) {
             const std::uint64_t* const end = sorted_.data() + ends[1];
-            // Here begins the run of the next brick.
+            // The next brick's run begins here.
             __builtin_prefetch(end);
             __builtin_prefetch(end + 8);
             __builtin_prefetch(ends + 16);
@@ -78,7 +78,7 @@ class DUSTBENCH_API BrickPartition {
     }
     [[nodiscard]] const BrickKey& key() const { return key_; }
 
-    /// Particles whose voxels are larger than a brick, in the order of the store.
+    /// Particles whose voxels are larger than a brick, in store order.
     [[nodiscard]] std::span<CellEntry> upper() { return {upper_.data(), upperCount_}; }
     [[nodiscard]] std::int64_t clipped() const { return clipped_; }
 
@@ -96,8 +96,8 @@ class DUSTBENCH_API BrickPartition {
 
     ReusedArray<std::uint64_t> wideKeys_, wideScratch_;  ///< brick, place, index
     ReusedArray<std::uint64_t> sorted_;
-    ReusedArray<std::uint32_t> ends_;     ///< by chunk and bin: where the bin's run begins, and the next one's, its end
-    ReusedArray<std::uint32_t> counts_;   ///< by chunk and bin: how many, then where the next one goes
+    ReusedArray<std::uint32_t> ends_;     ///< by chunk and bin: start of the bin's run; the next entry is its end
+    ReusedArray<std::uint32_t> counts_;   ///< by chunk and bin: count, then position of the next particle
     ReusedArray<std::uint32_t> binSums_;  ///< over all chunks
     ReusedArray<Brick> bricks_;
     ReusedArray<CellEntry> upper_;

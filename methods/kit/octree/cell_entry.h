@@ -1,13 +1,13 @@
-// A particle's place in the tree, or a voxel's, as one word.
+// Packs a particle's cell in the tree, or a voxel, into one word.
 #pragma once
 
 #include <cstdint>
 
 namespace dustbench::octree {
 
-/// From the top: 36 bits Morton code of a finest cell, 4 bits rise (levels above the finest), 24 bits index of a
-/// particle. A voxel's code is that of the first finest cell inside it, so that voxels in pre-order are in order of
-/// (code, falling rise).
+/// From the top: 36 bits Morton code of a finest cell, 4 bits rise (levels above the finest), 24 bits particle index. A
+/// voxel's code is that of the first finest cell inside it, so that pre-order of voxels is the order of (code,
+/// descending rise).
 class CellEntry {
  public:
     static constexpr std::uint32_t maximumIndex = (1u << 24) - 1;
@@ -21,9 +21,9 @@ class CellEntry {
     [[nodiscard]] int rise() const { return static_cast<int>(word_ >> 24 & 0xf); }
     [[nodiscard]] std::uint32_t index() const { return static_cast<std::uint32_t>(word_ & maximumIndex); }
     [[nodiscard]] std::uint64_t word() const { return word_; }
-    /// Of the voxel that the particle falls into.
+    /// Code of the voxel that contains the particle.
     [[nodiscard]] std::uint64_t voxelCode() const { return code() >> 3 * rise() << 3 * rise(); }
-    /// The same voxel whatever the particle: equal for all particles of one voxel, and rising in pre-order.
+    /// Identifies the voxel: equal for all of its particles, and ascending in pre-order.
     [[nodiscard]] std::uint64_t place() const { return voxelCode() << 4 | static_cast<std::uint64_t>(15 - rise()); }
     bool operator==(const CellEntry&) const = default;
 

@@ -14,7 +14,7 @@ bool isNumber(const Puffs& store, std::size_t particle) {
 }
 
 void checkPositions(const Puffs& store) {
-    // All of them first, without a branch: what is not a number is rare.
+    // Checks all positions without branches first, because NaN is rare.
     const float *x = store.x.data(), *y = store.y.data(), *z = store.z.data();
     std::uint32_t bad = 0;
     for (std::size_t i = 0; i < store.size(); ++i) bad |= std::isnan(x[i]) || std::isnan(y[i]) || std::isnan(z[i]);

@@ -1,7 +1,7 @@
-// Which cell and which level a particle belongs to: the one computation behind every build.
+// Computes the cell and level of a particle; every builder uses it.
 //
 // Units: metres. Frame: world. Threads: pure.
-// Source: Carr2006, 3.2 (older particles, larger voxels). Departs: the formulas are ours; the paper gives none.
+// Source: Carr2006, 3.2 (older particles, larger voxels). Departs: the formulas are ours, because the paper gives none.
 #pragma once
 
 #ifdef __AVX512F__
@@ -20,26 +20,26 @@
 
 namespace dustbench::octree {
 
-/// √(π/2): a cube of this edge per radius keeps the puff's τ, edge² = 2π(r/2)².
+/// √(π/2): a cube of edge edgePerRadius·r keeps the puff's τ, because edge² = 2π(r/2)².
 inline constexpr float edgePerRadius = 1.2533141f;
 
-/// Number of the cell of a coordinate, floor(x / edge). What is not a number, or beyond the cells ±`furthest`, lands
-/// there: outside any world.
+/// Cell number of a coordinate, floor(x / edge), clamped to ±`furthest`. NaN maps to −`furthest`, outside any world.
 [[nodiscard]] inline std::int32_t cellNumber(float metres, float cellsPerMetre, float furthest) {
     const float number = std::min(std::max(-furthest, metres * cellsPerMetre), furthest);
     return static_cast<std::int32_t>(std::floor(number));
 }
 
-/// Levels above the finest, by age: min(L − 1, floor(L·age/lifetime)).
+/// Levels above the finest by age: min(L − 1, floor(L·age/lifetime)).
 [[nodiscard]] inline std::uint32_t riseByAge(float age, float lifetime, float levels) {
     return static_cast<std::uint32_t>(
         static_cast<std::int32_t>(std::min(std::max(0.0f, levels * age / lifetime), levels - 1)));
 }
 
-/// A cell's edge is as good as twice that on the scale of doubling from here on.
+/// Divided by √2, because on a logarithmic scale the boundary between two edges is their geometric mean.
 inline constexpr float edgesOfRadius = edgePerRadius / std::numbers::sqrt2_v<float>;
 
-/// By radius: the edge `finest·2^k` nearest 1.253·r on the scale of doubling, k below `levels`.
+/// Levels above the finest by radius: the edge `finest·2^k` nearest to 1.253·r on a logarithmic scale, k below
+/// `levels`.
 [[nodiscard]] inline std::uint32_t riseByRadius(float radiusMetres, float finestEdgeMetres, std::uint32_t levels) {
     const float edges = edgesOfRadius * radiusMetres / finestEdgeMetres;
     std::uint32_t rise = 0;
@@ -47,7 +47,7 @@ inline constexpr float edgesOfRadius = edgePerRadius / std::numbers::sqrt2_v<flo
     return rise;
 }
 
-/// Bit k of a number below 2^8 to bit 3·k, in 32 bits.
+/// Moves bit k of a number below 2^8 to bit 3·k, in 32 bits.
 [[nodiscard]] constexpr std::uint32_t spreadByte(std::uint32_t x) {
     x = (x | x << 8) & 0x0000f00fu;
     x = (x | x << 4) & 0x000c30c3u;
@@ -55,13 +55,13 @@ inline constexpr float edgesOfRadius = edgePerRadius / std::numbers::sqrt2_v<flo
     return x;
 }
 
-/// Where one particle belongs. The Morton code comes in two halves, so that all is 32 bits wide and vectorises.
+/// The cell of one particle. The Morton code is split into two halves, so that all fields have 32 bits and vectorise.
 struct ParticleCell {
     std::uint32_t brickCode;    ///< of the brick, a cell of 16³ finest cells
-    std::uint32_t localCode;    ///< of the finest cell inside the brick, 12 bits
+    std::uint32_t localCode;    ///< of the finest cell within the brick, 12 bits
     std::uint32_t rise;         ///< of the particle's voxel above the finest cells
-    std::uint32_t outside;      ///< the world: all bits set, and the rest is meaningless; else 0
-    std::uint32_t aboveBricks;  ///< all bits set where the voxel is larger than a brick; else 0
+    std::uint32_t outside;      ///< all bits set if outside the world (other fields are then meaningless); else 0
+    std::uint32_t aboveBricks;  ///< all bits set if the voxel is larger than a brick; else 0
 };
 
 #ifdef __AVX512F__
@@ -70,11 +70,11 @@ using Sixteen [[gnu::vector_size(64)]] = std::uint32_t;
 /// The finest cells of sixteen particles, and the rise of their voxels.
 struct SixteenCells {
     Sixteen x, y, z, rise;
-    Sixteen outside;  ///< the world: not 0, and the rest is meaningless
+    Sixteen outside;  ///< not 0 if outside the world; other fields are then meaningless
 };
 #endif
 
-/// Maps particles of one store to the cells of one lattice.
+/// Maps particles of a store to cells of a lattice.
 template <LevelRule rule>
 class CellKernel {
  public:
@@ -101,7 +101,7 @@ class CellKernel {
         return cell;
     }
 #ifdef __AVX512F__
-    /// The particles `i` to `i` + 15.
+    /// The cells of particles `i` to `i` + 15.
     [[nodiscard]] SixteenCells sixteen(std::size_t i) const {
         SixteenCells cells{
             cellNumbers(x_ + i) - firstX_, cellNumbers(y_ + i) - firstY_, cellNumbers(z_ + i) - firstZ_, rises(i), {}};
@@ -119,7 +119,7 @@ class CellKernel {
                 static_cast<std::uint32_t>(cellNumber(y_[i], cellsPerMetre_, furthest_)) - firstY_,
                 static_cast<std::uint32_t>(cellNumber(z_[i], cellsPerMetre_, furthest_)) - firstZ_};
     }
-    /// All of a cell but its codes. `anyAxis`: bits of all three numbers.
+    /// All fields except the codes. `anyAxis`: bitwise or of the three cell numbers.
     [[nodiscard]] ParticleCell belonging(std::size_t i, std::uint32_t anyAxis) const {
         ParticleCell cell;
         cell.outside = -static_cast<std::uint32_t>(anyAxis >= cells_);
@@ -137,7 +137,7 @@ class CellKernel {
     [[nodiscard]] static Floats load(const float* from) {
         return Floats(_mm512_loadu_ps(from));
     }
-    /// What is not a number, or too far away, becomes the minimum integer.
+    /// NaN and values out of range become the minimum integer.
     [[nodiscard]] Sixteen cellNumbers(const float* metres) const {
         const Floats numbers = load(metres) * cellsPerMetre_;
         return Sixteen(
@@ -164,14 +164,15 @@ class CellKernel {
 
     const float *x_, *y_, *z_, *age_, *lifetime_, *radius_;
     float cellsPerMetre_, finestEdge_;
-    float furthest_ = 1e9f;  ///< a variable: of a constant GCC makes branches that cost a fifth of the whole kernel
+    float furthest_ = 1e9f;  ///< not constant: with a constant GCC emits branches that cost a fifth of the whole kernel
     std::uint32_t firstX_, firstY_, firstZ_, cells_, levels_;
 };
 
-/// Whether a particle's position is.
+/// Whether a particle's position has no NaN.
 [[nodiscard]] bool isNumber(const Puffs& store, std::size_t particle);
-/// Throws SimulationError with the serial of the first particle whose position is not a number, and InputError where
-/// there are more particles than a voxel can name. For builders, who call it where particles lie outside the world.
+/// `checkPositions` throws SimulationError with the serial of the first particle whose position is NaN. `checkCount`
+/// throws InputError if there are more particles than a voxel can index. For builders, which check positions only if
+/// particles lie outside the world.
 void checkPositions(const Puffs& store);
 void checkCount(const Puffs& store);
 

@@ -8,7 +8,7 @@
 namespace dustbench::octree {
 namespace {
 
-/// A voxel without a target goes when its optical depth has fallen below this: less than half a step of 8 bits.
+/// A voxel without a target is dropped when its optical depth falls below this: less than half a step of 8 bits.
 constexpr float minimumOpticalDepth = 1.0f / 1024;
 
 }  // namespace
@@ -16,7 +16,7 @@ constexpr float minimumOpticalDepth = 1.0f / 1024;
 CrossFade::CrossFade(MemoryLedger& ledger, double timeConstantSeconds)
     : timeConstantSeconds_(timeConstantSeconds), shown_(ledger), next_(ledger), order_(ledger.account("voxel list")) {}
 
-/// Appends voxel `i` of `from`, with another mass, to `next_`, which has room for it.
+/// Appends voxel `i` of `from`, with the given mass, to `next_`.
 void CrossFade::append(const VoxelCloud& from, std::size_t i, float mass) {
     next_.place.push_back(from.place[i]);
     next_.x.push_back(from.x[i]);
@@ -31,7 +31,7 @@ void CrossFade::append(const VoxelCloud& from, std::size_t i, float mass) {
     next_.blue.push_back(from.blue[i]);
 }
 
-/// The same voxels in a world that has moved by whole cells: other codes, and so another order.
+/// Moves the voxels to a world shifted by whole cells: the codes change, and with them the order.
 void CrossFade::moveTo(const Lattice& lattice) {
     if (shown_.lattice == lattice) return;
     const glm::ivec3 shift = shown_.lattice.firstCell() - lattice.firstCell();

@@ -1,11 +1,10 @@
-// Keeps the voxels of the last frame and fades to those of this one: a voxel's mass follows what the octree says with a
-// time constant, so that none pops in or out.
+// Cross-fades voxels between frames: a voxel's mass follows that of the octree with a time constant, so that no voxel
+// pops in or out.
 //
 //     m ← m + (1 − exp(−Δt/T))·(m_octree − m)
 //
-// Units: seconds, m². Owns: the faded voxels, on a ledger. Threads: one.
-// Source: Carr2006, 5 (left to the future: "interpolating or cross-fading between frames"). Departs: the formula is
-// ours.
+// Units: seconds, m². Owns: the faded voxels, booked on a ledger. Threads: one.
+// Source: Carr2006, 5 (future work: "interpolating or cross-fading between frames"). Departs: the formula is ours.
 #pragma once
 
 #include "methods/kit/octree/voxel_cloud.h"
@@ -16,8 +15,8 @@ class CrossFade {
  public:
     CrossFade(MemoryLedger& ledger, double timeConstantSeconds);
 
-    /// Goes on by one frame towards `target`, whose places rise, and gives what is to be drawn, in the same order. The
-    /// first call gives the target itself. Voxels that a moved world no longer holds are dropped.
+    /// Advances by one frame towards `target`, whose places must ascend. Returns the voxels to draw, in the same order.
+    /// The first call returns a copy of the target. Voxels outside a world that has moved are dropped.
     const VoxelCloud& follow(const VoxelCloud& target, double stepSeconds);
 
  private:

@@ -1,8 +1,8 @@
-// The lattice of the octree's world: a cube halved `depth` times along each axis, and the Morton codes of its cells.
+// The lattice of the octree's world: a cube halved `depth` times along each axis, with Morton codes of its cells.
 //
-// Units: metres. Frame: world. A cell of level l (0: the whole cube) has edge `edge / 2^l`; its code has 3·l bits, the
-// topmost three choose the root's child: bit 2 is x, bit 1 is y, bit 0 is z. The finest cells lie on multiples of their
-// edge from the world's zero, so that a cube that moves by whole cells keeps them where they are.
+// Units: metres. Frame: world. A cell of level l (0: the whole cube) has edge `edge / 2^l`. Its code has 3·l bits; the
+// top three select the root's child: bit 2 is x, bit 1 is y, bit 0 is z. The finest cells lie at multiples of their
+// edge from the world's origin, so that they stay fixed when the cube moves by whole cells.
 // Source: Carr2006, Fig. 3.
 #pragma once
 
@@ -20,16 +20,16 @@ struct Lattice {
     double edgeMetres = 128;
     int depth = 8;
 
-    /// Of the finest cells, or of those of another level.
+    /// The number of finest cells, or of cells of another level.
     [[nodiscard]] std::uint32_t cellsPerEdge() const { return cellsPerEdge(depth); }
     [[nodiscard]] static std::uint32_t cellsPerEdge(int level) { return 1u << level; }
     [[nodiscard]] double cellEdgeMetres(int level) const { return edgeMetres / static_cast<double>(1u << level); }
-    /// Number of the first finest cell along each axis, counted from the world's zero.
+    /// Number of the first finest cell along each axis, counted from the world's origin.
     [[nodiscard]] glm::ivec3 firstCell() const { return glm::round(origin / cellEdgeMetres(depth)); }
     bool operator==(const Lattice&) const = default;
 };
 
-/// Bit k of a number below 2^12 to bit 3·k.
+/// Moves bit k of a number below 2^12 to bit 3·k.
 [[nodiscard]] constexpr std::uint64_t spreadBits(std::uint64_t x) {
     x = (x | x << 16) & 0x0000'0000'ff00'00ffull;
     x = (x | x << 8) & 0x0000'000f'00f0'0f00full;
@@ -38,7 +38,7 @@ struct Lattice {
     return x;
 }
 
-/// Bit 3·k to bit k: the inverse of `spreadBits`; other bits are ignored.
+/// Moves bit 3·k to bit k: the inverse of `spreadBits`; ignores other bits.
 [[nodiscard]] constexpr std::uint32_t gatherBits(std::uint64_t x) {
     x &= 0x0000'0249'2492'49249ull;
     x = (x | x >> 2) & 0x0000'00c3'0c30'c30c3ull;

@@ -8,7 +8,7 @@ namespace {
 
 #ifdef __AVX512F__
 
-/// A number for each of the sixteen values of four bits: looked up in a register for sixteen particles at once.
+/// A number for each four-bit value, looked up in a register for sixteen particles at once.
 struct alignas(64) FourBitTable {
     template <typename NumberOf>
     explicit constexpr FourBitTable(const NumberOf& numberOf) {
@@ -17,7 +17,7 @@ struct alignas(64) FourBitTable {
     std::array<std::uint32_t, 16> numbers{};
 };
 
-/// Codes and places are sums over the bits of the three coordinates: here what the bits of one of them give.
+/// Codes and places are sums of contributions from each coordinate's bits: this is one coordinate's contribution.
 template <int axis>
 constexpr std::uint32_t codeAlong(std::uint32_t bits) {
     return spreadByte(bits) << (2 - axis);
@@ -28,11 +28,11 @@ template <int axis>
 constexpr FourBitTable places([](std::uint32_t bits) {
     return placeInBrick(codeAlong<axis>(bits), 0) - placeInBrick(0, 0);
 });
-/// By rise: what is left of a coordinate, and the place of the brick's first such cell.
+/// By rise: mask of the remaining bits of a coordinate, and the place of the brick's first cell of that rise.
 constexpr FourBitTable leftOfRise([](std::uint32_t rise) { return rise < brickRise ? 15u >> rise << rise : 0u; });
 constexpr FourBitTable firstOfRise([](std::uint32_t rise) { return placeInBrick(0, rise); });
 
-/// All but the lowest four bits are ignored.
+/// Ignores all but the lowest four bits.
 Sixteen lookUp(const FourBitTable& table, Sixteen bits) {
     const __m512i numbers = _mm512_load_si512(table.numbers.data());
     return Sixteen(_mm512_maskz_permutexvar_epi32(0xffff, __m512i(bits), numbers));
@@ -54,7 +54,7 @@ Sixteen placesInBricks(const SixteenCells& cells) {
 template <LevelRule rule>
 void makeNarrowKeys(const CellKernel<rule>& kernel, std::size_t first, std::size_t count, std::uint32_t bricks,
                     std::uint32_t* keys) {
-    const CellKernel<rule> cellsOf = kernel;  // which the compiler sees apart from the keys
+    const CellKernel<rule> cellsOf = kernel;  // a copy, which the compiler knows does not alias the keys
     std::size_t i = 0;
 #ifdef __AVX512F__
     for (; i + 16 <= count; i += 16) {

@@ -1,7 +1,7 @@
-// What particles are sorted into bricks by, down to depth 8: bin and place in the brick as one word of 32 bits.
+// Sort keys of particles up to depth 8: bin and place in the brick in one 32-bit word.
 //
-// Bins are the bricks in Morton order; behind them one for voxels above the bricks and one for particles outside the
-// world. Threads: pure.
+// Bins are the bricks in Morton order, followed by one bin for voxels above the bricks and one for particles outside
+// the world. Threads: pure.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace dustbench::octree {
 
-/// Up to this depth bricks are few enough to be bins.
+/// Up to this depth there are few enough bricks to use as bins.
 inline constexpr int narrowDepth = 8;
 
 [[nodiscard]] constexpr std::uint32_t narrowBin(std::uint32_t key) {
@@ -22,13 +22,13 @@ inline constexpr int narrowDepth = 8;
     return key & ((1u << brickPlaceBits) - 1);
 }
 
-/// Keys of the particles `first` to `first + count`, where there are `bricks` bricks in all. Of particles outside the
-/// world and of voxels above the bricks only the bin counts.
+/// Keys of particles `first` to `first + count`, with `bricks` bricks in total. For particles outside the world and
+/// voxels above the bricks only the bin is meaningful.
 template <LevelRule rule>
 void makeNarrowKeys(const CellKernel<rule>& kernel, std::size_t first, std::size_t count, std::uint32_t bricks,
                     std::uint32_t* keys);
 
-/// The same for one of them: slow and clear.
+/// The same for a single particle: simple and slow.
 template <LevelRule rule>
 [[nodiscard]] std::uint32_t narrowKey(const CellKernel<rule>& kernel, std::size_t particle, std::uint32_t bricks) {
     const ParticleCell cell = kernel(particle);

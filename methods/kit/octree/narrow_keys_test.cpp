@@ -11,7 +11,7 @@
 namespace dustbench::octree {
 namespace {
 
-/// Coordinates in and around a world of 32 m, on borders of cells, and such as are in no world.
+/// Coordinates in and around a world of 32 m, on cell boundaries, and outside any world.
 float coordinate(std::mt19937_64& random, const Lattice& lattice) {
     const auto edge = static_cast<float>(lattice.edgeMetres), cell = edge / static_cast<float>(lattice.cellsPerEdge());
     std::uniform_real_distribution<float> around(-0.1f, 1.1f);
@@ -98,7 +98,7 @@ TEST(NarrowKeys, NameBinAndPlace) {
     const CellKernel<LevelRule::age> kernel(store, lattice, settings);
     std::vector<std::uint32_t> keys(store.size());
     makeNarrowKeys(kernel, 0, store.size(), 4096, keys.data());
-    // Brick (1, 0, 2); in it the finest cell (0, 0, 1); 3 levels up the first of its octants.
+    // Brick (1, 0, 2); the finest cell (0, 0, 1) within it; 3 levels up, its first octant.
     EXPECT_EQ(narrowBin(keys[0]), 0b001'100u);
     EXPECT_EQ(narrowPlace(keys[0]), placeInBrick(1, 0));
     EXPECT_EQ(narrowBin(keys[1]), 0b001'100u);

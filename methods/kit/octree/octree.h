@@ -1,7 +1,7 @@
-// The octree of one moment: nodes to walk through, and its voxels in a fixed order.
+// The octree of one frame: nodes for traversal, and its voxels in a fixed order.
 //
-// Units: metres. Frame: world. Owns: nodes and voxels, booked on a ledger and kept from frame to frame. Threads: const
-// access from any.
+// Units: metres. Frame: world. Owns: nodes and voxels, booked on a ledger and kept between frames. Threads: any thread
+// may call const members.
 // Source: Carr2006, 3.2 and Fig. 3.
 #pragma once
 
@@ -23,7 +23,7 @@ class Octree {
           voxels_(ledger.account("octree voxels")),
           masses_(ledger.account("octree voxels")) {}
 
-    /// A place in the tree. Copies are cheap; valid until the tree is built again.
+    /// A position in the tree. Cheap to copy; valid until the tree is rebuilt.
     class Cursor {
      public:
         [[nodiscard]] int level() const { return level_; }
@@ -33,7 +33,7 @@ class Octree {
         /// Index into `voxels()`.
         [[nodiscard]] std::uint32_t voxel() const { return slot_.voxel - 1; }
         [[nodiscard]] bool hasChildren() const { return level_ == 0 || slot_.children != 0; }
-        /// Whether there is a node for the octant; `child` only where there is.
+        /// Whether the octant has a node; `child` requires one.
         [[nodiscard]] bool hasChild(unsigned octant) const { return hasChildren() && slotOf(octant).exists(); }
         [[nodiscard]] Cursor child(unsigned octant) const {
             const std::uint64_t below = static_cast<std::uint64_t>(octant) << 3 * (tree_->depth_ - level_ - 1);
@@ -56,9 +56,9 @@ class Octree {
 
     [[nodiscard]] Cursor root() const { return {*this, NodeSlot{}, 0, 0}; }
 
-    /// In pre-order. Each names the particle that it stands for.
+    /// In pre-order. Each refers to the particle that represents it.
     [[nodiscard]] std::span<const CellEntry> voxels() const { return {voxels_.data(), voxelCount_}; }
-    /// Optical mass of each voxel, m²; empty unless the policy is to accumulate.
+    /// Optical mass of each voxel, m²; empty unless the policy is `accumulate`.
     [[nodiscard]] std::span<const double> masses() const { return {masses_.data(), massCount_}; }
     /// Block 0 holds the root's children.
     [[nodiscard]] std::span<const NodeBlock> blocks() const { return {blocks_.data(), blockCount_}; }
@@ -66,20 +66,20 @@ class Octree {
 
     // For builders.
 
-    /// An empty tree: a root without children.
+    /// Resets to an empty tree: a root without children.
     void clear(int depth) {
         depth_ = depth;
         voxelCount_ = massCount_ = 0;
         blocks_.extend(1, 0)[0] = NodeBlock{};
         blockCount_ = 1;
     }
-    /// One more block, empty. May move all blocks.
+    /// Adds an empty block. May relocate all blocks.
     std::uint32_t addBlock() {
         blocks_.extend(blockCount_ + 1, blockCount_)[blockCount_] = NodeBlock{};
         return static_cast<std::uint32_t>(blockCount_++);
     }
-    /// The node that lies `rise` levels above the finest and holds the finest cell `code`; nodes that are missing on
-    /// its path are added. Not below a family (node_block.h). May move all blocks.
+    /// Returns the node `rise` levels above the finest that contains the finest cell `code`, and adds missing nodes on
+    /// its path. Not allowed below a family (node_block.h). May relocate all blocks.
     NodeSlot& makeNode(std::uint64_t code, int rise) {
         std::uint32_t block = 0;
         int shift = 3 * (depth_ - 1);
@@ -94,12 +94,13 @@ class Octree {
         }
         return blocks_.data()[block].slots[code >> shift & 7];
     }
-    /// `count` blocks in all: the first as it is, the others to be written by the builder.
+    /// Sets the number of blocks to `count`; keeps the first one, the builder must write the others.
     void setBlocks(std::size_t count) {
         blocks_.extend(count, 1);
         blockCount_ = count;
     }
-    /// Room for `count` voxels, to be written by the builder; as many as there are or fewer keep their values.
+    /// Sets the number of voxels to `count`. The builder must write new voxels; existing ones keep their values unless
+    /// the memory grows.
     void setVoxels(std::size_t count, bool withMasses) {
         voxels_.hold(count);
         voxelCount_ = count;

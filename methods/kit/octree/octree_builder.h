@@ -1,4 +1,4 @@
-// One way to build the octree from particles. All builders give the same voxels, in the same order.
+// Interface of the ways to build the octree from particles. All builders return the same voxels in the same order.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace dustbench::octree {
 class DUSTBENCH_API OctreeBuilder {
  public:
     virtual ~OctreeBuilder();
-    /// Gives how many particles lie outside the world and are in no voxel. Throws SimulationError where a position
-    /// is not a number.
+    /// Returns the number of particles outside the world, which are in no voxel. Throws SimulationError if a position
+    /// is NaN.
     virtual std::int64_t build(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings,
                                Octree& tree) = 0;
 };

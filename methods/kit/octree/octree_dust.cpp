@@ -17,14 +17,14 @@ namespace dustbench::octree {
 namespace {
 
 constexpr std::size_t voxelsPerBlock = 16'384;
-/// A billboard's opacity stays below 1, whose optical depth has no end.
+/// Keeps a billboard's opacity below 1, where the optical depth is infinite.
 constexpr float maximumOpacity = 0.99999f;
-/// The vehicle stays this share of the world's edge away from its faces, wherever the dust is.
+/// Minimum distance between the vehicle and the faces of the world, as a fraction of the world's edge.
 constexpr double vehicleMargin = 1.0 / 8;
 
-/// The middle between the minimum and the maximum; what is not a number is passed over.
+/// Midpoint between the minimum and the maximum; ignores NaN.
 double middleOf(std::span<const float> values) {
-    // Lanes side by side, so that the comparisons do not wait for each other.
+    // Independent lanes, so that the comparisons do not wait for each other.
     constexpr std::size_t lanes = 16;
     std::array<float, lanes> minimum, maximum;
     minimum.fill(std::numeric_limits<float>::infinity());
@@ -41,8 +41,8 @@ double middleOf(std::span<const float> values) {
                   static_cast<double>(*std::ranges::max_element(maximum)));
 }
 
-/// Where the world's middle belongs: a trail lies behind its vehicle, so the world lies round the dust and holds the
-/// vehicle as well.
+/// Centre of the world. A trail lies behind its vehicle, so the world is centred on the dust but keeps the vehicle
+/// inside.
 glm::dvec3 worldMiddle(const Puffs& dust, const glm::dvec3& vehicle, double edgeMetres) {
     const double farthest = (0.5 - vehicleMargin) * edgeMetres;
     const auto along = [farthest](std::span<const float> column, double vehicleAt) {
@@ -150,7 +150,7 @@ void OctreeDust::update(const Frame& frame) {
         uploadCubes(order);
 }
 
-/// r = edge/√(π/2) and τ = mass/edge²: the Gaussian puff of the voxel's mass and of the optical depth across it.
+/// r = edge/√(π/2) and τ = mass/edge²: a Gaussian puff with the voxel's mass and optical depth.
 void OctreeDust::uploadBillboards(std::span<const std::uint32_t> order) {
     const VoxelCloud& cloud = shown();
     const draw::InstanceLayout layout = billboards_->layout(cloud.coloured());
@@ -198,7 +198,7 @@ void OctreeDust::uploadCubes(std::span<const std::uint32_t> order) {
 void OctreeDust::uploadTree() {
     const VoxelCloud& cloud = shown();
     const Octree* tree = &tree_;
-    if (fade_) {  // fading voxels are in no tree yet
+    if (fade_) {  // fading voxels are not in the tree
         shownTree_.clear(cloud.lattice.depth);
         for (std::size_t i = 0; i < cloud.size(); ++i)
             shownTree_.makeNode(cloud.code(i), cloud.rise(i)).voxel = static_cast<std::uint32_t>(i + 1);

@@ -1,9 +1,10 @@
-// Dust as the voxels of an octree: what both octree methods have in common, which is all but the way of building.
+// Shows dust as octree voxels: everything that the two octree methods share, which is all except the construction.
 //
-// Each frame the tree is built anew over a cube that goes with the vehicle and its trail; its voxels are listed, faded
-// if wanted, and drawn as billboards, as cubes or by a march through the tree.
+// Each frame rebuilds the tree over a cube that follows the vehicle and its trail, lists its voxels, optionally
+// cross-fades them, and draws them as billboards, as cubes or by ray marching through the tree.
 //
-// Source: Carr2006, 3.2 and 3.5. Departs: opacity by one optical model for all methods (maths/transmittance.h).
+// Source: Carr2006, 3.2 and 3.5. Departs: opacity follows the optical model shared by all methods
+// (maths/transmittance.h).
 #pragma once
 
 #include <memory>
@@ -20,11 +21,11 @@
 
 namespace dustbench::octree {
 
-/// What a voxel is drawn as.
+/// How voxels are drawn.
 enum class Render {
-    billboards,  ///< a plain, smoothly faded circle
+    billboards,  ///< smoothly faded circles
     cubes,       ///< six faces
-    raycast,     ///< a march through the tree
+    raycast,     ///< ray marching through the tree
 };
 inline constexpr Choices<Render> renders{
     {"billboards", Render::billboards}, {"cubes", Render::cubes}, {"raycast", Render::raycast}};
@@ -38,9 +39,9 @@ struct DustSettings {
     double worldEdgeMetres = 128;
 };
 
-/// Adds all of the above to a method's parameters, and what OctreeDust reports to its facts.
+/// Adds the parameters above to the method's parameters, and the facts that OctreeDust reports.
 DUSTBENCH_API void declareDust(MethodInfo& info);
-/// Throws InputError where the values do not go together.
+/// Throws InputError if the values are inconsistent.
 [[nodiscard]] DUSTBENCH_API DustSettings dustSettings(const ParameterValues& values);
 
 class DUSTBENCH_API OctreeDust final : public Method {
@@ -58,12 +59,12 @@ class DUSTBENCH_API OctreeDust final : public Method {
     [[nodiscard]] std::int64_t primitives() const override { return static_cast<std::int64_t>(shown().size()); }
 
     [[nodiscard]] const Octree& tree() const { return tree_; }
-    /// What is drawn.
+    /// The voxels that are drawn.
     [[nodiscard]] const VoxelCloud& shown() const { return *shown_; }
 
  private:
     void build(const Frame& frame);
-    /// Of the particles' optical mass; empty where they have none.
+    /// Fraction of the particles' optical mass; empty if they have none.
     [[nodiscard]] std::optional<double> massKept(const Puffs& dust) const;
     void uploadBillboards(std::span<const std::uint32_t> order);
     void uploadCubes(std::span<const std::uint32_t> order);
@@ -73,7 +74,7 @@ class DUSTBENCH_API OctreeDust final : public Method {
     MemoryLedger ledger_;
     std::unique_ptr<OctreeBuilder> builder_;
     Octree tree_;
-    Octree shownTree_;  ///< of the faded voxels, where a march needs one
+    Octree shownTree_;  ///< tree of the faded voxels, used only for ray marching
     VoxelCloud cloud_;
     std::optional<CrossFade> fade_;
     const VoxelCloud* shown_ = &cloud_;

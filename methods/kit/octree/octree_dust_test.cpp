@@ -18,7 +18,7 @@
 namespace dustbench::octree {
 namespace {
 
-/// The plainest builder: what lies in a voxel is looked up in a map.
+/// The simplest builder: looks up voxels in a map.
 class MapBuilder final : public OctreeBuilder {
  public:
     std::int64_t build(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings,
@@ -52,7 +52,7 @@ class MapBuilder final : public OctreeBuilder {
     }
 };
 
-/// A trail behind a vehicle at the world's zero.
+/// A trail behind a vehicle at the world's origin.
 class Moment : public TestMoment {
  public:
     explicit Moment(std::size_t count) : TestMoment(count, 160, 120, {0, 6, 24}, {-6, -5, -24}) {
@@ -84,7 +84,7 @@ DustSettings settingsOf(Render render, OpacityPolicy policy = OpacityPolicy::acc
     return settings;
 }
 
-/// Σ optical depth over the picture.
+/// Optical depth summed over the picture.
 double depthOf(const pictures::Image& image) {
     double sum = 0;
     for (const glm::vec4& pixel : image.pixels) sum -= std::log1p(-static_cast<double>(pixel.a));
@@ -102,7 +102,7 @@ TEST(OctreeDust, ShowsTheSameMassHoweverItIsDrawn) {
     }
     ASSERT_GT(depths[Render::raycast], 100);
     EXPECT_NEAR(depths[Render::billboards] / depths[Render::raycast], 1, 0.03);
-    // Six flat faces count an oblique crossing like a straight one: too much where they cut corners.
+    // Flat faces count an oblique crossing like a straight one: too much where rays cut off corners.
     EXPECT_NEAR(depths[Render::cubes] / depths[Render::raycast], 1, 0.45);
 }
 
@@ -131,7 +131,7 @@ TEST(OctreeDust, KeepsAllMassWhereItAccumulatesAndSaysWhatElseItDrops) {
 
 TEST(OctreeDust, HoldsATrailThatIsLongerThanHalfItsWorld) {
     Moment moment(1000);
-    for (float& x : moment.dust.x) x *= 8;  // 96 m, of a world of 128
+    for (float& x : moment.dust.x) x *= 8;  // 96 m, in a world of 128 m
     OctreeDust method = make(settingsOf(Render::raycast));
     const auto clipped = [&] {
         return std::get<std::int64_t>(factOf(method, moment, "clipped", FactOver::maximumOfFrames));
@@ -140,7 +140,7 @@ TEST(OctreeDust, HoldsATrailThatIsLongerThanHalfItsWorld) {
     method.update(moment.frame());
     EXPECT_EQ(clipped(), 0);
     EXPECT_NEAR(std::get<double>(factOf(method, moment, "mass_kept", FactOver::lastFrame)), 1, 1e-6);
-    // One that is far away is lost and counted, and does not take the others with it.
+    // A single distant particle is dropped and counted, and does not affect the others.
     moment.dust.x[7] = -1e7f;
     method.update(moment.frame());
     EXPECT_GE(clipped(), 1);
@@ -217,7 +217,7 @@ TEST(OctreeDust, CrossFadingLeavesLessToPop) {
     EXPECT_LT(std::sqrt(jump[true]), 0.4 * std::sqrt(jump[false]));
 }
 
-/// One voxel at a lattice.
+/// A cloud of one voxel on a lattice.
 VoxelCloud oneVoxel(MemoryLedger& ledger, const Lattice& lattice, const glm::uvec3& cell, float mass) {
     VoxelCloud cloud(ledger);
     cloud.lattice = lattice;
@@ -245,7 +245,7 @@ TEST(CrossFade, FollowsByTheLawOfItsTimeConstant) {
     const float held = fade.follow(target, 0.05).mass[0];
     EXPECT_NEAR(fade.follow(nothing, 0.05).mass[0], static_cast<double>(held) * std::exp(-0.05 / 0.2), 1e-6);
     for (int n = 0; n < 100; ++n) fade.follow(nothing, 0.05);
-    EXPECT_EQ(fade.follow(nothing, 0.05).size(), 0u);  // and then it is gone
+    EXPECT_EQ(fade.follow(nothing, 0.05).size(), 0u);  // the voxel is gone
 }
 
 TEST(CrossFade, StaysWhereItIsWhileTheWorldMoves) {
@@ -256,12 +256,12 @@ TEST(CrossFade, StaysWhereItIsWhileTheWorldMoves) {
     fade.follow(oneVoxel(ledger, lattice, {130, 128, 120}, 1), 0.05);
     const float x = fade.follow(oneVoxel(ledger, lattice, {130, 128, 120}, 1), 0.05).x[0];
     Lattice moved = lattice;
-    moved.origin.x += 4;  // eight finest cells on
+    moved.origin.x += 4;  // shifted by eight finest cells
     const VoxelCloud& shown = fade.follow(oneVoxel(ledger, moved, {122, 128, 120}, 1), 0.05);
     ASSERT_EQ(shown.size(), 1u);
     EXPECT_NEAR(shown.mass[0], 1, 1e-6);
     EXPECT_EQ(shown.x[0], x);
-    // Out of the world: dropped.
+    // Outside the world: dropped.
     moved.origin.x += 256;
     VoxelCloud nothing(ledger);
     nothing.lattice = moved;

@@ -13,7 +13,7 @@
 namespace dustbench::octree {
 namespace {
 
-/// Texels a row, and rows: what every OpenGL 4.5 can.
+/// Texels per row, and rows: limits that every OpenGL 4.5 implementation supports.
 constexpr int rowBits = 12;
 constexpr std::size_t texelsPerRow = 1u << rowBits, maximumRows = 16384;
 
@@ -29,10 +29,10 @@ Rays raysOf(const scene::View& view, const glm::mat4& worldToEye) {
     return {-axes[2] - 0.5 * view.width * right - 0.5 * view.height * up, right, up};
 }
 
-/// Whether a box, its corners relative to the eye, lies wholly before the near plane.
+/// Whether a box, given by its corners relative to the eye, lies entirely beyond the near plane.
 bool isBeforeNearPlane(const glm::dvec3& minimum, const glm::dvec3& maximum, const glm::dvec3& forward,
                        double nearMetres) {
-    double nearest = 0;  // the nearest corner along the camera's axis
+    double nearest = 0;  // distance of the nearest corner along the camera's axis
     for (int axis = 0; axis < 3; ++axis)
         nearest += std::min(forward[axis] * minimum[axis], forward[axis] * maximum[axis]);
     return nearest > 1.001 * nearMetres;
@@ -87,7 +87,7 @@ void OctreeMarch::draw(const scene::View& view, const glm::vec3& colourOfAll, co
     const glm::mat4 worldToEye = view.worldToEye(), eyeToClip = view.eyeToClip();
     const Rays rays = raysOf(view, worldToEye);
 
-    // The eye is taken off in double precision, so that the world may lie anywhere.
+    // Subtract the eye in double precision, so that the world may lie anywhere.
     const double cellMetres = lattice_.cellEdgeMetres(lattice_.depth);
     const glm::dvec3 eyeMetres = view.camera.eye - lattice_.origin;
     program.set("levels", lattice_.depth);
@@ -100,7 +100,7 @@ void OctreeMarch::draw(const scene::View& view, const glm::vec3& colourOfAll, co
     program.set("nearDistance", static_cast<float>(view.camera.nearMetres / cellMetres));
     if (tree_.colours().empty()) program.set("colourOfAll", colourOfAll);
 
-    // A little larger than the voxels: a rasteriser rounds corners, and rays that miss end at once.
+    // Slightly larger than the voxels, because rasterisers round corners; rays that miss end at once.
     const glm::dvec3 minimum = cellMetres * (glm::dvec3(tree_.minimum()) - 0.5) - eyeMetres;
     const glm::dvec3 maximum = cellMetres * (glm::dvec3(tree_.maximum()) + 0.5) - eyeMetres;
     const glm::dvec3 forward = -glm::dvec3(glm::transpose(glm::mat3(worldToEye))[2]);

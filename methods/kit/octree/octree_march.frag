@@ -1,11 +1,11 @@
-// Front to back along the pixel's ray through the cells of an octree, exact for an extinction constant in each.
+// Marches front to back along the pixel's ray through the cells of an octree; exact for constant extinction per cell.
 //
 //     D ← D + σ·Δ,   T = exp2(−D),   C ← C + (T before − T after)·colour
 //
-// Textures hold the tree, not storage buffers: read in this loop, those gave wrong values on llvmpipe (Mesa 22.3).
-// Axes along which the ray runs backwards are mirrored, so that it always runs towards greater cells. Its place is kept
-// as the finest cell it is in: steps go from cell to cell in integers, each advances along an axis and none goes back
-// along another, so that rounding can neither skip a cell nor run in a circle.
+// The tree is stored in textures: storage buffers read in this loop gave wrong values on llvmpipe (Mesa 22.3).
+// Axes along which the ray runs backwards are mirrored, so that it always runs towards higher cells. Its position is
+// the finest cell that contains it: steps go from cell to cell in integers, and each advances along one axis without
+// going back along another, so that rounding can neither skip a cell nor cause an endless loop.
 layout(binding = 1) uniform sampler2D slots;  // octree_march_tree.h, row after row
 #ifdef COLOURED
 layout(binding = 2) uniform sampler2D colours;
@@ -14,11 +14,11 @@ uniform vec3 colourOfAll;
 #endif
 layout(binding = 0) uniform sampler2D sceneDepth;
 
-// Lengths are in finest cells. A ray's parameter is the distance along the camera's axis, as the depth buffer has it.
+// Lengths are in finest cells. A ray's parameter is the distance along the camera's axis, as in the depth buffer.
 uniform int levels;
 uniform vec3 eye;                         // from the world's minimum corner
-uniform vec3 minimum, maximum;                 // cells [minimum, most) hold all there is
-uniform vec3 rayCorner, rayRight, rayUp;  // the ray through the picture's corner, and what one pixel adds
+uniform vec3 minimum, maximum;  // cells [minimum, maximum) contain all voxels
+uniform vec3 rayCorner, rayRight, rayUp;  // the ray through the image's corner, and its change per pixel
 uniform float nearDistance;
 
 layout(location = 0) out vec4 colour;
@@ -39,7 +39,7 @@ void main() {
     vec3 from = mix(eye, float(world) - eye, back);
     ivec3 first = ivec3(mix(minimum, world - maximum, back)), last = ivec3(mix(maximum, world - minimum, back));
     int mirrored = (back.x ? 4 : 0) | (back.y ? 2 : 0) | (back.z ? 1 : 0);
-    ray = max(abs(ray), 1e-12);  // finite quotients; no ray gets that far
+    ray = max(abs(ray), 1e-12);  // finite quotients; no ray gets this far
     vec3 perRay = 1.0 / ray;
 
     vec3 enter = (vec3(first) - from) * perRay, leave = (vec3(last) - from) * perRay;
@@ -54,8 +54,8 @@ void main() {
     float transmittance = 1.0;
 #endif
 
-    // Blocks on the way down, by the bit of the cell that chooses among their slots: a step goes back up only as far as
-    // the cell's bits have changed. Twice as fast as going down from the root.
+    // Blocks on the path down, by the bit of the cell that selects among their slots: a step goes up only as far as the
+    // cell's bits have changed. Twice as fast as restarting from the root.
     int stack[12];
     int bit = levels - 1;
     stack[bit] = 0;

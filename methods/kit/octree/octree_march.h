@@ -1,11 +1,11 @@
-// Draws an octree by marching through the tree itself along each pixel's ray, front to back.
+// Draws an octree by marching along each pixel's ray through the tree, front to back.
 //
-// Exact for an extinction constant in each voxel, up to rounding: no step length, no order of voxels. A ray ends at the
-// scene, at the end of the voxels, or where less than 2^-14 of the light behind it would come through.
+// Exact, up to rounding, for constant extinction in each voxel: needs no step length and no voxel order. A ray ends at
+// the scene, at the end of the voxels, or when its transmittance falls below 2^-14.
 //
-// Units: m, extinction per metre. Frame: world. Colours: linear RGB. Owns: the tree's slots, on the GPU and beside it.
-// Threads: the OpenGL thread's. Source: Carr2006, 5. Departs: the "altogether different" drawing that it leaves to the
-// future.
+// Units: m, extinction per metre. Frame: world. Colours: linear RGB. Owns: the tree's slots, on the GPU and on the CPU.
+// Threads: the OpenGL thread. Source: Carr2006, 5. Departs: implements the "altogether different" drawing that the
+// paper leaves to future work.
 #pragma once
 
 #include <cstddef>
@@ -25,11 +25,11 @@ class OctreeMarch {
  public:
     explicit OctreeMarch(gpu::Device& device);
 
-    /// Takes over all that is drawn; the tree may go afterwards. Throws as OctreeMarchTree::set does, and InputError
-    /// where there are more than 2^23 blocks; then nothing is drawn.
+    /// Copies everything that is drawn; the tree need not outlive the call. Throws like OctreeMarchTree::set, and
+    /// InputError if there are more than 2^23 blocks; nothing is drawn after an error.
     void upload(const MarchedTree& tree);
 
-    /// Draws what was uploaded last, as often as wanted. `colourOfAll` is for trees without colours of their own.
+    /// Draws the tree uploaded last; may be called repeatedly. `colourOfAll` applies to trees without own colours.
     void draw(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer);
 
     [[nodiscard]] std::size_t gpuBytes() const { return slots_.bytes() + colours_.bytes(); }
@@ -41,12 +41,12 @@ class OctreeMarch {
     gpu::Device& device_;
     Lattice lattice_;
     OctreeMarchTree tree_;
-    gpu::Texture slots_;  ///< in rows one after another; colours alike
+    gpu::Texture slots_;  ///< row after row; colours alike
     gpu::Texture colours_;
     std::size_t rows_ = 0;
-    bool drawable_ = false;  ///< false where there is nothing, or an upload failed
+    bool drawable_ = false;  ///< false if the tree is empty or an upload failed
     gpu::VertexArray vertices_;
-    std::optional<gpu::Program> oneColour_, ownColours_;  ///< made when first wanted
+    std::optional<gpu::Program> oneColour_, ownColours_;  ///< compiled on first use
 };
 
 }  // namespace dustbench::octree

@@ -1,6 +1,6 @@
-// Covers the pixels whose rays may meet a box: by those of its faces that look towards the eye, or the whole picture.
+// Covers the pixels whose rays may meet a box: draws the faces of the box that face the eye, or the whole image.
 uniform bool wholePicture;
-uniform vec3 boxMinimum, boxMaximum;  // from the eye, along the world's axes
+uniform vec3 boxMinimum, boxMaximum;  // relative to the eye, along the world's axes
 uniform mat4 worldToEye;
 uniform vec3 projection;  // x and y scale, near distance
 
@@ -9,7 +9,7 @@ void main() {
         gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1);
         return;
     }
-    // Six faces of two triangles; seen from outside their corners run counterclockwise.
+    // Six faces of two triangles, counter-clockwise as seen from outside.
     int face = gl_VertexID / 6, axis = face >> 1, side = face & 1;
     int corner = int[6](0, 1, 2, 2, 1, 3)[gl_VertexID % 6];
     ivec2 uv = ivec2(corner & 1, corner >> 1);

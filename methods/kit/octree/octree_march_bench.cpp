@@ -1,6 +1,6 @@
-// The march through the tree: the whole pass, upload and wait included, beside the pass alone.
+// Benchmarks ray marching through the tree: the whole pass with upload and wait, and the pass alone.
 //
-// A trail of 60 m in a world of 128 m, 640×480: from aside, as a chasing camera sees it, and from within.
+// A trail of 60 m in a world of 128 m at 640×480: from the side, from a chase camera, and from within.
 #include <benchmark/benchmark.h>
 
 #include <optional>

@@ -24,7 +24,7 @@ class Canvas : public draw::TestCanvas {
         return picture([&](const gpu::Layer& layer) { march.draw(view, colourOfAll, layer); });
     }
 
-    /// The ray of a pixel: from the eye, where it ends, and its direction in double precision.
+    /// The ray of a pixel: its direction in double precision, and the distance from the eye at which it ends.
     struct Ray {
         glm::dvec3 direction;
         double end;
@@ -58,7 +58,7 @@ Segment crossing(const Lattice& lattice, const TestVoxel& voxel, const glm::dvec
     return segment.enter < segment.leave ? segment : Segment{0, 0};
 }
 
-/// Voxel by voxel, whatever lies over what: Σ extinction × length of the ray within it.
+/// Sums over all voxels, including overlapping ones: Σ extinction × length of the ray within it.
 double opticalDepth(const TestTree& tree, const glm::dvec3& eye, const Canvas::Ray& ray) {
     double depth = 0;
     for (const TestVoxel& voxel : tree.voxels()) {
@@ -68,7 +68,7 @@ double opticalDepth(const TestTree& tree, const glm::dvec3& eye, const Canvas::R
     return depth;
 }
 
-/// ∫ T·Σ σᵢcᵢ dt between all the places where a ray enters or leaves a voxel.
+/// ∫ T·Σ σᵢcᵢ dt between consecutive points where the ray enters or leaves a voxel.
 glm::dvec4 colourAlong(const TestTree& tree, const glm::dvec3& eye, const Canvas::Ray& ray) {
     std::vector<std::pair<Segment, const TestVoxel*>> crossings;
     std::vector<double> places;
@@ -98,9 +98,9 @@ glm::dvec4 colourAlong(const TestTree& tree, const glm::dvec3& eye, const Canvas
     return sum;
 }
 
-constexpr double bound = 1.2e-4;  ///< 2^-14 where a ray ends early, and floats
+constexpr double bound = 1.2e-4;  ///< 2^-14 for rays that end early, and float rounding
 
-/// Each `step`-th pixel against the sums in double precision. Returns the mean alpha.
+/// Compares every `step`-th pixel with the sums in double precision. Returns the mean alpha.
 double expectSums(const Canvas& canvas, const TestTree& tree, const pictures::Image& image, bool coloured,
                   int step = 1) {
     double total = 0;
@@ -129,7 +129,7 @@ glm::dvec3 somewhere(std::mt19937& random, double spread) {
     return {x, y, z};
 }
 
-/// Voxels of all levels in clusters, so that coarse ones lie over fine ones.
+/// Clustered voxels of all levels, so that coarse ones overlap fine ones.
 TestTree randomTree(const Lattice& lattice, std::mt19937& random, int count) {
     TestTree tree(lattice);
     std::uniform_real_distribution<double> share(0, 1);
@@ -158,7 +158,7 @@ TEST(OctreeMarch, SumsUpExtinctionTimesLengthOverAllVoxels) {
         const Lattice lattice{somewhere(random, 300), round % 2 ? 128.0 : 7.3, depth};
         const TestTree tree = randomTree(lattice, random, 10 + 10 * round);
         const glm::dvec3 middle = lattice.origin + lattice.edgeMetres / 2;
-        // From outside towards the middle, and from within to anywhere; before a wall every third time.
+        // From outside towards the middle, and from within in any direction; every third round with a wall.
         const glm::dvec3 eye = middle + somewhere(random, (round % 4 < 2 ? 1.2 : 0.4) * lattice.edgeMetres);
         canvas.lookFrom(eye, round % 4 < 2 ? middle - eye : somewhere(random, 1));
         canvas.setWall(round % 3 == 2 ? std::optional(0.4 * lattice.edgeMetres) : std::nullopt, 48);
@@ -188,7 +188,7 @@ TEST(OctreeMarch, EqualsTheSumsForADenseBlockOfFineCells) {
 
 TEST(OctreeMarch, FollowsRaysAlongTheAxesAndTheBordersOfCells) {
     Canvas canvas;
-    // An odd number of pixels: the middle ray is the camera's axis, with two components of 0 exactly.
+    // An odd number of pixels: the middle ray is the camera's axis, with two components of exactly 0.
     canvas.view.width = 95;
     canvas.view.height = 71;
     OctreeMarch march(Canvas::device());
@@ -260,7 +260,7 @@ TEST(OctreeMarch, ReachesTheFinestOfTwelveLevelsFarFromTheWorldsOrigin) {
         const pictures::Image image = canvas.draw(march);
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
-                // The world's place allows no closer look: floats of a cell's place leave some 1e-4 of its edge.
+                // The world's position limits precision: float cell coordinates leave errors of about 1e-4 of an edge.
                 const Canvas::Ray ray = canvas.ray(x, y);
                 const double alpha = -std::expm1(-opticalDepth(tree, canvas.view.camera.eye, ray));
                 ASSERT_NEAR(image.at(x, y).a, alpha, 2e-3) << x << ',' << y;
@@ -271,7 +271,7 @@ TEST(OctreeMarch, ReachesTheFinestOfTwelveLevelsFarFromTheWorldsOrigin) {
 }
 
 TEST(OctreeMarch, IsTheSameWhereverTheBoxIsCutByThePicture) {
-    // A box before the near plane is drawn by its faces, one that is not by the whole picture.
+    // A box beyond the near plane is drawn by its faces, any other by the whole image.
     Canvas canvas;
     OctreeMarch march(Canvas::device());
     std::mt19937 random(11);

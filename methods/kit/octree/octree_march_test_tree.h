@@ -1,4 +1,4 @@
-// Trees for tests and benchmarks of the march, made from lists of voxels.
+// Trees for tests and benchmarks of ray marching, built from lists of voxels.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class TestTree {
  public:
     explicit TestTree(const Lattice& lattice) : lattice_(lattice) {}
 
-    /// False where there is a voxel already.
+    /// Returns false if there is a voxel already.
     bool add(const TestVoxel& voxel) {
         if (blocks_.empty()) blocks_.emplace_back();
         std::uint32_t block = 0;
@@ -63,7 +63,7 @@ class TestTree {
 };
 
 /// The dust of a car that has driven a curve of 60 m and stands at its end, x = 30 m: puffs drift, grow and thin out
-/// with age, and old ones have larger voxels.
+/// with age, and old puffs have larger voxels.
 inline TestTree trailTree(const Lattice& lattice, std::size_t voxels, int levels = 4) {
     TestTree tree(lattice);
     std::mt19937 random(1);

@@ -36,7 +36,7 @@ void OctreeMarchTree::set(const MarchedTree& tree) {
 
     if (!tree.blocks.empty()) queue_.push_back({NodeSlot{}, 1, glm::ivec3(0), 0, glm::vec3(0)});
     for (std::size_t next = 0; next < queue_.size(); ++next) {
-        const Pending pending = queue_[next];             // the queue grows meanwhile
+        const Pending pending = queue_[next];             // a copy: the queue grows in the loop
         if (8 * next >= slots_.size()) resize(2 * next);  // families become blocks
         write(tree, pending, 8 * next);
     }
@@ -48,7 +48,7 @@ void OctreeMarchTree::write(const MarchedTree& tree, const Pending& pending, std
     const float scale = -static_cast<float>(tree.lattice.cellEdgeMetres(depth) * std::numbers::log2e);
     for (int octant = 0; octant < 8; ++octant, ++slot) {
         const NodeSlot node = NodeBlock::childOf(pending.node, static_cast<std::size_t>(octant), tree.blocks.data());
-        if (!node.exists()) {  // as most are
+        if (!node.exists()) {  // the most common case
             slots_[slot] = scale * pending.extinctionPerMetre;
             if (!tree.colours.empty()) colours_[slot] = meanColour(pending.weightedColour, pending.extinctionPerMetre);
             continue;

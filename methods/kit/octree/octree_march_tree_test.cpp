@@ -38,7 +38,7 @@ TEST(OctreeMarchTree, SumsFromTheRootDownAndBoundsTheVoxels) {
 }
 
 TEST(OctreeMarchTree, TakesFinestCellsWithoutNodesOfTheirOwn) {
-    // A node with a voxel of its own and two finest cells in it, another with one finest cell alone.
+    // A node with its own voxel and two finest cells, and another with a single finest cell.
     std::vector<NodeBlock> nodes(4), families(2);
     nodes[0].slots[5].children = families[0].slots[5].children = 1;
     nodes[1].slots[2] = {2, 1};
@@ -72,7 +72,7 @@ TEST(OctreeMarchTree, RefusesWhatIsNoTree) {
     circle[1].slots[7].children = 1;
     for (std::uint32_t i = 0; i < 5; ++i) deep[i].slots[0].children = i + 1;
     for (std::uint32_t i = 0; i < 3; ++i) family[i].slots[0].children = i + 1;
-    family[3].slots[0] = {NodeSlot::familyFlag | 1, 1};  // below the finest
+    family[3].slots[0] = {NodeSlot::familyFlag | 1, 1};  // below the finest level
     const Lattice lattice{glm::dvec3(0), 16, 4};
     refused({lattice, family, one, {}});
     refused({lattice, voxel, {}, {}});

@@ -1,6 +1,4 @@
-// Where the octree's world lies: a cube that follows the vehicle in whole steps, so that its lattice stays fixed in the
-// world.
-//
+// Places the octree's world: a cube that moves in whole steps, so that its lattice stays fixed in space.
 // Units: metres. Frame: world.
 #pragma once
 
@@ -8,8 +6,9 @@
 
 namespace dustbench::octree {
 
-/// Least corner of the cube of edge `edgeMetres` round `centre`, moved in steps of `stepMetres` (the coarsest voxel's
-/// edge). On level ground y = 0 is the cube's middle. Throws std::invalid_argument unless 0 < stepMetres ≤ edgeMetres.
+/// Minimum corner of the cube of edge `edgeMetres` around `centre`, moved in steps of `stepMetres` (the coarsest
+/// voxel's edge). On level ground the cube's middle is at y = 0. Throws std::invalid_argument unless 0 < stepMetres ≤
+/// edgeMetres.
 [[nodiscard]] glm::dvec3 octreeWorldOrigin(const glm::dvec3& centre, double edgeMetres, double stepMetres);
 
 }  // namespace dustbench::octree

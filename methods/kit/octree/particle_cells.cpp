@@ -11,14 +11,14 @@ namespace dustbench::octree {
 namespace {
 
 constexpr std::size_t blockSize = 16'384;
-constexpr std::size_t stripSize = 256;  ///< particles whose words are made at once, by the vector units
+constexpr std::size_t stripSize = 256;  ///< particles whose words the vector units compute at once
 
 }  // namespace
 
 ParticleCells::ParticleCells(MemoryLedger& ledger)
     : entries_(ledger.account("octree particle cells")), blockSizes_(ledger.account("octree particle cells")) {}
 
-/// Each block packs what lies inside the world to its own front.
+/// Each block compacts the particles inside the world to its own front.
 template <LevelRule rule>
 void ParticleCells::fill(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings) {
     CellEntry* const entries = entries_.data();

@@ -1,6 +1,6 @@
-// The list of active particles with which a faithful build begins: each particle's cell and level, as one packed word.
+// The list of active particles that starts a faithful build: each particle's cell and level in one packed word.
 //
-// Threads: parallel over fixed blocks; the same result at any number of threads.
+// Threads: parallel over fixed blocks; the result does not depend on the number of threads.
 // Source: Carr2006, 3.3 and 3.4, step 1.
 #pragma once
 
@@ -15,12 +15,12 @@
 
 namespace dustbench::octree {
 
-/// Entries in the order of the store, without the particles outside the world, which are counted.
+/// Entries in store order. Particles outside the world have no entry, but are counted.
 class DUSTBENCH_API ParticleCells {
  public:
     explicit ParticleCells(MemoryLedger& ledger);
 
-    /// Throws as `checkPositions` and `checkCount` do (cell_kernel.h).
+    /// Throws like `checkPositions` and `checkCount` (cell_kernel.h).
     void find(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings);
 
     [[nodiscard]] std::span<const CellEntry> entries() const { return {entries_.data(), count_}; }

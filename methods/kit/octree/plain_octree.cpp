@@ -17,18 +17,18 @@ double finestEdgeMetres(const Lattice& lattice) {
 int riseOf(const Puffs& store, std::size_t i, const Lattice& lattice, const OctreeSettings& settings) {
     const int highest = settings.levels - 1;
     if (settings.levelRule == LevelRule::age) {
-        // ⌊L·age/lifetime⌋, in the precision of the attributes, so that a product just below a whole number is the same
-        // everywhere.
+        // ⌊L·age/lifetime⌋ in the precision of the attributes, so that products just below a whole number agree with
+        // the fast kernels.
         const float levels = static_cast<float>(settings.levels);
         return std::min(highest, static_cast<int>(std::floor(levels * store.age[i] / store.lifetime[i])));
     }
-    // The level whose edge is nearest to √(π/2)·r, on the scale of doubling.
+    // The level whose edge is nearest to √(π/2)·r on a logarithmic scale.
     const double wanted = std::sqrt(std::numbers::pi / 2) * static_cast<double>(store.radius[i]);
     const double doublings = std::floor(std::log2(wanted / finestEdgeMetres(lattice)) + 0.5);
     return static_cast<int>(std::clamp(doublings, 0.0, static_cast<double>(highest)));
 }
 
-/// Number of the finest cell along an axis; none outside the world.
+/// Number of the finest cell along an axis; empty outside the world.
 std::optional<std::int64_t> cellAlong(float place, double originMetres, const Lattice& lattice) {
     const double edge = finestEdgeMetres(lattice);
     const double number = std::floor(static_cast<double>(place) / edge) - std::round(originMetres / edge);
@@ -43,7 +43,7 @@ double massOf(const Puffs& store, std::size_t i) {
     return tau * 2 * std::numbers::pi * s * s;
 }
 
-/// Whether a voxel of both stands for `a`: the highest opacity or the lowest age, the lower serial among equals.
+/// Whether `a` rather than `b` represents their voxel: the highest opacity or the lowest age; ties by lower serial.
 bool comesBefore(const Puffs& store, OpacityPolicy policy, std::size_t a, std::size_t b) {
     const auto rank = [&](std::size_t i) {
         return std::pair(policy == OpacityPolicy::max ? -store.opacity[i] : store.age[i], store.serial[i]);

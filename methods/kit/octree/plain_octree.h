@@ -1,7 +1,7 @@
-// The voxels of a set of particles, one particle after the other: what all builders of the octree are held against.
+// Reference implementation of the octree's voxels, one particle at a time; tests compare all builders with it.
 //
-// Units: metres. Frame: world. Threads: pure. Source: Carr2006, Fig. 3 (a puff's voxel is the cell that its centre lies
-// in, on a level that its age decides). Departs: octree_settings.h says what a voxel of several particles takes.
+// Units: metres. Frame: world. Threads: pure. Source: Carr2006, Fig. 3 (a puff's voxel is the cell that contains its
+// centre, at a level set by its age). Departs: octree_settings.h defines the voxel of several particles.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 namespace dustbench::octree {
 
 struct PlainVoxel {
-    std::uint32_t particle = 0;   ///< that it stands for
-    double massSquareMetres = 0;  ///< of all particles in it
+    std::uint32_t particle = 0;   ///< the particle that represents the voxel
+    double massSquareMetres = 0;  ///< of all particles in the voxel
 };
 
 struct PlainOctree {

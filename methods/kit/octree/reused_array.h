@@ -1,4 +1,4 @@
-// Memory that is kept from frame to frame and grows where it must; what it held before is not kept when it grows.
+// An array that keeps its memory between frames and grows on demand.
 #pragma once
 
 #include <span>
@@ -7,13 +7,13 @@
 
 namespace dustbench::octree {
 
-/// Owns: its elements, booked on a ledger. A steady load allocates nothing: growth leaves an eighth to spare.
+/// Owns: its elements, booked on a ledger. A steady load allocates nothing, because growth leaves room to spare.
 template <typename T>
 class ReusedArray {
  public:
     explicit ReusedArray(MemoryAccount& account) : memory_(account) {}
 
-    /// Room for `count` elements of any value; what was there is lost if it had to grow.
+    /// Room for `count` elements of unspecified value; growth discards the old contents.
     T* hold(std::size_t count) {
         if (memory_.size() < count) {
             const std::size_t size = count + count / 8;
@@ -23,7 +23,7 @@ class ReusedArray {
         }
         return memory_.data();
     }
-    /// Room for `count` elements; the first `used` stay.
+    /// Room for `count` elements; keeps the first `used`.
     T* extend(std::size_t count, std::size_t used) {
         if (memory_.size() < count) {
             memory_.resize(used);

@@ -1,7 +1,7 @@
-// The voxels of an octree as things to draw: a column each, in the tree's order.
+// The voxels of an octree as drawable primitives: one column per attribute, in tree order.
 //
-// Units: metres, m², seconds. Frame: world. Colours: linear RGB. Owns: its columns, on a ledger. Threads: filled in
-// parallel.
+// Units: metres, m², seconds. Frame: world. Colours: linear RGB. Owns: its columns, booked on a ledger. Threads: filled
+// in parallel.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,12 @@ namespace dustbench::octree {
 struct VoxelCloud {
     explicit VoxelCloud(MemoryLedger& ledger);
 
-    /// One voxel of `tree` after the other, with the mass and colour of the particle it stands for, or its sum.
+    /// Lists the voxels of `tree` with the mass and colour of the particle that represents each, or with the summed
+    /// mass.
     void take(const Octree& tree, const Puffs& store, const VoxelRule& rule, const Lattice& treeLattice);
     void resize(std::size_t count, bool coloured);
     [[nodiscard]] std::size_t size() const { return place.size(); }
-    /// Sets what follows from the place.
+    /// Sets the columns that derive from the place.
     void locate(std::size_t i);
     [[nodiscard]] bool coloured() const { return !red.empty(); }
     [[nodiscard]] int rise(std::size_t i) const { return 15 - static_cast<int>(place[i] & 15); }
@@ -32,11 +33,11 @@ struct VoxelCloud {
     [[nodiscard]] float extinctionPerMetre(std::size_t i) const { return opticalDepth(i) / edge[i]; }
 
     Lattice lattice;
-    LedgerVector<std::uint64_t> place;  ///< as CellEntry::place: rising
+    LedgerVector<std::uint64_t> place;  ///< as CellEntry::place: ascending
     LedgerVector<float> x, y, z, edge;  ///< centre; edge
-    LedgerVector<float> mass;           ///< τ·2π·s², of the kept particle or summed
+    LedgerVector<float> mass;           ///< τ·2π·s², of the representing particle or summed
     LedgerVector<float> age;
-    LedgerVector<float> red, green, blue;  ///< empty where all have one colour
+    LedgerVector<float> red, green, blue;  ///< empty if all share one colour
 };
 
 }  // namespace dustbench::octree
