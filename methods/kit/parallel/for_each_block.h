@@ -1,7 +1,6 @@
-// The one way in which loops are spread over threads: fixed blocks, so that the result cannot depend on how many there
-// are.
+// Spreads loops over threads in fixed blocks, so that the result does not depend on the number of threads.
 //
-// Threads: uses the current oneTBB arena. `work` is called from several threads, once for each block.
+// Threads: uses the current oneTBB arena. `work` is called from several threads, once per block.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +17,7 @@
 
 namespace dustbench::parallel {
 
-/// For choices that must not show in the result: how much work is worth splitting.
+/// For choices that must not affect the result, such as how finely to split work.
 [[nodiscard]] inline std::size_t threadCount() {
 #ifdef __SANITIZE_THREAD__
     return 2;
@@ -27,8 +26,8 @@ namespace dustbench::parallel {
 #endif
 }
 
-/// Runs `work(first, count)` over the blocks of 0..total: on the calling thread where there are no more than
-/// `fewBlocks`, else in parallel.
+/// Runs `work(first, count)` over the blocks of 0..total: on the calling thread if there are at most `fewBlocks`
+/// blocks, else in parallel.
 template <typename Work>
 void forEachBlock(std::size_t total, std::size_t blockSize, const Work& work, std::size_t fewBlocks = 1) {
     const auto block = [&](std::size_t b) { work(b * blockSize, std::min(blockSize, total - b * blockSize)); };
@@ -38,8 +37,7 @@ void forEachBlock(std::size_t total, std::size_t blockSize, const Work& work, st
         return;
     }
 #ifdef __SANITIZE_THREAD__
-    // ThreadSanitizer cannot look into a oneTBB built without it and sees races there that are none: plain threads
-    // instead.
+    // ThreadSanitizer cannot see into an uninstrumented oneTBB and reports false races: use plain threads instead.
     std::atomic<std::size_t> next{0};
     const auto takeBlocks = [&] {
         for (std::size_t b = next++; b < blocks; b = next++) block(b);

@@ -26,7 +26,7 @@ TEST(ForEachBlock, VisitsEveryIndexOnceAtAnyNumberOfThreads) {
 }
 
 TEST(ForEachBlock, SeesWhatWasWrittenBeforeAndIsSeenAfterwards) {
-    // Plain memory handed into the loop and out of it: above all for ThreadSanitizer to look at.
+    // Plain memory passed into and out of the loop, mainly as a test case for ThreadSanitizer.
     std::vector<int> in(5'000), out(5'000);
     for (int round = 0; round < 50; ++round) {
         std::fill(in.begin(), in.end(), round);

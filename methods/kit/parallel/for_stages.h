@@ -1,11 +1,11 @@
-// Several stages over the slabs of a grid in one pass through memory: each follows a slab behind the one before it,
-// while what that one has left is still in the cache.
+// Runs several stages over the slabs of a grid in one pass through memory: each stage follows one slab behind the
+// previous stage, whose results are still in the cache.
 //
-// For stages that read what the stage before left in a slab and in the two beside it, and write into the slab alone, as
-// half sweeps of red-black relaxation do. Blocks of slabs are gone through in parallel, each stage a slab narrower at
-// either end than the one before; what is left out around each border, a wedge that grows with the stages, follows as
-// soon as both sides of it are done. Source: Wellein2009 (wavefronts), Frigo2005 (trapezoids). Threads: uses the
-// current oneTBB arena. Any number of blocks has the same result.
+// For stages that read the previous stage's results in a slab and its two neighbours and write only that slab, such as
+// half sweeps of red-black relaxation. Blocks of slabs are processed in parallel; within a block each stage is one slab
+// narrower at either end than the previous stage. This leaves out a wedge around each border, which grows with the
+// stages and is processed as soon as both of its sides are done. Source: Wellein2009 (wavefronts), Frigo2005
+// (trapezoids). Threads: uses the current oneTBB arena. The result does not depend on the number of blocks.
 #pragma once
 
 #include <algorithm>
@@ -17,19 +17,21 @@
 
 namespace dustbench::parallel {
 
-/// `stage(number, slab)` for every stage of every slab, in an order in which each finds the stage before done in its
-/// slab and beside it, and the stage after not yet begun there.
+/// Calls `stage(number, slab)` for every stage of every slab. At each call the previous stage is done in the slab and
+/// its neighbours, and the next stage has not begun there.
 template <typename Stage>
 void forStages(std::size_t slabs, std::size_t stages, std::size_t maximumBlocks, const Stage& stage) {
     const std::size_t last = stages - 1;
-    // Wedges do not overlap.
+    // Wedges must not overlap.
     const std::size_t blocks = std::clamp<std::size_t>(slabs / std::max<std::size_t>(1, 2 * last), 1, maximumBlocks);
-    // A block does the wedge at its end as well, if nobody is late. That is as much work as its own stages leave out at
-    // both ends; the first leaves out nothing at one of them, and the last has no wedge.
+    // A block usually also processes the wedge at its end, which is as much work as its own stages leave out at both
+    // ends. The first block leaves out nothing at its start, and the last has no wedge at its end: the borders
+    // compensate.
     const auto border = [&](std::size_t block) {
         return block == 0 ? 0 : block == blocks ? slabs : block * slabs / blocks - last / 2;
     };
-    // A wedge waits for the end of the block before it and for the beginning of that behind it: who is second does it.
+    // A wedge waits for the end of the block before it and the start of the block after it; the later of the two runs
+    // it.
     const std::unique_ptr<std::atomic<int>[]> ready(new std::atomic<int>[blocks]());
     const auto sideIsDone = [&](std::size_t wedge) {
         if (ready[wedge].fetch_add(1) == 0) return;

@@ -12,13 +12,13 @@ TEST(ForStages, EachFindsItsNeighboursOneStageBehindAndNoneAhead) {
     for (const std::size_t slabs : {1u, 2u, 3u, 7u, 16u, 33u, 64u})
         for (const std::size_t stages : {1u, 2u, 3u, 5u, 9u})
             for (const std::size_t blocks : {1u, 2u, 3u, 8u}) {
-                std::vector<std::size_t> done(slabs, 0);  // stages that each slab has behind it
+                std::vector<std::size_t> done(slabs, 0);  // number of stages done, by slab
                 std::mutex mutex;
                 forStages(slabs, stages, blocks, [&](std::size_t stage, std::size_t slab) {
                     const std::lock_guard lock(mutex);
                     ASSERT_LT(slab, slabs);
                     EXPECT_EQ(done[slab], stage);
-                    // Those beside it have done the stage before, and none that writes what this one reads.
+                    // The neighbours have done the previous stage, and none that overwrites the input of this one.
                     for (const std::size_t beside : {slab - 1, slab + 1})
                         if (beside < slabs) {
                             EXPECT_GE(done[beside], stage) << slabs << " slabs, stage " << stage << " of " << stages;
