@@ -1,4 +1,5 @@
-// What parts work on: a run of particles small enough that all parts pass over it while it stays in the cache.
+// A chunk: the unit of work of the parts, a run of particles small enough to stay in the cache while all parts process
+// it.
 //
 // Units: m, m/s, m/s², s. Frame: world. Owns: nothing. Threads: one chunk, one thread.
 #pragma once
@@ -8,7 +9,7 @@
 
 namespace dustbench::particles {
 
-/// Particles per chunk: twelve columns and the scratch of an update are 46 KiB, which the second-level cache holds.
+/// Particles per chunk: twelve columns and the scratch of an update are 46 KiB, which fits the second-level cache.
 inline constexpr std::size_t chunkSize = 512;
 
 /// Pointers to `count` particles. All arrays are distinct, so that kernels may declare them `__restrict`.
@@ -20,9 +21,9 @@ struct Chunk {
     float *age = nullptr, *lifetime = nullptr;
     float* radius = nullptr;
     float* opacity = nullptr;
-    float *red = nullptr, *green = nullptr, *blue = nullptr;  ///< null while one colour serves all
+    float *red = nullptr, *green = nullptr, *blue = nullptr;  ///< null while one colour applies to all
 
-    // Of this update alone:
+    // Valid only during this update:
     float* share = nullptr;  ///< age / lifetime, 0..1
     float *accelerationX = nullptr, *accelerationY = nullptr, *accelerationZ = nullptr;
     float *airX = nullptr, *airY = nullptr, *airZ = nullptr;  ///< the air's velocity at the particle

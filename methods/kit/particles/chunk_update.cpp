@@ -75,7 +75,7 @@ void updateChunk(Chunk& chunk, const PartList& parts, const Step& step) {
     if (parts.shadings().empty()) {
         parts.colour()->update(chunk, step);
     } else {
-        parts.colour()->initialise(chunk, step);  // the light of the last step is in the colour still
+        parts.colour()->initialise(chunk, step);  // the colour still contains the last step's shading
         shade(chunk, parts, step);
     }
     parts.size()->update(chunk, step);

@@ -1,7 +1,6 @@
-// What happens to one chunk in a step, in the thesis's order: all parts, one after another, while it stays in the
-// cache.
+// Updates one chunk by a step in the thesis's order: all parts in sequence, while the chunk stays in the cache.
 //
-// Threads: pure but for the chunk it is given. Source: Thesis, 3.3.2 (order of the update) and 5.1 (semi-implicit
+// Threads: pure except for the chunk passed in. Source: Thesis, 3.3.2 (order of the update) and 5.1 (semi-implicit
 // Euler).
 #pragma once
 
@@ -12,21 +11,21 @@
 
 namespace dustbench::particles {
 
-/// Room for what lives during an update alone; it belongs on the stack of the thread that updates.
+/// Storage for values that live only during an update; allocated on the stack of the updating thread.
 struct alignas(64) ChunkScratch {
     ChunkScratch() {}  // NOLINT: left as it is on purpose, each step writes what it reads
 
     std::array<std::array<float, chunkSize>, 10> values;
     std::array<std::uint8_t, chunkSize> dead;
 
-    /// Points the chunk's pointers here.
+    /// Points the chunk's scratch pointers at this storage.
     void lend(Chunk& chunk, bool shaded);
 };
 
-/// Zero acceleration, age, life, colour, shading, size, forces, integration. `chunk.dead` tells who must go.
+/// Clears the acceleration, then applies age, life, colour, shading, size, forces, integration. Sets `chunk.dead`.
 void updateChunk(Chunk& chunk, const PartList& parts, const Step& step);
 
-/// Position, velocity, lifetime, colour, size of newborns whose serial, age and moment are known.
+/// Sets position, velocity, lifetime, colour and size of newborns whose serial, age and moment are set.
 void initialiseNewborns(Newborns& newborns, const PartList& parts, const Step& step);
 
 }  // namespace dustbench::particles

@@ -1,4 +1,4 @@
-// The kind of part that gives particles their colour and opacity, at birth and over their life.
+// The kind of part that sets particles' colour and opacity, at birth and over their life.
 //
 // Source: Thesis, 3.1.3 and 4.4 (a colour has four components; the fourth is the opacity α).
 #pragma once
@@ -17,11 +17,11 @@ class ColourPart : public Part {
     using Part::Part;
     [[nodiscard]] PartKind kind() const final { return PartKind::colour; }
 
-    /// The colour that serves all particles, where one does: then the colour columns are not kept.
+    /// The colour shared by all particles, if there is one; colour columns are then not kept.
     [[nodiscard]] virtual std::optional<glm::vec3> colourOfAll(const Step&) const { return std::nullopt; }
-    /// Writes opacity, and colour where the chunk has colours. With shading it is called at every step.
+    /// Writes opacity, and colour if the chunk has colours. Called at every step if there is shading.
     virtual void initialise(Chunk& chunk, const Step& step) const = 0;
-    /// Writes what changes with age (`chunk.share`).
+    /// Writes the values that change with age (`chunk.share`).
     virtual void update(Chunk& chunk, const Step& step) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// The kind of part that says how many particles are born in a step, and when.
+// The kind of part that determines how many particles are born in a step, and when.
 //
 // Source: Thesis, 3.1.3 and 4.6.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace dustbench::particles {
 
-/// Birth k of a step happens at firstSeconds + k·spacingSeconds after its begin.
+/// Birth k of a step happens at firstSeconds + k·spacingSeconds after the step begins.
 struct Births {
     std::int64_t count = 0;
     double firstSeconds = 0;
@@ -22,8 +22,8 @@ class EmissionPart : public Part {
     using Part::Part;
     [[nodiscard]] PartKind kind() const final { return PartKind::emission; }
 
-    /// Called once a step; `step.particlesPerPuff` multiplies every rate. May keep what it needs for the next (an
-    /// accumulator, a counter of time).
+    /// Called once per step; `step.particlesPerPuff` multiplies every rate. May keep state for the next step (an
+    /// accumulator, a time counter).
     [[nodiscard]] virtual Births births(const Step& step) = 0;
 };
 

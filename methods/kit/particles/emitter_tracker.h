@@ -1,6 +1,6 @@
-// Follows the vehicle's wheels from step to step, so that births can be spread along the way they went.
+// Tracks the vehicle's wheels between steps, so that births can be spread along their paths.
 //
-// Frame: world. Owns: where the wheels were.
+// Frame: world. Owns: the wheels' last positions.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@ namespace dustbench::particles {
 
 class EmitterTracker {
  public:
-    /// The wheels' ways through a step that ends in `state`; none without a vehicle. The first way is taken from the
-    /// wheels' velocities.
+    /// The wheels' paths through a step that ends in `state`; empty without a vehicle. The first path is extrapolated
+    /// from the wheels' velocities.
     [[nodiscard]] std::span<const Emitter> follow(const scene::Scene& scene, const scene::SceneState& state,
                                                   double seconds);
 
  private:
     std::array<Emitter, 4> wheels_;
-    bool known_ = false;  ///< wheels_ holds the end of the step before
+    bool known_ = false;  ///< wheels_ holds the end of the previous step
 };
 
 }  // namespace dustbench::particles

@@ -1,4 +1,4 @@
-// The few of many flags that are set, eight looked at together.
+// Iterates over sparse flags that are set, testing eight at a time.
 //
 // Threads: pure.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace dustbench::particles {
 
-/// Calls `visit(i)` for each of `count` flags that is 1, ascending; the others are 0.
+/// Calls `visit(i)` for each of `count` flags that is 1, in ascending order; all flags must be 0 or 1.
 template <typename Visit>
 void forEachFlagged(const std::uint8_t* flags, std::size_t count, const Visit& visit) {
     static_assert(std::endian::native == std::endian::little, "the lowest byte of a word is the first flag");

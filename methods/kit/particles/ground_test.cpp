@@ -10,7 +10,7 @@
 namespace dustbench::particles {
 namespace {
 
-/// Columns for one chunk of particles with random places and velocities.
+/// Columns for one chunk of particles with random positions and velocities.
 struct Bunch {
     explicit Bunch(std::size_t count) : values(8, std::vector<float>(count)) {
         chunk.count = count;
@@ -61,7 +61,7 @@ TEST_P(GroundOn, LeavesNobodyBelowAndTakesWhatGoesInto) {
         std::size_t touched = 0;
         for (std::size_t i = 0; i < count; ++i) {
             const float x = before.chunk.x[i], z = before.chunk.z[i], y = before.chunk.y[i];
-            // The very same height as the terrain's own, not just near it.
+            // Exactly the terrain's own height, not only close to it.
             const float floor = scene.terrain.heightAt(x, z) + 0.3f * before.chunk.radius[i];
             const glm::vec3 v = before.velocity(i);
             if (y < floor) {

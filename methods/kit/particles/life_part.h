@@ -1,4 +1,4 @@
-// The kind of part that decides whether a particle goes on living. One of the list gives the lifetimes.
+// The kind of part that decides whether a particle dies. Exactly one in the list sets lifetimes.
 //
 // Source: Thesis, 3.1.3 and 4.7.
 #pragma once
@@ -15,12 +15,12 @@ class LifePart : public Part {
     using Part::Part;
     [[nodiscard]] PartKind kind() const final { return PartKind::life; }
 
-    /// Sets `chunk.dead` to 1 for the particles that must die, and leaves the others as they are.
+    /// Sets `chunk.dead` to 1 for particles that must die; leaves the others unchanged.
     virtual void judge(Chunk& chunk, const Step& step) const = 0;
 
-    /// The mean lifetime, of the one part that gives lifetimes.
+    /// The mean lifetime, if this part sets lifetimes.
     [[nodiscard]] virtual std::optional<double> meanLifetimeSeconds() const { return std::nullopt; }
-    /// Writes `lifetime`: of that part alone.
+    /// Writes `lifetime`; only for the part that sets lifetimes.
     virtual void giveLifetimes(Newborns&, const Step&) const {}
 };
 

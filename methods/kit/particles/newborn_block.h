@@ -1,4 +1,4 @@
-// Columns for a few newborns, on the stack of the thread that brings them up.
+// Columns for a few newborns, on the stack of the thread that initialises them.
 //
 // Units: m, s. Owns: its columns. Threads: one block, one thread.
 #pragma once
@@ -18,7 +18,7 @@ class NewbornBlock {
 
     NewbornBlock() {}  // NOLINT: left as it is on purpose, the parts write every column
 
-    /// Births `first`..`first + count` of a step, numbered from `serial` on, with their moment and age.
+    /// Births `first`..`first + count` of a step, numbered from `serial` on, with moment and age set.
     [[nodiscard]] Newborns newborns(std::size_t first, std::size_t count, std::uint64_t serial, const Births& births,
                                     std::span<const Emitter> emitters, double stepSeconds);
 

@@ -1,4 +1,4 @@
-// Particles that are born in this step, before they join the others.
+// Particles born in this step, before they are added to the store.
 //
 // Units: s. Owns: nothing. Threads: one set, one thread.
 #pragma once
@@ -8,12 +8,12 @@
 
 namespace dustbench::particles {
 
-/// `chunk.age` is what is left of the step after the birth; `moment` is when, 0 at the step's begin, 1 at its end.
+/// `chunk.age` is the time between birth and the end of the step; `moment` is 0 at the step's begin and 1 at its end.
 struct Newborns {
     Chunk chunk;
     const float* moment;
     const Emitter* const*
-        emitter;  ///< of each newborn: they take turns, so that all get the same share, evenly in time
+        emitter;  ///< of each newborn: emitters take turns, so that each gets an equal share, evenly spaced in time
 };
 
 }  // namespace dustbench::particles

@@ -1,5 +1,5 @@
-// Particles that something happens to in a step, such as death: noted chunk by chunk on any thread, then collected in
-// the order of storage.
+// Records particles affected by an event in a step, such as death: noted per chunk on any thread, then collected in
+// storage order.
 //
 // Owns: its lists, booked on a ledger: two bytes per particle, and four per noted one.
 // Threads: `note` from any thread, one chunk each.
@@ -18,16 +18,16 @@ class DUSTBENCH_API NotedParticles {
  public:
     explicit NotedParticles(MemoryLedger& ledger, const char* account = "particle deaths");
 
-    /// Makes room for this many particles.
+    /// Reserves room for this many particles.
     void prepare(std::size_t particles);
-    /// Those of the chunk's `count` particles whose flag is 1 (the others are 0).
+    /// Notes those of the chunk's `count` particles whose flag is 1 (the others are 0).
     void note(std::size_t chunk, const std::uint8_t* flags, std::size_t count);
-    /// Storage indices of all that were noted, ascending, however many threads noted them.
+    /// Storage indices of all noted particles, ascending, for any number of threads.
     [[nodiscard]] std::span<const std::uint32_t> collect();
 
  private:
-    LedgerVector<std::uint16_t> within_;  ///< of chunk c: places in it, from c·chunkSize on
-    LedgerVector<std::uint32_t> counts_;  ///< of chunk c
+    LedgerVector<std::uint16_t> within_;  ///< of chunk c: positions within it, from c·chunkSize on
+    LedgerVector<std::uint32_t> counts_;  ///< of chunk c: number noted
     LedgerVector<std::uint32_t> indices_;
 };
 

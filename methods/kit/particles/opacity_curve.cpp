@@ -13,7 +13,7 @@ void linearOpacity(std::size_t count, const float* __restrict share, float* __re
 
 void bezierOpacity(std::size_t count, const float* __restrict share, float* __restrict opacity,
                    const maths::CubicPolynomial<float> curve) {
-    // Rounding may leave a curve that ends at 0 a little below it.
+    // Rounding may take a curve that ends at 0 slightly below it.
     for (std::size_t i = 0; i < count; ++i) {
         const float value = curve(share[i]);
         opacity[i] = value > 0.0f ? value : 0.0f;

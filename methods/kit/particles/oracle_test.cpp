@@ -1,4 +1,4 @@
-// The engine against the plainest way to say the same.
+// Tests the particle engine against the reference implementation.
 #include <gtest/gtest.h>
 
 #include "methods/kit/particles/plain_dust.h"
@@ -7,7 +7,7 @@
 namespace dustbench::particles {
 namespace {
 
-/// test::everyForce, and the defaults of its parts.
+/// The values of test::everyForce, and the defaults of its parts.
 const PlainDustSettings everyForce{.birthsPerSecond = 30,
                                    .birthsPerMetre = 25,
                                    .discMetres = 0.2f,

@@ -1,4 +1,4 @@
-// A part: one thing that a particle system does, of one of nine kinds; made by name, with parameters declared once.
+// A part: one aspect of a particle system, of one of nine kinds; made by name, with parameters declared once.
 //
 // A new part is one file, parts/KIND/NAME.cpp, with a function `PartInfo describe()` in the namespace
 // dustbench::particles::parts::KIND::NAME; the table is generated from the files. A new kind is a header beside this
@@ -15,10 +15,10 @@
 
 namespace dustbench::particles {
 
-/// The first six are single in a system; of the last three there are lists.
+/// A system has one part of each of the first six kinds, and a list of each of the last three.
 enum class PartKind { emission, position, velocity, colour, size, render, life, shading, force };
 
-/// As they are called in files.
+/// Names of the kinds in files.
 inline constexpr std::array<std::string_view, 9> partKindNames{"emission", "position", "velocity", "colour", "size",
                                                                "render",   "life",     "shading",  "force"};
 
@@ -38,7 +38,7 @@ class DUSTBENCH_API Part {
 
     [[nodiscard]] virtual PartKind kind() const = 0;
     [[nodiscard]] const std::string& name() const { return name_; }
-    /// For the table: a part has the name of its file.
+    /// For the table: a part is named after its file.
     void setName(std::string name) { name_ = std::move(name); }
     [[nodiscard]] const ParameterValues& values() const { return values_; }
 
@@ -47,14 +47,14 @@ class DUSTBENCH_API Part {
     ParameterValues values_;
 };
 
-/// What the table knows of a part before there is one. Kind and name are those of its folder and file.
+/// Static description of a part. Kind and name come from its folder and file.
 struct PartInfo {
     PartKind kind{};
     std::string name{};
     std::string help{};    ///< one line
     std::string source{};  ///< key in data/references.bib with section, or empty
     ParameterSet parameters{};
-    /// Throws InputError where values that are each allowed do not go together.
+    /// Throws InputError if values that are allowed individually are inconsistent.
     std::function<std::unique_ptr<Part>(const ParameterValues&)> create{};
 };
 

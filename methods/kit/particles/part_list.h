@@ -1,4 +1,4 @@
-// The parts of one system: six single ones and three lists. They may be swapped between two updates.
+// The parts of one system: six single ones and three lists. They may be swapped between updates.
 //
 // Owns: the parts. Source: Thesis, 3.1.3.
 #pragma once
@@ -23,16 +23,16 @@ class PartList {
     template <typename Kind>
     using List = std::vector<std::unique_ptr<Kind>>;
 
-    /// Puts a part where its kind belongs: in place of the single one, or at the end of the list.
+    /// Adds a part by its kind: replaces the single part, or appends to the list.
     void set(std::unique_ptr<Part> part);
 
-    /// Null while the system is being put together.
+    /// Null while the system is being assembled.
     [[nodiscard]] EmissionPart* emission() const { return emission_.get(); }
     [[nodiscard]] PositionPart* position() const { return position_.get(); }
     [[nodiscard]] VelocityPart* velocity() const { return velocity_.get(); }
     [[nodiscard]] ColourPart* colour() const { return colour_.get(); }
     [[nodiscard]] SizePart* size() const { return size_.get(); }
-    /// Null where the file says nothing of it.
+    /// Null if the file does not specify it.
     [[nodiscard]] RenderPart* render() const { return render_.get(); }
     [[nodiscard]] List<LifePart>& lives() { return lives_; }
     [[nodiscard]] List<ShadingPart>& shadings() { return shadings_; }
@@ -41,11 +41,11 @@ class PartList {
     [[nodiscard]] const List<ShadingPart>& shadings() const { return shadings_; }
     [[nodiscard]] const List<ForcePart>& forces() const { return forces_; }
 
-    /// The one part that gives lifetimes.
+    /// The part that sets lifetimes.
     [[nodiscard]] const LifePart& lifetime() const;
-    /// Every part, kind by kind in the order of PartKind.
+    /// Every part, by kind in the order of PartKind.
     [[nodiscard]] std::vector<const Part*> all() const;
-    /// What keeps the list from being a system (`no part of kind 'size'`), or empty.
+    /// Why the list is not yet a system (`no part of kind 'size'`), or empty.
     [[nodiscard]] std::string missing() const;
 
  private:

@@ -1,4 +1,4 @@
-// The table of all parts: what can be written in a particle system's file.
+// The table of all parts that a particle system's file can use.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace dustbench::particles {
 
-/// All parts, kind by kind, each kind by name.
+/// All parts, ordered by kind and name.
 [[nodiscard]] DUSTBENCH_API const std::vector<PartInfo>& partTable();
 
 /// Throws InputError with the nearest name.
@@ -19,11 +19,11 @@ namespace dustbench::particles {
 
 using NamedValues = std::vector<std::pair<std::string, std::string>>;
 
-/// A part with its default parameters, but for those given. Throws InputError with what is allowed.
+/// A part with default parameters, except for the given values. Throws InputError with the values allowed.
 [[nodiscard]] DUSTBENCH_API std::unique_ptr<Part> makePart(PartKind kind, std::string_view name,
                                                            const NamedValues& values = {});
 
-/// The same by the class of its kind, for who calls the part himself.
+/// The same with the class of its kind, for callers that use the part directly.
 template <typename Kind>
 [[nodiscard]] std::unique_ptr<Kind> makePartOf(PartKind kind, std::string_view name, const NamedValues& values = {}) {
     std::unique_ptr<Part> part = makePart(kind, name, values);

@@ -9,12 +9,12 @@
 namespace dustbench::particles {
 namespace {
 
-/// `direction` of `direction.x`; a name without components is itself.
+/// `direction` for `direction.x`; a name without components is unchanged.
 std::string_view stem(std::string_view parameter) {
     return parameter.substr(0, parameter.find('.'));
 }
 
-/// The parameters that a key of a file stands for: one, or the components of a vector.
+/// The parameters behind a key of a file: one, or the components of a vector.
 std::vector<const Parameter*> parametersOf(const ParameterSet& declared, std::string_view key) {
     std::vector<const Parameter*> found;
     for (const Parameter& parameter : declared.all())
@@ -39,7 +39,7 @@ void readParameter(files::TomlReader& table, const PartInfo& info, const std::st
     for (std::size_t i = 0; i < texts.size(); ++i) values.set(parameters[i]->name, texts[i]);
 }
 
-/// Runs `action`; its errors begin with the place of `key`.
+/// Runs `action` and prefixes its errors with the position of `key`.
 template <typename Action>
 auto at(const files::TomlReader& table, std::string_view key, Action action) {
     try {
@@ -76,7 +76,7 @@ std::unique_ptr<PartList> readParts(files::TomlReader file) {
     return parts;
 }
 
-/// The values of these parameters, and a list where they are several.
+/// The values of the given parameters, as a list if there are several.
 template <typename TextOf>
 std::string joined(const std::vector<const Parameter*>& parameters, const TextOf& textOf) {
     std::string list;

@@ -1,4 +1,4 @@
-// Particle systems as TOML: `[size]` and `[[force]]` tables, each with `part = "name"` and that part's parameters.
+// Reads and writes particle systems as TOML: `[size]` and `[[force]]` tables with `part = "name"` and its parameters.
 //
 // Source: Thesis, 3.1.4 (systems are saved and loaded).
 #pragma once
@@ -13,17 +13,17 @@
 
 namespace dustbench::particles {
 
-/// Throw InputError with file, line, what was got and what is allowed.
+/// Throws InputError with file, line, the value received and the values allowed.
 [[nodiscard]] std::unique_ptr<PartList> partsFromFile(const std::filesystem::path& file);
-/// `name` stands for the file in messages.
+/// `name` is the file name used in messages.
 [[nodiscard]] std::unique_ptr<PartList> partsFromText(std::string_view text, std::string name);
 
-/// Every part with all its parameters; reading it gives the same parts.
+/// Every part with all its parameters; reading the text gives the same parts.
 [[nodiscard]] std::string partsToToml(const PartList& parts);
 
-/// A part's parameters as the keys of its table: the components of a vector are one, whose default is a list.
+/// A part's parameters as the keys of its table: a vector's components form one key, whose default is a list.
 [[nodiscard]] DUSTBENCH_API std::vector<Parameter> tableKeys(const ParameterSet& declared);
-/// A value as a file says it: `"fixed"`, `true`, `0.5`.
+/// A value in file syntax: `"fixed"`, `true`, `0.5`.
 [[nodiscard]] DUSTBENCH_API std::string valueToToml(const Parameter& parameter, const std::string& canonical);
 
 }  // namespace dustbench::particles

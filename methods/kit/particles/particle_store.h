@@ -1,8 +1,8 @@
 // The particles of one system as a structure of arrays.
 //
-// Units: m, m/s, s. Frame: world. Owns: its columns, booked on a ledger. Colours: linear RGB, as seen (already lit).
-// Threads: const access from any; one writer, or several on disjoint ranges of particles.
-// Source: Thesis, 3.1.2 (the attributes of a particle). Departs: acceleration and luminosity live only during an
+// Units: m, m/s, s. Frame: world. Owns: its columns, booked on a ledger. Colours: linear RGB, already lit.
+// Threads: any thread may call const members; one writer, or several on disjoint ranges of particles.
+// Source: Thesis, 3.1.2 (the attributes of a particle). Departs: acceleration and luminosity exist only during an
 // update.
 #pragma once
 
@@ -23,20 +23,20 @@ class DUSTBENCH_API ParticleStore {
     [[nodiscard]] std::size_t size() const { return serial.size(); }
     [[nodiscard]] bool empty() const { return serial.empty(); }
     void reserve(std::size_t count);
-    /// Grows by a quarter where there is no room: the memory held stays near what is used.
+    /// Grows the capacity by a quarter or more when it is exceeded, so that memory held stays near memory used.
     void resize(std::size_t count);
-    /// Moves particle `from` over particle `to` (all columns).
+    /// Copies all columns of particle `from` over particle `to`.
     void move(std::size_t from, std::size_t to);
-    /// `count` particles from `first` on, for the parts to work on; without scratch.
+    /// `count` particles from `first` on, for the parts; without scratch pointers.
     [[nodiscard]] Chunk chunk(std::size_t first, std::size_t count);
-    /// Copies particle `from` of a chunk (its colour, where colours are kept) over particle `to`.
+    /// Copies particle `from` of a chunk over particle `to`; colour only if colours are kept.
     void put(const Chunk& chunk, std::size_t from, std::size_t to);
-    /// Of every column, in storage order.
+    /// Hash of every column, in storage order.
     [[nodiscard]] std::uint64_t hash() const;
-    /// Keeps a colour for each particle, at first `colourOfAll`, or one for all.
+    /// Keeps one colour for all, or one per particle, initialised to `colourOfAll`.
     void keepOneColour(bool oneForAll);
 
-    /// What methods and metrics see: the same columns, valid until the store changes.
+    /// The view for methods and metrics: the same columns, valid until the store changes.
     [[nodiscard]] operator Puffs() const;  // NOLINT(google-explicit-constructor): a store is seen as its puffs anywhere
 
     [[nodiscard]] glm::vec3 position(std::size_t i) const { return {x[i], y[i], z[i]}; }
@@ -52,7 +52,7 @@ class DUSTBENCH_API ParticleStore {
     LedgerVector<float> opacity;           ///< peak opacity α, 0..0.999
     LedgerVector<float> red, green, blue;  ///< empty while `uniformColour`
 
-    bool uniformColour = true;  ///< one colour for all: then no colour columns are kept
+    bool uniformColour = true;  ///< one colour for all: no colour columns are kept
     glm::vec3 colourOfAll{1};
 
  private:

@@ -16,7 +16,7 @@
 namespace dustbench::particles {
 namespace {
 
-constexpr std::size_t fewChunks = 4;  // below, a second thread does not pay
+constexpr std::size_t fewChunks = 4;  // with fewer chunks, a second thread does not pay off
 
 }  // namespace
 
@@ -74,7 +74,7 @@ void ParticleSystem::State::bury(std::span<const std::uint32_t> holes) {
     store.resize(left);
 }
 
-/// Newborns take the holes of the dead first, in order; the rest are appended.
+/// Newborns fill the holes of dead particles first, in order; the rest are appended.
 void ParticleSystem::State::giveBirth(const Births& births, std::span<const Emitter> emitters,
                                       std::span<const std::uint32_t> holes, const Step& step) {
     const std::size_t born = static_cast<std::size_t>(births.count);

@@ -1,7 +1,7 @@
-// A particle system: a store and the list of parts that make its particles live. Saved in and loaded from TOML.
+// A particle system: a store, and the parts that drive its particles. Saved as and loaded from TOML.
 //
 // Source: Thesis, 3.1.3 and 3.3.2 (nine kinds of part; the order of an update).
-// Threads: `update` uses the current oneTBB arena; the result is the same, bit for bit, at any number of threads.
+// Threads: `update` uses the current oneTBB arena; results are bit-identical at any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@
 
 namespace dustbench::particles {
 
-/// What the world is like while the particles live through one step.
+/// The state of the world during one step.
 struct Surroundings {
     const scene::Scene& scene;
     const scene::SceneState& state;  ///< at the end of the step
     double stepSeconds = 1.0 / 60;
-    /// Particles to keep alive on average; 0: the emission's own rate. (The harness's `particles=N`.)
+    /// Mean number of particles to keep alive; 0: the emission's own rate. (The harness's `particles=N`.)
     std::int64_t fixedCount = 0;
-    /// Particles that are born in the place of each one, evenly in time; 1 or more. (Above 1: the ground truth's
-    /// `continuum`, whose particles count for as much less.)
+    /// Particles born in place of each one, evenly in time; 1 or more. (Above 1: the ground truth's `continuum`, whose
+    /// particles count for proportionally less.)
     std::int64_t particlesPerPuff = 1;
 };
 
@@ -32,21 +32,21 @@ class DUSTBENCH_API ParticleSystem {
     /// Throws InputError with file, line and what was expected.
     static ParticleSystem load(const std::filesystem::path& file, std::uint64_t seed);
 
-    /// Throws InputError where the list is not complete.
+    /// Throws InputError if the list is incomplete.
     explicit ParticleSystem(std::unique_ptr<PartList> parts, std::uint64_t seed);
     ParticleSystem(ParticleSystem&&) noexcept;
     ParticleSystem& operator=(ParticleSystem&&) noexcept;
     ~ParticleSystem();
 
     /// One step: acceleration 0, age, life, colour, shading, size, forces, integration, emission.
-    /// Particles born within the step have lived what was left of it.
+    /// Particles born within the step are advanced by the remainder of the step.
     void update(const Surroundings& surroundings);
 
-    /// The system as TOML; loading it gives the same system.
+    /// The system as TOML; loading the text gives the same system.
     [[nodiscard]] std::string toToml() const;
 
     [[nodiscard]] const ParticleStore& store() const;
-    /// To swap parts between two updates.
+    /// For swapping parts between updates.
     [[nodiscard]] PartList& parts();
     [[nodiscard]] double meanLifetimeSeconds() const;
     /// Hash of every particle's state, in storage order.

@@ -25,7 +25,7 @@ using test::with;
 TEST(ParticleSystem, IsTheSameBitForBitAtAnyNumberOfThreads) {
     const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
     const auto scene = test::sceneWithCar();
-    // Random sizes, and a source that is shut off and turned up again, so that holes are filled in every way.
+    // Random sizes and a source that is switched off and on again, so that holes are filled in every way.
     for (const std::int64_t count : {1, 37, 511, 2048, 9973, 30011}) {
         std::set<std::uint64_t> hashes;
         for (const int threads : {1, 2, 3, 8}) {
@@ -54,8 +54,8 @@ TEST(ParticleSystem, HashTellsSeedsAndStepsApart) {
     EXPECT_EQ(hashes.size(), 9u);
 }
 
-// The state is made of IEEE additions, multiplications, divisions and square roots alone, without contraction: the same
-// on every machine and in every build. Another number here means that the meaning of a part has changed.
+// The state depends only on IEEE additions, multiplications, divisions and square roots without contraction: it is the
+// same on every machine and in every build. A different hash means that a part's behaviour has changed.
 TEST(ParticleSystem, StateIsTheSameOnEveryMachine) {
     auto system = systemFrom(everyForce);
     advance(system, test::sceneWithCar(), 150);
@@ -90,7 +90,8 @@ TEST(ParticleSystem, MeanCountConvergesToTheFixedCount) {
             advance(system, scene, 1, 7, count, 1.0 / 60, 120 + i);
             sum += static_cast<double>(system.store().size());
         }
-        // Lifetimes vary by 0.5/√3 of 0.8 s: over 600 steps 12.5 N are born, so the mean is within 36 %/√(12.5 N).
+        // Lifetimes vary by 0.5/√3 of 0.8 s. In 600 steps 12.5 N particles are born, so the mean is within 36 %/√(12.5
+        // N).
         const double error = 0.36 / std::sqrt(12.5 * static_cast<double>(count));
         EXPECT_NEAR(sum / steps / static_cast<double>(count), 1, 4 * error + 0.001);
     }
@@ -123,7 +124,8 @@ TEST(ParticleSystem, GivesBirthToManyParticlesInThePlaceOfEachAndToTheSameCloud)
     };
     for (const std::int64_t fixedCount : {0, 700}) {
         const Cloud one = cloud(fixedCount, 1), many = cloud(fixedCount, 64);
-        // Births are even in time; what scatters is lifetimes, 36 % of the mean, and what depends on them.
+        // Births are evenly spaced; the scatter comes from lifetimes, 36 % of the mean, and quantities that depend on
+        // them.
         const double share = 0.36 / std::sqrt(one.count);
         EXPECT_NEAR(many.count / one.count / 64, 1, 4 * share) << fixedCount;
         EXPECT_NEAR(many.mass / one.mass / 64, 1, 8 * share) << fixedCount;
@@ -137,7 +139,8 @@ TEST(ParticleSystem, GivesBirthToManyParticlesInThePlaceOfEachAndToTheSameCloud)
 }
 
 TEST(ParticleSystem, AMovedCarLeavesTheSameCloudElsewhere) {
-    // Physics of everyForce without gusts knows no place: the cloud of a standing car is the same anywhere.
+    // Without gusts the physics of everyForce is translation-invariant: the cloud of a standing car is the same
+    // anywhere.
     const std::string toml = with(everyForce, "gust_speed = 0.7", "gust_speed = 0");
     const auto scene = test::sceneWithCar();
     auto here = systemFrom(toml), there = systemFrom(toml);
@@ -173,7 +176,7 @@ TEST(ParticleSystem, HoldsAtMost96BytesAParticleAndNoMoreAsTimeGoesOn) {
             if (i >= 149) minimum = std::min(minimum, system.store().size());
         }
         EXPECT_GT(minimum, 19000u);
-        EXPECT_EQ(bytes(), maximum);  // what was held in the steady state is held still
+        EXPECT_EQ(bytes(), maximum);  // memory of the steady state is kept
     }
 }
 
@@ -202,7 +205,7 @@ TEST(ParticleSystem, PartsAreSwappedWhileItRuns) {
     EXPECT_TRUE(system.store().empty());
 }
 
-/// Adds a light of its own; one of the kinds that wheel dust has no part of.
+/// Adds constant light; a part of a kind that wheel dust does not use.
 class Ambient : public ShadingPart {
  public:
     Ambient() : ShadingPart(ParameterValues()) {}

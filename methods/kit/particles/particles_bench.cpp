@@ -1,7 +1,7 @@
-// What an update of the particles costs, and what the memory of the machine would allow.
+// Benchmarks the cost of a particle update against the machine's memory bandwidth.
 //
-// `bytes_per_second` counts what an update must read and write: BM_Triad is the ceiling that it is held against. The
-// particles are wheel dust, with every part it has; births replace 0.5 % deaths a step.
+// `bytes_per_second` counts the bytes that an update must read and write; BM_Triad is the upper bound. The particles
+// are wheel dust with all of its parts; births replace deaths of 0.5 % per step.
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -18,10 +18,11 @@ namespace dustbench::particles {
 namespace {
 
 constexpr double stepSeconds = 1.0 / 60;
-/// One in two hundred dies per step: the mean lifetime is 200 steps.
+/// One in two hundred particles dies per step: the mean lifetime is 200 steps.
 constexpr double lifetimeSeconds = 200 * stepSeconds;
 
-/// Of all threads together. On a busy machine `items_per_cpu_second` times the threads tells more than the wall clock.
+/// CPU time of all threads. On a busy machine `items_per_cpu_second` times the threads is more reliable than the wall
+/// clock.
 double cpuSecondsSince(std::clock_t begin) {
     return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
@@ -42,7 +43,7 @@ scene::Scene sceneWith(bool heightField) {
     return scene;
 }
 
-/// A car that goes round in a circle at 20 m/s, so that the cloud stays on the height field.
+/// A car that drives in a circle at 20 m/s, so that the cloud stays on the height field.
 scene::SceneState stateAt(double timeSeconds, const scene::Scene& scene) {
     constexpr double speed = 20, radius = 60;
     const double angle = timeSeconds * speed / radius;
@@ -86,7 +87,7 @@ void BM_Update(benchmark::State& bench) {
         const scene::SceneState state = stateAt(static_cast<double>(step) * stepSeconds, scene);
         system.update({scene, state, stepSeconds, count});
     };
-    while (step < 320) advance();  // two mean lifetimes at least: births and deaths are in balance
+    while (step < 320) advance();  // longer than any lifetime, so that births and deaths are in balance
 
     std::int64_t updated = 0;
     const std::clock_t begin = std::clock();
@@ -108,13 +109,13 @@ void updateArguments(benchmark::internal::Benchmark* bench) {
     for (const std::int64_t threads : {2, 1}) bench->Args({1'000'000, flat, threads});
     for (const auto variant : {noGusts, bezierColour, heightField}) bench->Args({1'000'000, variant, 2});
     for (const std::int64_t count : {10'000, 100'000}) bench->Args({count, flat, 2});
-    bench->Args({10'000, flat, 1});  // in the cache: what the arithmetic alone costs
+    bench->Args({10'000, flat, 1});  // fits the cache: measures the arithmetic alone
     bench->ArgNames({"particles", "variant", "threads"})->UseRealTime()->Unit(benchmark::kMicrosecond);
 }
 BENCHMARK(BM_Update)->Apply(updateArguments);
 
-/// a ← b + s·c over arrays as large as a million particles' columns: what memory gives. Counted as an update's bytes
-/// are: two reads and a write.
+/// a ← b + s·c over arrays the size of a million particles' columns: measures memory bandwidth. Bytes are counted as
+/// for an update: two reads and one write.
 void BM_Triad(benchmark::State& bench) {
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(bench.range(0)));

@@ -1,4 +1,4 @@
-// Each part alone, against closed forms.
+// Tests each part against closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace dustbench::particles {
 namespace {
 
-/// One particle system of a single source in still air, to which a test adds the forces that it looks at.
+/// A particle system with a single source in still air; tests add the forces that they examine.
 const std::string still = R"(
 emission = { part = "stream", rate_per_second = 100, rate_per_metre = 0 }
 position = { part = "point", at = "place", place = [1, 50, 2] }
@@ -45,7 +45,7 @@ TEST(Integration, FreeParticlesAreWhereTheirAgeAndSpeedPutThem) {
     }
 }
 
-/// Largest |y − closed form| after two seconds, over particles born at the begin of a step.
+/// Maximum |y − closed form| after two seconds, over particles born at the begin of a step.
 double fallError(double stepSeconds, double rate, double acceleration) {
     const std::string toml = test::with(still, "rate_per_second = 100", "rate_per_second = 16") +
                              "force = [ { part = \"gravity\", acceleration = " + std::to_string(acceleration) +

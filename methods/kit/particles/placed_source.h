@@ -1,4 +1,4 @@
-// What all sources share: they sit at the vehicle's wheels, or at a place in the world.
+// Base of all sources: placed at the vehicle's wheels, or at a fixed position in the world.
 #pragma once
 
 #include "methods/kit/particles/position_part.h"
@@ -13,7 +13,7 @@ class PlacedSource : public PositionPart {
     [[nodiscard]] std::span<const Emitter> emitters(const Step& step) const override;
 
  protected:
-    /// Where the emitter of newborn `i` was at its birth: on the straight line that it followed in the step.
+    /// Position of newborn `i`'s emitter at its birth, on the straight path of the step.
     [[nodiscard]] static glm::vec3 centreOf(const Newborns& newborns, std::size_t i);
 
  private:

@@ -1,4 +1,4 @@
-// A cloud of dust, one particle after the other: what the engine's update by chunks is held against.
+// Reference implementation of a dust cloud, one particle at a time; tests compare the chunked update with it.
 //
 //     age ← age + Δt                        dead where age > lifetime
 //     a = −g + k·(u − v)                    u: the air's velocity, wind and gusts
@@ -55,7 +55,7 @@ class PlainDust {
     const scene::Scene& scene_;
     std::map<std::uint64_t, PlainParticle> alive_;
     std::uint64_t born_ = 0;
-    double due_ = 0;  ///< births
+    double due_ = 0;  ///< births that are due
 };
 
 }  // namespace dustbench::particles

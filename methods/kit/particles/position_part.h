@@ -1,4 +1,4 @@
-// The kind of part that gives newborns their position: the source.
+// The kind of part that sets the position of newborns: the source.
 //
 // Source: Thesis, 3.1.3 and 4.2.
 #pragma once
@@ -13,9 +13,9 @@ class PositionPart : public Part {
     using Part::Part;
     [[nodiscard]] PartKind kind() const final { return PartKind::position; }
 
-    /// What carries the source in this step; nothing is born where there is none. Velocity parts see it too.
+    /// What carries the source in this step; if empty, nothing is born. Velocity parts use it too.
     [[nodiscard]] virtual std::span<const Emitter> emitters(const Step& step) const = 0;
-    /// Positions at the moment of birth.
+    /// Sets positions at the moment of birth.
     virtual void place(Newborns& newborns, const Step& step) const = 0;
 };
 

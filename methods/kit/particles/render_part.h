@@ -1,13 +1,13 @@
-// The kind of part that says what a particle looks like. It describes; drawing is the methods' affair.
+// The kind of part that describes the appearance of particles. Methods do the drawing.
 //
-// Source: Thesis, 3.1.3 and 4.1. Departs: one system can be drawn by many methods, so the part holds no drawing code.
+// Source: Thesis, 3.1.3 and 4.1. Departs: many methods can draw one system, so the part contains no drawing code.
 #pragma once
 
 #include "methods/kit/particles/part.h"
 
 namespace dustbench::particles {
 
-/// The shapes that a file may ask for.
+/// The shapes that a file can request.
 enum class Primitive { puff };
 
 class RenderPart : public Part {

@@ -24,7 +24,7 @@ glm::dvec3 cubePoint(std::uint64_t seed, std::int64_t i) {
     return 2.0 * glm::dvec3(u[0], u[1], u[2]) - 1.0;
 }
 
-/// Box and Muller, twice; the fourth number is dropped.
+/// Box–Muller, twice; the fourth number is dropped.
 glm::dvec3 gaussianPoint(std::uint64_t seed, std::int64_t i) {
     const auto u = maths::uniform4(seed, gaussianStream, static_cast<std::uint64_t>(i));
     const auto radius = [](float uniform) { return std::sqrt(-2 * std::log(1 - static_cast<double>(uniform))); };
@@ -47,22 +47,23 @@ void findAcceptance(std::uint64_t seed, std::vector<Finding>& findings) {
     findings.push_back({"tries_per_point", 1 / p, 1 / (middle + half), 1 / (middle - half), draws});
 }
 
-/// Directions within 4 degrees of a cube's corner or of a face's middle, for one of each.
+/// Counts directions within 4 degrees of a cube's corners and of its faces' middles, per corner and per face.
 void findCornersOverFaces(const std::string& name, const Direction& direction, std::vector<Finding>& findings) {
     const double cap = std::cos(4 * radians);
     double corners = 0, faces = 0;
     for (std::int64_t i = 0; i < draws; ++i) {
-        // By symmetry all in the first octant: its corner, and the faces' middles on its axes.
+        // By symmetry, fold into the first octant: its corner, and the faces' middles on its axes.
         const glm::dvec3 d = glm::abs(direction(i));
         corners += (d.x + d.y + d.z) / std::numbers::sqrt3 > cap ? 1 : 0;
         faces += std::max({d.x, d.y, d.z}) > cap ? 1 : 0;
     }
     const double ratio = (corners / 8) / (faces / 6);
-    const double half = z95 * std::sqrt(1 / corners + 1 / faces);  // of the logarithm of two Poisson counts' ratio
+    const double half = z95 * std::sqrt(1 / corners + 1 / faces);  // of the logarithm of the ratio of two Poisson
+                                                                   // counts
     findings.push_back({"corner_over_face_" + name, ratio, ratio * std::exp(-half), ratio * std::exp(half), draws});
 }
 
-/// Eight bands of equal height times twelve sectors are cells of equal area (Archimedes).
+/// Eight bands of equal height times twelve sectors: cells of equal area (Archimedes).
 void findChiSquare(const std::string& name, const Direction& direction, std::vector<Finding>& findings) {
     constexpr int bands = 8, sectors = 12, cells = bands * sectors;
     std::array<double, cells> counts{};
@@ -76,14 +77,14 @@ void findChiSquare(const std::string& name, const Direction& direction, std::vec
     const double expected = static_cast<double>(draws) / cells, freedom = cells - 1;
     double sum = 0;
     for (const double count : counts) sum += (count - expected) * (count - expected) / expected;
-    // Of a χ² whose mean is k + λ the variance is 2k + 4λ.
+    // A χ² variable of mean k + λ has variance 2k + 4λ.
     const double away = std::max(0.0, sum - freedom);
     const double half = z95 * std::sqrt(2 * freedom + 4 * away);
     findings.push_back(
         {"chi2_per_cell_" + name, sum / freedom, std::max(0.0, sum - half) / freedom, (sum + half) / freedom, draws});
 }
 
-/// `cosineOf(u)`: of the angle to the axis. Uniform directions have it uniform between the cone's own cosines.
+/// `cosineOf(u)`: cosine of the angle to the axis. For uniform directions it is uniform between the cone's cosines.
 void findDistance(const std::string& name, double minimumDegrees, double maximumDegrees, std::uint64_t seed,
                   const std::function<double(double)>& cosineOf, std::vector<Finding>& findings) {
     const double inner = std::cos(minimumDegrees * radians), outer = std::cos(maximumDegrees * radians);

@@ -1,4 +1,4 @@
-// How uniform the thesis's random points and directions are, and those that would mend them (claims R18 to R20).
+// Measures how uniform the thesis's random points and directions are, and their corrections (claims R18 to R20).
 //
 // Units: degrees in names. Threads: pure. Source: Thesis, 4.2.3 (rejection), 4.3.1 (directions), 4.3.2 and 4.3.3
 // (cones).
@@ -18,7 +18,7 @@ namespace dustbench::particles::sampling {
 ///                                    Dvoretzky, Kiefer and Wolfowitz
 ///     …_by_cosine                    the same, drawn by interpolating the cosine
 [[nodiscard]] DUSTBENCH_API ExperimentInfo describe();
-/// What it finds with this seed.
+/// Its findings for this seed.
 [[nodiscard]] std::vector<Finding> sampleDirections(std::uint64_t seed);
 
 }  // namespace dustbench::particles::sampling

@@ -1,4 +1,4 @@
-// The kind of part that lights particles: it adds to the luminosity, and the colour shown is colour · luminosity.
+// The kind of part that lights particles: it adds to the luminosity; the colour shown is colour · luminosity.
 //
 // Source: Thesis, 3.1.3 and 6.2.
 #pragma once

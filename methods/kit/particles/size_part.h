@@ -1,4 +1,4 @@
-// The kind of part that gives particles their radius, at birth and over their life.
+// The kind of part that sets particles' radius, at birth and over their life.
 //
 // Source: Thesis, 3.1.3 and 4.5.
 #pragma once

@@ -1,6 +1,6 @@
-// One step in time as the parts see it: the world, its wheels, and how long the step is.
+// One time step as seen by the parts: the world, its wheels, and the step's length.
 //
-// Units: m, m/s, s. Frame: world. Owns: nothing; it lives as long as one update.
+// Units: m, m/s, s. Frame: world. Owns: nothing; valid during one update.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace dustbench::particles {
 
-/// Where particles may be born: a point that moved along a line during the step, and its axes.
+/// A possible place of birth: a point that moves along a line during the step, with axes.
 struct Emitter {
     glm::vec3 from{0}, to{0};                  ///< at the step's begin and end
-    glm::vec3 velocityFrom{0}, velocityTo{0};  ///< of what carries it
+    glm::vec3 velocityFrom{0}, velocityTo{0};  ///< velocity of the carrier
     glm::vec3 forward{1, 0, 0}, up{0, 1, 0}, right{0, 0, 1};
     float speed = 0;  ///< along `forward`, m/s
 };
@@ -24,12 +24,12 @@ struct Step {
     const scene::SceneState& state;
     double seconds;
     std::uint64_t seed;
-    double fixedRatePerSecond;          ///< above 0: births per second, whatever the emission says
+    double fixedRatePerSecond;          ///< above 0: births per second, overriding the emission's rate
     std::span<const Emitter> wheels;    ///< empty without a vehicle
-    std::int64_t particlesPerPuff = 1;  ///< how many times as many births the emission gives, at any rate
+    std::int64_t particlesPerPuff = 1;  ///< factor on the number of births, at any rate
 };
 
-/// Every use of random numbers has a stream of its own, so that swapping one part leaves the others' numbers alone.
+/// Each use of random numbers has its own stream, so that swapping one part leaves the other parts' numbers unchanged.
 enum RandomStream : std::uint32_t {
     positionStream = 1,
     velocityStream,

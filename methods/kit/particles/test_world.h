@@ -1,4 +1,4 @@
-// A plain world for the tests: a car that drives straight at constant speed, and a system that uses every force.
+// A simple world for tests: a car that drives straight at constant speed, and a system that uses every force.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ inline scene::Scene sceneWithCar() {
     return scene;
 }
 
-/// Along +X over flat ground; arithmetic alone, so that states are the same on every machine.
+/// Along +X over flat ground; only basic arithmetic, so that states are the same on every machine.
 inline scene::SceneState drivingStraight(double timeSeconds, double speed) {
     scene::SceneState state;
     state.timeSeconds = timeSeconds;
@@ -49,7 +49,7 @@ inline ParticleSystem systemFrom(const std::string& toml, std::uint64_t seed = 1
     return ParticleSystem(partsFromText(toml, "test.toml"), seed);
 }
 
-/// `steps` steps behind the straight driving car.
+/// Advances `steps` steps behind the straight-driving car.
 inline void advance(ParticleSystem& system, const scene::Scene& scene, int steps, double speed = 20,
                     std::int64_t fixedCount = 0, double stepSeconds = 1.0 / 60, int firstStep = 0) {
     for (int i = firstStep + 1; i <= firstStep + steps; ++i) {

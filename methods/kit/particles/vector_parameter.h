@@ -1,4 +1,4 @@
-// Parameters of three components: `direction = [0, 1, 0]` in a file, `direction.x`, `.y`, `.z` as declared.
+// Three-component parameters: `direction = [0, 1, 0]` in a file, declared as `direction.x`, `.y`, `.z`.
 #pragma once
 
 #include <array>

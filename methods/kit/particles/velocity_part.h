@@ -1,4 +1,4 @@
-// The kind of part that gives newborns their velocity.
+// The kind of part that sets the velocity of newborns.
 //
 // Source: Thesis, 3.1.3 and 4.3.
 #pragma once
@@ -13,7 +13,7 @@ class VelocityPart : public Part {
     using Part::Part;
     [[nodiscard]] PartKind kind() const final { return PartKind::velocity; }
 
-    /// Positions are known by then.
+    /// Called after positions have been set.
     virtual void launch(Newborns& newborns, const Step& step) const = 0;
 };
 

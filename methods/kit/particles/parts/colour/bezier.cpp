@@ -1,6 +1,7 @@
-// Colour that goes along a cubic Bézier curve of four control colours from birth to death.
+// Colour along a cubic Bézier curve of four control colours, from birth to death.
 //
-// Departs from its source: the curve is a polynomial in t (maths/bezier.h), which equals de Casteljau's points.
+// Departs from its source: evaluates the curve as a polynomial in t (maths/bezier.h), which equals de Casteljau's
+// result.
 #include <array>
 
 #include "methods/kit/maths/bezier.h"

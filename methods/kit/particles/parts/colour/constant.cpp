@@ -1,4 +1,4 @@
-// One colour for all particles, all their life: their own, or what the scene's dust shows. Opacity goes with age.
+// One constant colour for all particles: their own, or that of the scene's dust. Opacity changes with age.
 #include <algorithm>
 
 #include "methods/kit/particles/colour_part.h"

@@ -1,4 +1,4 @@
-// Colour that goes along a straight line from birth to death: (1 − age/lifetime)·start + age/lifetime·end.
+// Colour interpolated linearly from birth to death: (1 − age/lifetime)·start + age/lifetime·end.
 #include "methods/kit/particles/colour_part.h"
 #include "methods/kit/particles/opacity_curve.h"
 #include "methods/kit/particles/vector_parameter.h"

@@ -1,8 +1,8 @@
-// A steady stream of births, at a rate that may grow with the vehicle's speed; fractions are carried over.
+// A steady stream of births, at a rate that may grow with the vehicle's speed; fractions carry over between steps.
 //
-// rate = rate_per_second + rate_per_metre·speed. Births fall where the running count passes a whole number, so that
-// they are evenly spaced in time whatever the step. Departs from its source, the fractional accumulator: each birth has
-// its moment within the step.
+// rate = rate_per_second + rate_per_metre·speed. A birth happens when the running count passes a whole number, so that
+// births are evenly spaced in time at any step length. Departs from its source, the fractional accumulator: each birth
+// has its own moment within the step.
 #include <cmath>
 
 #include "methods/kit/particles/emission_part.h"
@@ -18,7 +18,7 @@ class Stream final : public EmissionPart {
 
  private:
     double ratePerSecond_, ratePerMetre_;
-    double carried_ = 0;  ///< the part of a particle that is due already, [0, 1)
+    double carried_ = 0;  ///< fraction of a particle that is already due, [0, 1)
 };
 
 Stream::Stream(const ParameterValues& values)

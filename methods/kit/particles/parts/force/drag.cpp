@@ -1,8 +1,8 @@
 // Air resistance, linear in the velocity relative to the air: a = k·(u − v).
 //
-// Never more than what takes a particle to the air's velocity in one step, k·dt ≤ 1: so it is stable at any rate, and
-// a falling particle's last speed is g/k whatever the step. The thesis names air resistance and gives no formula; this
-// is Stokes' law, for grains as small as dust.
+// Limited to k·dt ≤ 1, so that a particle at most reaches the air's velocity in one step. This is stable at any rate,
+// and the terminal velocity is g/k at any step length. The thesis names air resistance without a formula; this is
+// Stokes' law, which holds for grains as small as dust.
 #include <algorithm>
 
 #include "methods/kit/particles/force_part.h"

@@ -1,4 +1,4 @@
-// A constant acceleration downwards: gravity, less what buoyancy takes off.
+// A constant downward acceleration: gravity less buoyancy.
 #include "methods/kit/particles/force_part.h"
 
 namespace dustbench::particles::parts::force::gravity {

@@ -1,20 +1,20 @@
-// The ground holds particles up and slows what slides on it.
+// The ground supports particles and slows those that touch it.
 //
-// A centre stays at least `lift`·radius above the ground below it (a puff is soft: it may sink in). Where it would go
-// lower it is put there, loses the velocity into the ground, v ← v − (v·n)n if v·n < 0, and what is left decays with
-// the rate `friction` (implicitly: v ← v/(1 + k·dt)). Departs from its source, the contact forces: position and
-// velocity are put right after the move.
+// A centre stays at least `lift`·radius above the ground below it (a puff is soft: it may sink in). A particle that
+// would go lower is raised to that height and loses its velocity into the ground, v ← v − (v·n)n if v·n < 0; the rest
+// decays at the rate `friction` (implicitly: v ← v/(1 + k·dt)). Departs from its source, the contact forces: position
+// and velocity are corrected after the move.
 #include "methods/kit/particles/force_part.h"
 
 namespace dustbench::particles::parts::force::ground {
 namespace {
 
-/// What lies below each particle of a chunk: height and slopes, n ∝ (−∂h/∂x, 1, −∂h/∂z).
+/// The surface below each particle of a chunk: height and slopes, n ∝ (−∂h/∂x, 1, −∂h/∂z).
 struct Surface {
     alignas(64) float height[chunkSize], slopeX[chunkSize], slopeZ[chunkSize];
 };
 
-/// The height field as the loop needs it.
+/// The height field in the form that the loop needs.
 struct Field {
     const float* heights;
     int columns;
@@ -28,7 +28,7 @@ float maximum(float a, float b) {
     return a > b ? a : b;
 }
 
-/// scene::Terrain's bilinear surface, in the same order of operations.
+/// Evaluates scene::Terrain's bilinear surface, in the same order of operations.
 void surfaceBelow(std::size_t count, const float* __restrict x, const float* __restrict z, float* __restrict height,
                   float* __restrict slopeX, float* __restrict slopeZ, const Field field) {
     const float* __restrict heights = field.heights;
@@ -48,7 +48,7 @@ void surfaceBelow(std::size_t count, const float* __restrict x, const float* __r
         const float near = h00 + u * (h10 - h00), far = h01 + u * (h11 - h01);
         const float alongX = (h10 - h00) * (1.0f - v) + (h11 - h01) * v;
         height[i] = near + v * (far - near);
-        // Outside, the edge is carried on level.
+        // Outside, the surface extends level from the edge.
         slopeX[i] = alongX * (heldX == gridX ? perSpacing : 0.0f);
         slopeZ[i] = (far - near) * (heldZ == gridZ ? perSpacing : 0.0f);
     }

@@ -1,6 +1,6 @@
-// The scene's wind, with gusts that make a cloud billow. It moves the air; drag passes that on to the particles.
+// The scene's wind, with gusts that make a cloud billow. It moves the air; drag transfers the motion to the particles.
 //
-// The source is that of the gusts; maths/turbulence.h says how it departs.
+// The source describes the gusts; maths/turbulence.h states the departures.
 #include "methods/kit/maths/turbulence.h"
 #include "methods/kit/particles/force_part.h"
 

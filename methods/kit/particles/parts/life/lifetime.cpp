@@ -1,4 +1,4 @@
-// Death of age. The lifetime is drawn at birth, average + R·variation with R in [−1, 1).
+// Death by age. The lifetime is drawn at birth: average + R·variation with R in [−1, 1).
 #include "methods/contract/errors.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/particles/life_part.h"
@@ -13,7 +13,7 @@ void raiseWhereOld(std::size_t count, const float* __restrict age, const float* 
 
 class Lifetime final : public LifePart {
  public:
-    /// Throws InputError where a lifetime could be 0.
+    /// Throws InputError if a lifetime could be 0.
     explicit Lifetime(const ParameterValues& values);
 
     void judge(Chunk& chunk, const Step& step) const override;

@@ -1,4 +1,4 @@
-// Births spread evenly over a disc that lies in the plane of its emitter.
+// Births distributed uniformly over a disc in the plane of its emitter.
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/sampling.h"
 #include "methods/kit/particles/placed_source.h"

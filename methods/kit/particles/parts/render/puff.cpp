@@ -1,4 +1,4 @@
-// A round puff, the Gaussian of extinction that maths/transmittance.h describes.
+// A round puff: the Gaussian of extinction from maths/transmittance.h.
 #include "methods/kit/particles/render_part.h"
 
 namespace dustbench::particles::parts::render::puff {

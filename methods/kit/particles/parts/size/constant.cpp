@@ -1,4 +1,4 @@
-// One radius for all particles, all their life.
+// One constant radius for all particles.
 #include <algorithm>
 
 #include "methods/kit/particles/size_part.h"

@@ -1,4 +1,4 @@
-// A radius that grows (or shrinks) along a straight line from birth to death.
+// A radius that changes linearly from birth to death.
 #include "methods/kit/particles/size_part.h"
 
 namespace dustbench::particles::parts::size::linear {

@@ -1,4 +1,4 @@
-// A radius drawn at birth, average + R·variation with R in [−1, 1), and kept.
+// A constant radius drawn at birth: average + R·variation with R in [−1, 1).
 #include "methods/contract/errors.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/particles/size_part.h"
@@ -8,7 +8,7 @@ namespace {
 
 class RandomSize final : public SizePart {
  public:
-    /// Throws InputError where a radius could fall below 0.
+    /// Throws InputError if a radius could fall below 0.
     explicit RandomSize(const ParameterValues& values);
 
     void initialise(Chunk& chunk, const Step& step) const override;

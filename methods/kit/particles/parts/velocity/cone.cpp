@@ -1,10 +1,10 @@
-// Velocities within a cone, as fast as the vehicle makes them, plus a share of the velocity of what carries the source.
+// Velocities within a cone, scaled with the vehicle's speed, plus a fraction of the velocity of the source's carrier.
 //
 //     v = (speed + speed_share·S)·(1 + R·variation)·D + inherit·V
 //
-// D: within half_angle of `direction`, S: the emitter's speed, V: its velocity, R in [−1, 1). The thesis has
-// (avg + R·var)·D; that the start velocity grows with the car's speed is Carr and Geyer's.
-// Frame of `direction`: the emitter's, x forward, y up, z right.
+// D: within half_angle of `direction`, S: the emitter's speed, V: its velocity, R in [−1, 1). The thesis has (avg +
+// R·var)·D; the dependence of the start velocity on the car's speed is from Carr and Geyer.
+// Frame of `direction`: the emitter's; x forward, y up, z right.
 #include "methods/contract/errors.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/sampling.h"
@@ -27,7 +27,7 @@ maths::Cone coneOf(const ParameterValues& values) {
 
 class ConeVelocity final : public VelocityPart {
  public:
-    /// Throws InputError for a direction of no length.
+    /// Throws InputError for a direction of zero length.
     explicit ConeVelocity(const ParameterValues& values);
 
     void launch(Newborns& newborns, const Step& step) const override;
