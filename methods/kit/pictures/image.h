@@ -22,15 +22,16 @@ struct Image {
 using maths::decodeSrgb;
 using maths::encodeSrgb;
 
-/// `layer` (premultiplied) over `scene`: C = L + (1 − α)·S. Throws std::invalid_argument for different sizes.
+/// Composites `layer` (premultiplied) over `scene`: C = L + (1 − α)·S. Throws std::invalid_argument for different
+/// sizes.
 [[nodiscard]] DUSTBENCH_API Image over(const Image& layer, const Image& scene);
 
-/// By extension: .png (8 bit, sRGB encoded) or .exr (float, linear). Written beside and renamed, so never half there.
-/// Alpha is premultiplied here and in .exr, straight in .png, which leaves it out where the whole image is opaque.
-/// Throws InputError where the file cannot be written.
+/// Selects the format by extension: .png (8 bit, sRGB encoded) or .exr (float, linear). Writes a temporary file and
+/// renames it, so that no partial file remains. Alpha is premultiplied here and in .exr, straight in .png, and omitted
+/// from .png if the whole image is opaque. Throws InputError if the file cannot be written.
 DUSTBENCH_API void writeImage(const Image& image, const std::filesystem::path& file);
 
-/// Any image that OpenImageIO reads, made linear. Throws InputError with file and reason.
+/// Reads any image that OpenImageIO can read, converted to linear. Throws InputError with file and reason.
 [[nodiscard]] DUSTBENCH_API Image readImage(const std::filesystem::path& file);
 
 }  // namespace dustbench::pictures

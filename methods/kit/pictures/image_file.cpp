@@ -1,4 +1,4 @@
-// Image files: bytes and floats of pixels from and to their files.
+// Converts images between pixels in memory and the bytes and floats of files.
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ std::uint8_t toByte(float share) {
     return static_cast<std::uint8_t>(std::lround(255 * share));
 }
 
-/// Straight alpha, colours encoded, to the nearest of 256 steps.
+/// Straight alpha, encoded colours, rounded to the nearest of 256 steps.
 std::vector<std::uint8_t> encodedBytes(const Image& image, bool withAlpha) {
     std::vector<std::uint8_t> bytes;
     bytes.reserve(image.pixels.size() * (withAlpha ? 4 : 3));
@@ -36,14 +36,14 @@ std::vector<std::uint8_t> encodedBytes(const Image& image, bool withAlpha) {
     return bytes;
 }
 
-/// Empty on success, else what went wrong.
+/// Empty on success, else the reason for the failure.
 std::string tryToWrite(const Image& image, const fs::path& file, bool png) {
     if (!png) return writeExr(file, image.width, image.height, {&image.pixels[0].x, image.pixels.size() * 4});
     const bool withAlpha = !isOpaque(image);
     return writePng(file, image.width, image.height, withAlpha ? 4 : 3, encodedBytes(image, withAlpha));
 }
 
-/// The file's channels as straight or premultiplied RGBA: grey is spread over the colours, missing alpha is 1.
+/// The file's channels as RGBA, straight or premultiplied: grey fills all colours, missing alpha is 1.
 glm::vec4 toRgba(const float* channels, int count, int alphaChannel) {
     glm::vec4 pixel(channels[0], channels[0], channels[0], 1);
     const int colours = alphaChannel >= 0 ? count - 1 : count;
@@ -62,7 +62,7 @@ void writeImage(const Image& image, const fs::path& file) {
     if (image.width < 1 || image.height < 1)
         throw InputError("cannot write image '" + file.string() + "': it has no pixels");
 
-    // Beside the target, so that the rename stays within one file system; the process makes the name its own.
+    // A temporary file beside the target keeps the rename within one file system; the process id makes its name unique.
     fs::path beside = file;
     beside += ".part" + std::to_string(getpid());
     const auto fail = [&](const std::string& reason) {

@@ -1,7 +1,7 @@
-// Pictures as files: what runs read and write by the formats' own libraries, anything else by OpenImageIO.
+// Picture files: the formats that runs use through their own libraries, all others through OpenImageIO.
 //
-// A run that reads an 8-bit PNG, or writes PNG and EXR, need not load OpenImageIO (picture_library.h).
-// Units: pixels, rows from the top. Errors: text that is empty on success. Threads: any; each call by itself.
+// A run that reads 8-bit PNG and writes PNG and EXR need not load OpenImageIO (picture_library.h).
+// Units: pixels, rows from the top. Errors: returned as text, empty on success. Threads: any; calls are independent.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 
 namespace dustbench::pictures {
 
-/// Any file that OpenImageIO reads.
+/// Reads any file that OpenImageIO can read.
 [[nodiscard]] DUSTBENCH_API std::string readPicture(const std::filesystem::path& file, StoredPicture& picture);
-/// Straight alpha where there are four channels, else three; sRGB.
+/// sRGB; four channels include straight alpha, else three.
 [[nodiscard]] std::string writePng(const std::filesystem::path& file, int width, int height, int channels,
                                    std::span<const std::uint8_t> bytes);
 /// RGBA, linear, premultiplied.

@@ -7,7 +7,7 @@
 namespace dustbench::pictures {
 namespace {
 
-/// Never unloaded: OpenImageIO has threads of its own.
+/// Never unloaded, because OpenImageIO starts its own threads.
 const PictureLibrary& load() {
     const auto file = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "libdustbench_pictures.so";
     void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);

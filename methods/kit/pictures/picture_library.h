@@ -1,9 +1,9 @@
-// What dustbench asks of OpenImageIO, behind a library that is loaded at first use.
+// The interface to OpenImageIO, in a library that is loaded on first use.
 //
-// OpenImageIO brings some 250 libraries with it, and linking them took most of every start; what runs read
-// and write goes without it (picture_files.h). openimageio/ is the other side, built as libdustbench_pictures.so beside
-// the program.
-// Units: pixels, rows from the top. Errors: text that is empty on success. Threads: any; each call by itself.
+// OpenImageIO brings some 250 libraries with it, and linking them took most of every start; the files that runs read
+// and write do not need it (picture_files.h). openimageio/ implements this interface, built as libdustbench_pictures.so
+// beside the program.
+// Units: pixels, rows from the top. Errors: returned as text, empty on success. Threads: any; calls are independent.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@
 
 namespace dustbench::pictures {
 
-/// A flat picture as its file has it, values as floats (0..1 for files of integers).
+/// A 2D picture as stored in its file, values as floats (0..1 for integer formats).
 struct StoredPicture {
     int width = 0, height = 0, channels = 0;
-    int alphaChannel = -1;         ///< or none
-    bool isEncoded = false;        ///< colours are sRGB encoded, else linear
+    int alphaChannel = -1;         ///< -1: none
+    bool isEncoded = false;        ///< true: colours are sRGB encoded; false: linear
     bool isPremultiplied = false;  ///< by alpha
     std::vector<float> values;     ///< pixel by pixel
 };
 
-/// What a line's ink lies within, seen from the pen's start on the baseline; y runs down.
+/// Bounding box of a line of text, relative to the pen's start on the baseline; y points down.
 struct InkBox {
     int left = 0, right = 0, top = 0, bottom = 0;
 
@@ -36,22 +36,22 @@ class PictureLibrary {
     virtual ~PictureLibrary() = default;
 
     [[nodiscard]] virtual std::string read(const std::filesystem::path& file, StoredPicture& picture) const = 0;
-    /// RGB, sRGB; quality of 100 at most. The file's bytes, not a file.
+    /// RGB, sRGB; quality is at most 100. Returns the encoded bytes; writes no file.
     [[nodiscard]] virtual std::string encodeJpeg(int width, int height, std::span<const std::uint8_t> rgb, int quality,
                                                  std::vector<std::uint8_t>& jpeg) const = 0;
 
-    /// False where there is no such font. Text without ink has an empty box.
+    /// False if the font is unavailable. Text without ink has an empty box.
     [[nodiscard]] virtual bool findInk(const std::string& line, int pixels, const std::string& font,
                                        InkBox& ink) const = 0;
-    /// Share of each pixel of `ink` that the line covers.
+    /// Fraction of each pixel of `ink` that the line covers.
     [[nodiscard]] virtual std::string drawText(const std::string& line, int pixels, const std::string& font,
                                                const InkBox& ink, std::span<float> coverage) const = 0;
-    /// RGBA, filtered by a Blackman-Harris window.
+    /// RGBA, filtered with a Blackman–Harris window.
     [[nodiscard]] virtual std::string resize(std::span<const float> from, int fromWidth, int fromHeight,
                                              std::span<float> to, int width, int height) const = 0;
 };
 
-/// Loads it at the first call. Throws std::runtime_error where the library is not beside the program.
+/// Loads the library on first call. Throws std::runtime_error if it is not beside the program.
 [[nodiscard]] DUSTBENCH_API const PictureLibrary& pictureLibrary();
 
 }  // namespace dustbench::pictures

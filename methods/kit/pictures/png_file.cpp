@@ -1,4 +1,4 @@
-// PNG by libpng: files of 8 bits are read here, those of more by OpenImageIO.
+// PNG files through libpng: 8-bit files are read here, others by OpenImageIO.
 #include <png.h>
 
 #include "methods/kit/pictures/picture_files.h"
@@ -6,7 +6,7 @@
 namespace dustbench::pictures {
 namespace {
 
-/// libpng's description of a picture, freed once.
+/// RAII wrapper of libpng's picture description.
 class PngImage {
  public:
     PngImage() { image_.version = PNG_IMAGE_VERSION; }
@@ -25,7 +25,7 @@ class PngImage {
 
 std::string readPicture(const std::filesystem::path& file, StoredPicture& picture) {
     PngImage image;
-    // What is no plain PNG of 8 bits, or none at all, is for OpenImageIO to read, or to say what is wrong with it.
+    // OpenImageIO handles everything but plain 8-bit PNG, and reports what is wrong with invalid files.
     if (png_image_begin_read_from_file(image.get(), file.c_str()) == 0 ||
         (image->format & (PNG_FORMAT_FLAG_LINEAR | PNG_FORMAT_FLAG_COLORMAP)) != 0 || image->warning_or_error != 0)
         return pictureLibrary().read(file, picture);

@@ -1,4 +1,4 @@
-// The pictures' library by OpenImageIO: the one file that includes it.
+// Implements the picture library with OpenImageIO; the only file that includes it.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int oneThread = 1;
 
-/// OpenImageIO's message on one line.
+/// OpenImageIO's message as one line.
 std::string oneLine(std::string message) {
     while (!message.empty() && std::isspace(static_cast<unsigned char>(message.back())) != 0) message.pop_back();
     std::replace(message.begin(), message.end(), '\n', ' ');
@@ -24,7 +24,7 @@ std::string oneLine(std::string message) {
 class OpenImageIo final : public PictureLibrary {
  public:
     std::string read(const std::filesystem::path& file, StoredPicture& picture) const override {
-        // Straight alpha is asked for: OpenImageIO would premultiply the encoded colours.
+        // Request straight alpha, because OpenImageIO would premultiply the encoded colours.
         OIIO::ImageSpec wanted;
         wanted.attribute("oiio:UnassociatedAlpha", 1);
         const auto input = OIIO::ImageInput::open(file.string(), &wanted);
@@ -67,7 +67,7 @@ class OpenImageIo final : public PictureLibrary {
 
     std::string drawText(const std::string& line, int pixels, const std::string& font, const InkBox& ink,
                          std::span<float> coverage) const override {
-        // White on black leaves the coverage itself.
+        // White on black gives the coverage directly.
         OIIO::ImageBuf buffer(OIIO::ImageSpec(ink.width(), ink.height(), 1, OIIO::TypeDesc::FLOAT), coverage.data());
         const bool drawn = OIIO::ImageBufAlgo::render_text(buffer, -ink.left, -ink.top, line, pixels, font, 1.0f,
                                                            OIIO::ImageBufAlgo::TextAlignX::Left,
