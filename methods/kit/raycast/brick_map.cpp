@@ -34,7 +34,7 @@ void BrickMap::set(const ShownGrid& grid, int reach) {
     const std::size_t along = static_cast<std::size_t>(bricks_.x), rows = static_cast<std::size_t>(ny * grid.cells.z);
     rowMaximum_.resize(rows * along);
 
-    // The maximum of each brick's part of a row, neighbours in reach included. NaN and negative values come out as
+    // Maximum over each brick's part of a row, including neighbours within reach. NaN and negative values count as
     // infinite.
     parallel::forEachBlock(rows, rowsPerBlock, [&](std::size_t first, std::size_t count) {
         for (std::size_t r = first; r < first + count; ++r) {

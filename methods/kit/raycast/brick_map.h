@@ -1,7 +1,7 @@
-// Which bricks of a grid's cells hold anything a sample in them could see.
+// Finds the bricks of a grid in which a sample could see any density.
 //
-// A brick is occupied where one of its cells, or of the cells around it as far as the filter reaches, has density.
-// Units: cells. Owns its memory, booked on a ledger. Threads: set() spreads over them.
+// A brick is occupied if one of its cells, or of the surrounding cells within the filter's reach, has density.
+// Units: cells. Owns: its memory, booked on a ledger. Threads: set() runs in parallel.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +18,15 @@ class BrickMap {
 
     explicit BrickMap(MemoryLedger& ledger);
 
-    /// `reach`: cells that a sample sees beyond its own. Throws InputError for a density that is negative or not a
-    /// number.
+    /// `reach`: number of cells that a sample reads beyond its own. Throws InputError if a density is negative or NaN.
     void set(const ShownGrid& grid, int reach);
 
     [[nodiscard]] glm::ivec3 bricks() const { return bricks_; }
-    /// 255 or 0 by brick, x fastest.
+    /// 255 or 0 per brick, x fastest.
     [[nodiscard]] std::span<const std::uint8_t> occupied() const { return occupied_; }
     [[nodiscard]] bool at(int x, int y, int z) const { return occupied_[index(x, y, z)] != 0; }
     [[nodiscard]] bool empty() const { return minimum_.x >= maximum_.x; }
-    /// Cells [minimum, most) hold all occupied bricks.
+    /// The range [minimum, maximum) of cells contains all occupied bricks.
     [[nodiscard]] glm::ivec3 minimum() const { return minimum_; }
     [[nodiscard]] glm::ivec3 maximum() const { return maximum_; }
 

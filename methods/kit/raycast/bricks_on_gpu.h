@@ -1,6 +1,6 @@
-// Which bricks of a grid that lies on the GPU hold any density: what BrickMap knows, found there.
+// Finds the bricks with density in a grid that is on the GPU: BrickMap's GPU counterpart.
 //
-// Owns: the texture of bricks. Threads: the OpenGL thread's.
+// Owns: the texture of bricks. Threads: the OpenGL thread.
 #pragma once
 
 #include "methods/kit/gpu/buffer.h"
@@ -14,14 +14,14 @@ class BricksOnGpu {
  public:
     explicit BricksOnGpu(gpu::Device& device);
 
-    /// `reach`: cells that a sample sees beyond its own. False where a density is negative or not a number. Waits for
-    /// the GPU: the host must know the box that all bricks lie in.
+    /// `reach`: number of cells that a sample reads beyond its own. Returns false if a density is negative or NaN.
+    /// Waits for the GPU, because the host needs the bounding box of all bricks.
     [[nodiscard]] bool set(const ShownTextures& grid, int reach);
 
-    /// 1 or 0 by brick.
+    /// 1 or 0 per brick.
     [[nodiscard]] const gpu::Texture& texture() const { return bricks_; }
     [[nodiscard]] bool empty() const { return minimum_.x >= maximum_.x; }
-    /// Cells [minimum, most) hold all occupied bricks.
+    /// The range [minimum, maximum) of cells contains all occupied bricks.
     [[nodiscard]] const glm::ivec3& minimum() const { return minimum_; }
     [[nodiscard]] const glm::ivec3& maximum() const { return maximum_; }
     [[nodiscard]] std::size_t gpuBytes() const { return bricks_.bytes() + bounds_.bytes(); }

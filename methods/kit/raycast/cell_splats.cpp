@@ -7,7 +7,7 @@
 namespace dustbench::raycast {
 namespace {
 
-/// A billboard's opacity stays below 1, whose optical depth has no end.
+/// Keeps a billboard's opacity below 1, where the optical depth is infinite.
 constexpr float maximumOpacity = 0.99999f;
 
 }  // namespace

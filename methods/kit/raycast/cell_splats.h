@@ -1,10 +1,10 @@
-// Each cell with density as a Gaussian that faces the eye, blended from the farthest to the nearest.
+// Draws each cell with density as a Gaussian that faces the eye, blended far to near.
 //
-// A splat has the mass of its cell and the optical depth across it: s = edge/√(2π), τ = σ·edge. So small and so near to
-// each other they make an even cloud, to a tenth of its extinction.
+// A splat has the mass of its cell and the optical depth across it: s = edge/√(2π), τ = σ·edge. At this size and
+// spacing, splats form a uniform cloud to within a tenth of its extinction.
 //
 // Units: metres. Frame: world. Owns: the cells to draw, booked on a ledger, and the splats on the GPU. Threads: the
-// OpenGL thread's. Source: Senger2009, ch. 2.
+// OpenGL thread. Source: Senger2009, ch. 2.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ class CellSplats final : public GridRenderer {
  public:
     CellSplats(gpu::Device& device, const RaycastSettings& settings, const Reflected& reflected, MemoryLedger& ledger);
 
-    /// Each cell has the light of the texel it lies in.
+    /// Each cell takes the light of the texel that contains it.
     void upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light) override;
     std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer) override;
 
@@ -32,7 +32,7 @@ class CellSplats final : public GridRenderer {
     draw::Billboards billboards_;
     draw::DepthSort sort_;
     LedgerVector<float> x_, y_, z_, opacity_;
-    LedgerVector<glm::vec3> colours_;  ///< empty where all have the same
+    LedgerVector<glm::vec3> colours_;  ///< empty if all share one colour
     float radiusMetres_ = 0;
 };
 

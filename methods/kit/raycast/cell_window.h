@@ -1,10 +1,10 @@
-// Samples sixteen places of a grid at once: out of a window of cells held in registers, or anywhere out of memory.
+// Samples a grid at sixteen positions at once: from a window of cells in registers, or from memory.
 //
-// The rays of a packet are so near to each other that all eight neighbours of all their samples lie within 4×4×3 cells
-// most of the time. Those are read once, and the neighbours are picked in registers: on AVX-512 a seventh of the time
-// that gathering them takes.
+// The rays of a packet are so close together that usually all eight neighbours of all their samples lie within 4×4×3
+// cells. These are read once, and the neighbours are selected in registers: on AVX-512 this takes a seventh of the time
+// of gathering them.
 //
-// Units: cells; places count from the middle of the first cell.
+// Units: cells; positions are relative to the middle of the first cell.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -18,7 +18,8 @@ struct Places {
     Floats x, y, z;
 };
 
-/// Linear between eight neighbours that `value(corner)` gives, x fastest; shares are from the lower ones.
+/// Interpolates linearly between the eight neighbours `value(corner)`, x fastest; shares are measured from the lower
+/// ones.
 template <typename Value>
 [[gnu::always_inline]] inline Floats betweenEight(const Places& share, const Value& value) {
     const Floats front = mix(mix(value(0), value(1), share.x), mix(value(2), value(3), share.x), share.y);
@@ -26,7 +27,7 @@ template <typename Value>
     return mix(front, back, share.z);
 }
 
-/// What lies at the places, clamped to the grid.
+/// The values at the given positions, clamped to the grid.
 [[gnu::always_inline]] inline Floats sampleAnywhere(const PaddedCells& cells, const Places& at) {
     const auto lower = [](const Floats& place, int count) {
         const Floats clamped = atLeast(atMost(place, all(static_cast<float>(count - 1))), all(0));
@@ -47,7 +48,7 @@ template <typename Value>
 }
 
 #ifdef __AVX512F__
-/// 4×4×3 cells from one on.
+/// A window of 4×4×3 cells.
 class CellWindow {
  public:
     static constexpr bool useful = true;
@@ -56,7 +57,7 @@ class CellWindow {
         for (int k = 0; k < 3; ++k, from += slab) slabs_[k] = joined(from, from + row, from + 2 * row, from + 3 * row);
     }
 
-    /// Places from the first cell's middle on: less than (3, 3, 2).
+    /// Positions relative to the middle of the first cell: less than (3, 3, 2).
     [[gnu::always_inline]] [[nodiscard]] Floats sample(const Places& at) const {
         const Ints i = wholePart(at.x), j = wholePart(at.y), k = wholePart(at.z);
         const Places share{at.x - toFloats(i), at.y - toFloats(j), at.z - toFloats(k)};
@@ -77,7 +78,7 @@ class CellWindow {
     Floats slabs_[3];
 };
 #else
-/// Without registers to pick from, gathering is the faster.
+/// Without such registers, gathering is faster.
 class CellWindow {
  public:
     static constexpr bool useful = false;

@@ -11,14 +11,14 @@ namespace dustbench::raycast {
 namespace {
 
 constexpr std::size_t packetsPerBlock = 64;
-/// Steps that are skipped, or not, together.
+/// Steps that are skipped as a unit.
 constexpr int stepsPerChunk = 4;
 
-/// Eight linear samples make a cubic B-spline's 64: along each axis the two outer pairs of weights are put together.
-/// Source: Sigg2005.
+/// Evaluates a cubic B-spline with eight linear samples instead of 64 cells, by merging the weights along each axis
+/// into two pairs. Source: Sigg2005.
 struct CubicPairs {
     explicit CubicPairs(const Floats& place) {
-        const Floats low = toFloats(wholePart(place + 1)) - 1;  // places are −½ or more
+        const Floats low = toFloats(wholePart(place + 1)) - 1;  // positions are −½ or more
         const Floats share = place - low, rest = 1 - share;
         const Floats w0 = rest * rest * rest * (1.0f / 6), w3 = share * share * share * (1.0f / 6);
         const Floats w1 = 2.0f / 3 - 0.5f * share * share * (2 - share), w2 = 1 - w0 - w1 - w3;
@@ -38,7 +38,7 @@ Floats sampleCubic(const PaddedCells& cells, const Places& at) {
     });
 }
 
-/// Whether one of the bricks that a box of cells meets is occupied.
+/// Whether any brick that a box of cells touches is occupied.
 bool anyOccupied(const BrickMap& bricks, const Four& low, const Four& high) {
     constexpr float perCell = 1.0f / BrickMap::edge;
     const FourInts none{}, end{bricks.bricks().x - 1, bricks.bricks().y - 1, bricks.bricks().z - 1, 0};
@@ -51,7 +51,7 @@ bool anyOccupied(const BrickMap& bricks, const Four& low, const Four& high) {
     return false;
 }
 
-/// Distances along the camera's axis to distances along the rays of a packet.
+/// Converts the scene's depths to distances along the rays of a packet.
 Floats sceneDistance(const PixelRays& rays, const SceneDepths& depths, int x, int y, const Floats& stretch) {
     Floats depth;
     for (int lane = 0; lane < laneCount; ++lane) {
@@ -62,7 +62,7 @@ Floats sceneDistance(const PixelRays& rays, const SceneDepths& depths, int x, in
     return rays.nearDistance / atLeast(depth, all(1e-9f)) * stretch;
 }
 
-/// A grid to sample, and how many of its cells there are along one of the shown grid's.
+/// A grid to sample, with the number of its cells per cell of the shown grid.
 struct Field {
     explicit Field(const PaddedCells& padded, float scale = 1)
         : cells(padded),
@@ -80,18 +80,18 @@ struct Field {
     float perCell;
 };
 
-/// What a march goes through and looks for.
+/// Inputs of a ray march.
 struct Volume {
     Field density;
-    std::optional<Field> reaction;  ///< none: nothing burns
-    std::optional<Field> light;     ///< none: no shadow
-    const BrickMap* bricks;         ///< null: nothing is skipped
+    std::optional<Field> reaction;  ///< empty: no fire
+    std::optional<Field> light;     ///< empty: no shadow
+    const BrickMap* bricks;         ///< null: no skipping
     std::span<const glm::vec4> fire;
     Reflected reflected;
     float stepCells, extinctionPerCell, opaqueDepth;
 };
 
-/// One packet's way through a volume.
+/// Marches one packet through a volume.
 template <bool coloured, bool cubic>
 class PacketMarch {
  public:
@@ -108,7 +108,7 @@ class PacketMarch {
             filled = rays.within(glm::vec3(volume.bricks->minimum()), glm::vec3(volume.bricks->maximum()));
         filled.to = atMost(filled.to, sceneDistance);
         const Ints hits = filled.from < filled.to;
-        // What misses has no length.
+        // Rays that miss get zero length.
         from_ = box.from;
         end_ = hits ? atMost(box.to, sceneDistance) : from_;
         first_ = minimum(hits ? filled.from : all(std::numeric_limits<float>::max()));
@@ -137,7 +137,7 @@ class PacketMarch {
     [[nodiscard]] const Floats& colour(int channel) const { return colour_[channel]; }
 
  private:
-    /// The step of each ray that begins at `begin` and its jitter; `cut` where not all are whole.
+    /// Advances each ray by the step that begins at `begin` plus its jitter; `cut` if some steps may be partial.
     template <bool cut>
     [[gnu::always_inline]] void step(float begin) {
         Floats middle = begin + 0.5f * step_ + shift_, length = all(step_);
@@ -147,12 +147,12 @@ class PacketMarch {
             length = atLeast(to - from, all(0));
         }
         length = depth_ > opaque_ ? all(0) : length;
-        // The middles of steps that are cut may lie anywhere in them.
+        // The middle of a partial step may lie anywhere within it.
         const Reach reach{middle, begin + (cut ? 0.0f : 0.5f) * step_, begin + (cut ? 2.0f : 1.5f) * step_};
         gather(reach, length * sample(volume_.density, reach));
     }
 
-    /// Where the rays are sampled: distances, and the minimum and the maximum that any of them may be.
+    /// Sample positions of the rays: distances, and lower and upper bounds for all of them.
     struct Reach {
         const Floats& middle;
         float nearest, farthest;
@@ -162,7 +162,7 @@ class PacketMarch {
         return cubic ? sampleCubic(field.cells, places(reach.middle, Four{}, 1)) : sampleLinear(field, reach, 1);
     }
 
-    /// `perCell`: of the field, given by itself so that it may be known to be 1.
+    /// `perCell`: that of the field; passed separately so that the compiler may know that it is 1.
     [[gnu::always_inline]] [[nodiscard]] Floats sampleLinear(const Field& field, const Reach& reach,
                                                              float perCell) const {
         const Four low = perCell * rays_.low(reach.nearest, reach.farthest) - 0.5f;
@@ -179,7 +179,7 @@ class PacketMarch {
         return sampleAnywhere(field.cells, places(reach.middle, Four{}, perCell));
     }
 
-    /// From the middle of a cell on.
+    /// Positions relative to the middle of a cell.
     [[gnu::always_inline]] [[nodiscard]] Places places(const Floats& distance, const Four& cell, float perCell) const {
         const Four eye = perCell * rays_.eye - 0.5f - cell;
         const Floats scaled = perCell * distance;
@@ -228,10 +228,10 @@ class PacketMarch {
     const Volume& volume_;
     const RayPacket& rays_;
     float step_;
-    float opaque_;  ///< as `depth_` counts: without the extinction of a density of 1
+    float opaque_;  ///< in the unit of `depth_`: without the extinction of a density of 1
     Floats shift_;
     Floats from_, end_;   ///< of each ray, within the grid and before the scene
-    float first_, last_;  ///< between them is all there may be to see
+    float first_, last_;  ///< everything visible lies between them
     Floats depth_{};
     Floats transmittance_ = all(1);
     Floats colour_[3]{};

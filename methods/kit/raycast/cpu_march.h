@@ -1,7 +1,7 @@
-// Ray casting on the CPU: sixteen neighbouring pixels at a time, spread over threads.
+// Ray casting on the CPU: sixteen neighbouring pixels at a time, in parallel.
 //
-// The same steps as grid_march.frag. Units: cells. Owns: the grid in its own layout. Threads: march() uses the current
-// oneTBB arena; the picture is the same however many there are. Source: Senger2009, ch. 4.
+// Takes the same steps as grid_march.frag. Units: cells. Owns: the grid in its own layout. Threads: march() uses the
+// current oneTBB arena; the picture does not depend on the number of threads. Source: Senger2009, ch. 4.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@
 
 namespace dustbench::raycast {
 
-/// A rectangle of pixels in packets of 4×4, row after row from the bottom left. `channels` floats of each pixel lie
-/// together with those of the packet's fifteen others: alpha, or red, green, blue and alpha, premultiplied.
+/// A rectangle of pixels in packets of 4×4, row by row from the bottom left. For each of the `channels`, the sixteen
+/// floats of a packet are contiguous: alpha, or red, green, blue and alpha, premultiplied.
 struct PacketPicture {
     static constexpr int edge = 4, pixels = edge * edge;
 
@@ -33,7 +33,7 @@ struct PacketPicture {
     [[nodiscard]] std::size_t floats() const { return packets() * pixels * static_cast<std::size_t>(channels); }
 };
 
-/// The opaque scene's depths, row after row from the bottom.
+/// The opaque scene's depths, row by row from the bottom.
 struct SceneDepths {
     std::span<const float> values;
     int width = 0, height = 0;
@@ -43,12 +43,12 @@ class CpuMarch {
  public:
     CpuMarch(const RaycastSettings& settings, MemoryLedger& ledger);
 
-    /// `bricks`, and `light` where the cloud casts a shadow on itself, must outlive the marches through this grid.
+    /// `bricks`, and `light` if the cloud casts a shadow on itself, must outlive all marches through this grid.
     void upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light);
 
-    /// 1 for smoke whose colour is the same everywhere, or 4.
+    /// 1 for smoke of uniform colour, else 4.
     [[nodiscard]] int channels() const { return burning_ || light_ ? 4 : 1; }
-    /// `picture.channels` must be `channels()`.
+    /// `picture.channels` must equal `channels()`.
     void march(const PixelRays& rays, const SceneDepths& depths, const Reflected& reflected,
                const PacketPicture& picture) const;
 

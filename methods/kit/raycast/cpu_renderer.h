@@ -1,7 +1,6 @@
-// The march on the CPU as a renderer: reads the scene's depths back, marches, and puts the picture over the layer.
+// Renders with the CPU march: reads back the scene's depths, marches, and composites the picture over the layer.
 //
-// Owns: the grid in the march's layout, the picture on the GPU. Threads: the OpenGL thread's; the march spreads over
-// the others.
+// Owns: the grid in the march's layout, the picture on the GPU. Threads: the OpenGL thread; the march runs in parallel.
 #pragma once
 
 #include "methods/kit/raycast/cpu_march.h"

@@ -1,6 +1,6 @@
-// Ray casting on the GPU: a pass over the pixels that may see the grid.
+// Ray casting on the GPU: one pass over the pixels that may see the grid.
 //
-// Owns: the grid on the GPU. Threads: the OpenGL thread's. Source: Senger2009, ch. 4.
+// Owns: the grid on the GPU. Threads: the OpenGL thread. Source: Senger2009, ch. 4.
 #pragma once
 
 #include <cstddef>
@@ -31,10 +31,10 @@ class GlMarch final : public GridRenderer {
     Reflected reflected_;
     GridOnGpu grid_;
     gpu::Texture bricks_;
-    const gpu::Texture* takenBricks_ = nullptr;  ///< somebody else's, where those are looked into
+    const gpu::Texture* takenBricks_ = nullptr;  ///< external bricks if the grid was taken, not uploaded
     glm::ivec3 minimum_{0}, maximum_{0};
     gpu::VertexArray vertices_;
-    std::optional<gpu::Program> smokeAlone_, withFire_;  ///< made when first wanted
+    std::optional<gpu::Program> smokeAlone_, withFire_;  ///< compiled on first use
 };
 
 }  // namespace dustbench::raycast

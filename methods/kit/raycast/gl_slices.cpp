@@ -11,7 +11,7 @@
 namespace dustbench::raycast {
 namespace {
 
-/// A box's corners as the camera has them: to the right, up, and along its axis.
+/// A box's corners in camera axes: right, up, and along the camera's axis.
 std::array<glm::vec3, 8> cornersOf(const glm::ivec3& minimum, const glm::ivec3& maximum, const PixelRays& rays) {
     const float pixel = glm::length(rays.right);
     const glm::vec3 right = rays.right / pixel, up = rays.up / pixel, along = glm::cross(up, right);
@@ -25,7 +25,8 @@ std::array<glm::vec3, 8> cornersOf(const glm::ivec3& minimum, const glm::ivec3& 
     return corners;
 }
 
-/// The rectangle round where a plane across the view cuts the box: left bottom right top, by lengths over distance.
+/// Bounding rectangle of the box's section with a plane perpendicular to the view: left bottom right top, as lengths
+/// over distance.
 glm::vec4 sectionOf(const std::array<glm::vec3, 8>& corners, float distance) {
     glm::vec2 low(1e9f), high(-1e9f);
     for (std::size_t i = 0; i < 8; ++i)
@@ -72,7 +73,7 @@ std::int64_t GlSlices::draw(const GridPlace& place, const scene::View& view, con
     const std::array<glm::vec3, 8> corners = cornersOf(minimum_, maximum_, rays);
     const auto nearer = [](const glm::vec3& a, const glm::vec3& b) { return a.z < b.z; };
     const auto step = static_cast<float>(settings_.stepCells);
-    // Planes stand at (i + ½)·step along the camera's axis.
+    // Planes are at (i + ½)·step along the camera's axis.
     const int first =
         static_cast<int>(std::ceil(std::max(std::ranges::min_element(corners, nearer)->z, 0.0f) / step - 0.5f));
     const int last = static_cast<int>(std::floor(std::ranges::max_element(corners, nearer)->z / step - 0.5f));

@@ -1,6 +1,6 @@
-// Textured planes across the view, blended from the farthest to the nearest.
+// Draws textured planes perpendicular to the view, blended far to near.
 //
-// Owns: the grid on the GPU. Units: cells. Threads: the OpenGL thread's. Source: Senger2009, ch. 2.
+// Owns: the grid on the GPU. Units: cells. Threads: the OpenGL thread. Source: Senger2009, ch. 2.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ class GlSlices final : public GridRenderer {
     glm::ivec3 minimum_{0}, maximum_{0};
     gpu::Buffer slices_;
     gpu::VertexArray vertices_;
-    std::optional<gpu::Program> smokeAlone_, withFire_;  ///< made when first wanted
+    std::optional<gpu::Program> smokeAlone_, withFire_;  ///< compiled on first use
 };
 
 }  // namespace dustbench::raycast

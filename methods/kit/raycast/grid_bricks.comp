@@ -1,11 +1,11 @@
-// Which bricks of a grid hold any density, and what box they fill; a thread for each brick. See brick_map.h.
+// Finds the bricks of a grid that hold density, and their bounding box; one thread per brick. See brick_map.h.
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(binding = 0, r8) restrict writeonly uniform image3D bricks;
 layout(binding = 1) uniform sampler3D density;
 layout(std430, binding = 0) restrict buffer Bounds {
-    ivec4 minimum, maximum;  // in bricks; maximum.w: not 0 where a density is negative or not a number
+    ivec4 minimum, maximum;  // in bricks; maximum.w: not 0 if a density is negative or NaN
 };
-uniform int reach;  // cells that a sample sees beyond its own
+uniform int reach;  // number of cells that a sample reads beyond its own
 
 void main() {
     ivec3 brick = ivec3(gl_GlobalInvocationID), cells = textureSize(density, 0);
@@ -15,7 +15,8 @@ void main() {
     for (int z = from.z; z < to.z; ++z)
         for (int y = from.y; y < to.y; ++y)
             for (int x = from.x; x < to.x; ++x) {
-                // As bits: a sign, or an exponent with all of its bits, makes them greater than those of any number.
+                // Compared as bits: a sign bit, or an exponent of all ones, exceeds the bits of every positive finite
+                // number.
                 uint bits = floatBitsToUint(texelFetch(density, ivec3(x, y, z), 0).r);
                 if (bits != 0x80000000u) maximumBits = max(maximumBits, bits);
             }

@@ -1,24 +1,24 @@
-// Front to back along the pixel's ray through a grid of cells.
+// Marches front to back along the pixel's ray through a grid of cells.
 //
 //     D ← D + σ·Δ,   T = e^(−D),   C ← C + (T before − T after)·(reflected + emission)
 //
-// Steps end at distances (k + jitter)·step from the eye, on whatever side of the grid it is; the first and the last are
-// cut to what lies within the grid and before the scene, and each is sampled in its middle.
-// Source: Senger2009, ch. 4. Departs: entry, length and their cuts are computed for each pixel instead of drawn first.
+// Steps end at distances (k + jitter)·step from the eye on either side of the grid. The first and the last step are
+// cut to the part within the grid and before the scene. Each step is sampled in its middle.
+// Source: Senger2009, ch. 4. Departs: computes entry, length and cuts per pixel instead of drawing them first.
 layout(binding = 0) uniform sampler2D sceneDepth;
 #ifdef SKIP
-layout(binding = 2) uniform sampler3D bricks;  // 0: nothing in it
-uniform vec3 minimum, maximum;                      // [minimum, most) holds all there is
+layout(binding = 2) uniform sampler3D bricks;  // 0: empty
+uniform vec3 minimum, maximum;  // [minimum, maximum) contains all density
 #endif
 
 uniform vec3 eye;
-uniform vec3 rayCorner, rayRight, rayUp;  // the ray through the picture's corner, and what one pixel adds
+uniform vec3 rayCorner, rayRight, rayUp;  // the ray through the image's corner, and its change per pixel
 uniform float nearDistance, stepLength;
-uniform float opaqueDepth;  // where a ray may end
+uniform float opaqueDepth;  // where rays end
 
 layout(location = 0) out vec4 colour;
 
-// pixel_rays.h says what it is.
+// See pixel_rays.h.
 float jitter() {
 #ifdef JITTER
     uvec2 pixel = uvec2(gl_FragCoord.xy);
@@ -45,7 +45,7 @@ void march(vec3 at, float reach) {
     depth = next;
 }
 
-// Where the ray from the eye is between two corners: x to y.
+// The distances x to y at which the ray from the eye is between two corners.
 vec2 within(vec3 low, vec3 high, vec3 perRay) {
     vec3 atLow = (low - eye) * perRay, atHigh = (high - eye) * perRay;
     vec3 enters = min(atLow, atHigh), leaves = max(atLow, atHigh);
@@ -53,7 +53,7 @@ vec2 within(vec3 low, vec3 high, vec3 perRay) {
 }
 
 #ifdef SKIP
-// How far a ray goes through bricks without anything in them, `length` at the most.
+// Distance that a ray travels through empty bricks, at most `length`.
 float clearAhead(vec3 start, vec3 ray, float length) {
     vec3 perRay = 1.0 / ray;
     ivec3 brickCount = textureSize(bricks, 0);
@@ -97,9 +97,9 @@ void main() {
     if (enter >= last) return;
 
     float shift = jitter() * stepLength;
-    float k = floor((enter - shift) / stepLength) + 1.0;  // the step from `from` ends at `next`, or at the end
+    float k = floor((enter - shift) / stepLength) + 1.0;  // the step that starts at `from` ends at `next` or `end`
     float next = k * stepLength + shift, from = max(next - stepLength, box.x);
-    // Counted, because so far away that floats do not tell steps from each other they would not end.
+    // Counted, because the loop would not end far away, where float precision cannot separate steps.
     for (int steps = int((last - enter) / stepLength) + 3; steps > 0 && from < last && depth <= opaqueDepth; --steps) {
         float to = min(next, end);
         march(eye + 0.5 * (from + to) * ray, to - from);

@@ -1,6 +1,6 @@
-// A grid in textures, as the shaders of grid_optics.glsl look into it.
+// A grid in textures, as read by the shaders that use grid_optics.glsl.
 //
-// Owns: the textures. Threads: the OpenGL thread's.
+// Owns: the textures. Threads: the OpenGL thread.
 #pragma once
 
 #include <cstddef>
@@ -19,14 +19,14 @@ class GridOnGpu {
  public:
     GridOnGpu(gpu::Device& device, const RaycastSettings& settings) : device_(device), settings_(settings) {}
 
-    /// `light`: null where the cloud casts no shadow on itself.
+    /// `light`: null if the cloud casts no shadow on itself.
     void upload(const ShownGrid& grid, const LightVolume* light);
-    /// Takes what is there already. `light`: null likewise.
+    /// Uses existing textures. `light`: null if the cloud casts no shadow on itself.
     void take(const ShownTextures& grid, const LightOnGpu* light);
 
     [[nodiscard]] bool burning() const { return burning_; }
     [[nodiscard]] std::map<std::string, std::string> definitions() const;
-    /// To texture units 1, 3, 4 and 5, and what the program must know of it.
+    /// Binds to texture units 1, 3, 4 and 5, and sets the program's uniforms.
     void bind(gpu::Program& program, const Reflected& reflected) const;
 
     [[nodiscard]] std::size_t gpuBytes() const;
@@ -37,21 +37,21 @@ class GridOnGpu {
     gpu::Device& device_;
     RaycastSettings settings_;
     gpu::Texture density_, reaction_, fire_, light_;
-    /// What is looked into where it is somebody else's.
+    /// External textures in use, if the grid was taken.
     const gpu::Texture *takenDensity_ = nullptr, *takenReaction_ = nullptr, *takenLight_ = nullptr;
     glm::ivec3 cells_{0}, lightCells_{0};
     float extinctionPerCell_ = 0;
     bool burning_ = false;
 };
 
-/// The transfer function, and what shaders must know of it.
+/// The transfer function, and the definitions that shaders need for it.
 [[nodiscard]] gpu::Texture makeFireTable(gpu::Device& device, const RaycastSettings& settings);
 [[nodiscard]] std::map<std::string, std::string> fireDefinitions();
 
-/// Runs a program with groups of 4×4×4 threads, one for each texel.
+/// Runs a program in groups of 4×4×4 threads, one thread per texel.
 void dispatchForTexels(const gpu::Program& program, const glm::ivec3& texels);
 
-/// Makes a 3D texture anew where it has not the size already.
+/// Replaces a 3D texture unless it already has the given size.
 void fitTexture(gpu::Texture& texture, gpu::Device& device, const char* label, gpu::Format format,
                 const glm::ivec3& size, gpu::Filter filter);
 

@@ -1,17 +1,17 @@
-// What a grid of cells shows: its density, light and fire anywhere in it.
+// Optical properties of a grid of cells: density, light and fire at any position.
 //
-// Lengths are in cells, places from the grid's minimum corner.
+// Lengths are in cells; positions are relative to the grid's minimum corner.
 layout(binding = 1) uniform sampler3D density;
 #ifdef FIRE
 layout(binding = 3) uniform sampler3D reaction;
 layout(binding = 4) uniform sampler2D fire;  // emission and extinction factor by reaction
 #endif
 #ifdef SHADOW
-layout(binding = 5) uniform sampler3D light;  // how much of the sun's comes through
-uniform vec3 lightCells;                      // that it reaches over
+layout(binding = 5) uniform sampler3D light;  // fraction of the sun's light that arrives
+uniform vec3 lightCells;  // range that the light texture covers
 uniform vec3 reflectedSky, reflectedSun;
 #else
-uniform vec3 reflected;  // what a thick cloud reflects
+uniform vec3 reflected;  // light reflected by a thick cloud
 #endif
 #if defined(FIRE) || defined(SHADOW)
 #define COLOURED
@@ -21,8 +21,8 @@ uniform vec3 cells;
 uniform float extinction;  // of a density of 1, per cell
 
 #ifdef CUBIC
-// Eight linear samples make a cubic B-spline's 64: along each axis the two outer pairs of weights are put together.
-// Source: Sigg2005.
+// Evaluates a cubic B-spline with eight linear samples instead of 64 cells, by merging the weights along each axis
+// into two pairs. Source: Sigg2005.
 float sampled(sampler3D field, vec3 at) {
     vec3 place = at - 0.5, share = fract(place), low = place - share;
     vec3 rest = 1.0 - share;
@@ -45,7 +45,7 @@ float sampled(sampler3D field, vec3 at) {
 }
 #endif
 
-// Extinction per cell, and the colour of what it covers.
+// Returns the extinction per cell; `source` receives the colour that smoke and fire show.
 float extinctionAt(vec3 at, out vec3 source) {
 #ifdef SHADOW
     source = reflectedSky + reflectedSun * texture(light, at / lightCells).r;

@@ -3,7 +3,7 @@
 namespace dustbench::raycast {
 namespace {
 
-/// Cells that a sample sees beyond its own.
+/// Number of cells that a sample reads beyond its own.
 int reachOf(Filter filter) {
     return filter == Filter::cubic ? 2 : 1;
 }
@@ -34,7 +34,7 @@ void GridRaycast::take(const ShownTextures& grid) {
     check(grid);
     if (!bricksOnGpu_) bricksOnGpu_.emplace(device_);
     if (!bricksOnGpu_->set(grid, reachOf(settings_.filter))) {
-        // It says where.
+        // The CPU check throws with the position of the bad cell.
         const std::vector<float> density = grid.density->readFloats();
         bricks_.set({grid.cells, grid.spacingMetres, grid.originMetres, density, {}}, 0);
     }

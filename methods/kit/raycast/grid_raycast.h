@@ -1,7 +1,7 @@
-// Draws a grid of smoke and fire: by a ray through it for each pixel, on the CPU or the GPU, or in an older way.
+// Draws a grid of smoke and fire: by ray casting on the CPU or the GPU, or by an older technique.
 //
-// Units: metres, extinction per metre. Frame: world. Colours: linear RGB. Owns: the grid as the backend wants it.
-// Threads: the OpenGL thread's; the CPU's march spreads over the others. Source: Senger2009, ch. 4.
+// Units: metres, extinction per metre. Frame: world. Colours: linear RGB. Owns: the grid in the backend's layout.
+// Threads: the OpenGL thread; the CPU march runs in parallel. Source: Senger2009, ch. 4.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +18,20 @@ class DUSTBENCH_API GridRaycast {
     GridRaycast(gpu::Device& device, const RaycastSettings& settings, const scene::Lights& lights,
                 MemoryLedger& ledger);
 
-    /// Takes over all that is drawn; the grid may go afterwards. Throws InputError for a grid that has no cells, or a
-    /// density that is negative or not a number; then nothing is drawn.
+    /// Copies everything that is drawn; the grid need not outlive the call. Throws InputError if the grid has no cells
+    /// or a density is negative or NaN; nothing is drawn after an error.
     void upload(const ShownGrid& grid);
 
-    /// The same for what lies on the GPU already; only where `takesTextures()`.
+    /// The same for a grid that is already on the GPU; only if `takesTextures()`.
     void take(const ShownTextures& grid);
-    /// The march and the slices do where OpenGL makes them: nothing then goes over the host.
+    /// True for the march and the slices on OpenGL: no data then pass through the host.
     [[nodiscard]] bool takesTextures() const { return renderer_->takesTextures(); }
 
-    /// Draws what was uploaded last, as often as wanted.
+    /// Draws the grid uploaded last; may be called repeatedly.
     void draw(const scene::View& view, const gpu::Layer& layer);
 
     [[nodiscard]] std::size_t gpuBytes() const;
-    /// Rays that the last draw cast, or what else it drew: planes, splats, triangles.
+    /// Number of rays cast by the last draw, or of the planes, splats or triangles drawn.
     [[nodiscard]] std::int64_t primitives() const { return primitives_; }
 
  private:
@@ -39,8 +39,8 @@ class DUSTBENCH_API GridRaycast {
     RaycastSettings settings_;
     glm::vec3 toSun_;
     BrickMap bricks_;
-    std::optional<LightVolume> light_;        ///< none: no shadow
-    std::optional<BricksOnGpu> bricksOnGpu_;  ///< made when first wanted
+    std::optional<LightVolume> light_;        ///< empty: no shadow
+    std::optional<BricksOnGpu> bricksOnGpu_;  ///< created on first use
     std::optional<LightOnGpu> lightOnGpu_;
     std::unique_ptr<GridRenderer> renderer_;
     GridPlace place_;

@@ -1,6 +1,6 @@
-// One way to draw a grid of smoke and fire: what all of them offer to GridRaycast, which makes one of them.
+// The interface of all techniques that draw a grid of smoke and fire; GridRaycast creates one of them.
 //
-// Threads: the OpenGL thread's.
+// Threads: the OpenGL thread.
 #pragma once
 
 #include <cstddef>
@@ -19,12 +19,12 @@
 
 namespace dustbench::raycast {
 
-/// What a thick cloud of this albedo reflects; the same for all methods (scene::dustColour).
+/// Light reflected by a thick cloud of this albedo; the same for all methods (scene::dustColour).
 [[nodiscard]] Reflected cloudColour(const glm::vec3& albedo, const scene::Lights& lights);
 
-/// Where the grid that was uploaded last stands, and the cells [minimum, most) that all of its density lies in.
+/// Placement of the grid uploaded last, and the range [minimum, maximum) of cells that contains all of its density.
 struct GridPlace {
-    ShownGrid grid;  ///< its place and size; it looks at no values
+    ShownGrid grid;  ///< position and size only, no values
     glm::ivec3 minimum{0}, maximum{0};
 };
 
@@ -32,20 +32,20 @@ class GridRenderer {
  public:
     virtual ~GridRenderer() = default;
 
-    /// `light`: null where the cloud casts no shadow on itself. It and `bricks` must outlive the pictures of this grid.
+    /// `light`: null if the cloud casts no shadow on itself. `light` and `bricks` must outlive all draws of this grid.
     virtual void upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light) = 0;
 
     [[nodiscard]] virtual bool takesTextures() const { return false; }
-    /// The same for what lies on the GPU already; only where `takesTextures()`.
+    /// The same for a grid that is already on the GPU; only if `takesTextures()`.
     virtual void take(const ShownTextures& grid, const BricksOnGpu& bricks, const LightOnGpu* light);
 
-    /// Draws what was uploaded last. Returns how many rays, planes, splats or triangles that were.
+    /// Draws the grid uploaded last. Returns the number of rays, planes, splats or triangles.
     virtual std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer) = 0;
 
     [[nodiscard]] virtual std::size_t gpuBytes() const = 0;
 };
 
-/// The one that `settings` ask for on this device. `device` and `ledger` must outlive it.
+/// Creates the renderer that `settings` select for this device. `device` and `ledger` must outlive it.
 [[nodiscard]] std::unique_ptr<GridRenderer> makeGridRenderer(gpu::Device& device, const RaycastSettings& settings,
                                                              const scene::Lights& lights, MemoryLedger& ledger);
 

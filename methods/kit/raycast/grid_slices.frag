@@ -1,11 +1,11 @@
-// A plane across the view, as thick as the way to the next one along the pixel's ray.
+// A plane perpendicular to the view; its thickness is the distance to the next plane along the pixel's ray.
 //
 //     α = 1 − e^(−σ·Δ)
 //
-// The plane that the scene cuts counts with its part before the scene. Source: Senger2009, ch. 2.
+// The slab that the scene cuts contributes its part before the scene. Source: Senger2009, ch. 2.
 layout(binding = 0) uniform sampler2D sceneDepth;
 uniform vec3 eye;
-uniform vec3 rayCorner, rayRight, rayUp;  // the ray through the picture's corner, and what one pixel adds
+uniform vec3 rayCorner, rayRight, rayUp;  // the ray through the image's corner, and its change per pixel
 uniform float nearDistance, stepLength;
 
 flat in float distance;

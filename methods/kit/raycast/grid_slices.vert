@@ -1,4 +1,4 @@
-// One rectangle for each plane across the view, from the farthest on.
+// One rectangle for each plane perpendicular to the view, far to near.
 layout(std430, binding = 0) readonly buffer Slices {
     vec4 slices[];  // left bottom right top, each −1..1
 };

@@ -1,4 +1,4 @@
-// What was drawn apart, pixel by pixel.
+// Copies a separately drawn picture, pixel by pixel.
 layout(binding = 0) uniform sampler2D picture;
 layout(location = 0) out vec4 colour;
 

@@ -1,7 +1,7 @@
-// A dull opaque surface: sky from all sides, sun by the cosine of its angle; hidden by the scene.
+// A matt opaque surface: sky light from all directions, sun light by Lambert's cosine; hidden by the scene.
 layout(binding = 0) uniform sampler2D sceneDepth;
 uniform vec3 toSun;
-uniform vec3 sky, sun;  // as the surface reflects them
+uniform vec3 sky, sun;  // reflected light
 
 in vec3 facing;
 layout(location = 0) out vec4 colour;

@@ -1,6 +1,6 @@
-// The surface on which a grid's density has one value, by VTK's flying edges.
+// Extracts the surface of constant density of a grid with VTK's flying edges.
 //
-// Units: metres. Frame: the grid's minimum corner. VTK stays out of this header.
+// Units: metres. Frame: the grid's minimum corner. VTK is not included here.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace dustbench::raycast {
 
 struct IsoSurface {
     struct Vertex {
-        glm::vec3 place, normal;  ///< the normal points to where there is less
+        glm::vec3 place, normal;  ///< the normal points towards lower density
     };
     std::vector<Vertex> vertices;
-    std::vector<std::uint32_t> indices;  ///< three for each triangle
+    std::vector<std::uint32_t> indices;  ///< three per triangle
 };
 
-/// Closed: beyond the grid there is nothing. `density` must be more than 0.
+/// The surface is closed: density is 0 beyond the grid. `density` must be more than 0.
 [[nodiscard]] IsoSurface isoSurface(const ShownGrid& grid, double density);
 
 }  // namespace dustbench::raycast

@@ -1,7 +1,8 @@
 // Draws an isosurface of a grid as opaque triangles.
 //
-// They hide each other by depths of their own, in a picture that is then put over the layer. Smoke alone: what burns
-// shows no light. Owns: triangles and picture on the GPU. Threads: the OpenGL thread's. Source: Senger2009, ch. 2.
+// The triangles have their own depth buffer and are drawn to a separate picture, which is then composited over the
+// layer. Shows smoke only: fire emits no light here. Owns: triangles and picture on the GPU. Threads: the OpenGL
+// thread. Source: Senger2009, ch. 2.
 #pragma once
 
 #include "methods/kit/gpu/buffer.h"

@@ -1,4 +1,4 @@
-// Sixteen numbers at a time, beside lanes/lanes.h. Private to the march on the CPU.
+// Operations on sixteen lanes, in addition to lanes/lanes.h. Internal to the CPU march.
 #pragma once
 
 #include <cstring>
@@ -10,7 +10,7 @@ namespace dustbench::raycast {
 inline constexpr int laneCount = 16;
 using Floats = lanes::Float16;
 using Ints = lanes::Int16;
-/// x, y, z, and what does no harm.
+/// x, y, z, and an unused lane.
 using Four = lanes::Float4;
 using FourInts = lanes::Int4;
 using lanes::atLeast;
@@ -40,7 +40,7 @@ using lanes::atMost;
     return result;
 }
 
-/// e^(−x) for x of 0 or more, within 1e-6 of itself; 0 where that is below 2^-126.
+/// e^(−x) for x ≥ 0, with relative error below 1e-6; 0 if the result is below 2^-126.
 [[gnu::always_inline]] inline Floats expMinus(const Floats& x) {
     // e^(−x) = 2^(−n)·2^f with −x/ln 2 = f − n, f in [0, 1); 2^f by its series about ½, to the sixth power.
     const Floats y = atMost(x * 1.44269504f, all(126));

@@ -1,4 +1,4 @@
-// What each texel's cells extinguish in the mean, as the density of smoke that does the same. See light_volume.h.
+// Mean extinction of each texel's cells, expressed as an equivalent density of smoke. See light_volume.h.
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(binding = 0, r32f) restrict writeonly uniform image3D averages;
 layout(binding = 1) uniform sampler3D density;

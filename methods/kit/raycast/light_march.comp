@@ -1,5 +1,5 @@
-// How much of the sun's light comes through to each texel: e^(-D), by steps of a texel's edge from its middle to where
-// the way to the sun leaves the grid. See light_volume.h.
+// Fraction of the sun's light that reaches each texel: e^(-D), by steps of a texel's edge from the texel's middle to
+// the point where the ray to the sun leaves the grid. See light_volume.h.
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(binding = 0, r32f) restrict writeonly uniform image3D light;
 layout(binding = 1) uniform sampler3D averages;
@@ -7,12 +7,12 @@ uniform vec3 end;  // of the grid, in texels
 uniform vec3 toSun;
 uniform float extinction;  // of a density of 1, per texel
 
-const float darkDepth = 8.0;  // no more than 0.03 % comes through
+const float darkDepth = 8.0;  // at most 0.03 % of the light remains
 
 void main() {
     ivec3 texel = ivec3(gl_GlobalInvocationID), texels = imageSize(light);
     if (any(greaterThanEqual(texel, texels))) return;
-    // Middles of texels, those that the grid ends in moved to where it does.
+    // Middles of texels; for texels that extend beyond the grid, clamped to its end.
     vec3 from = min(vec3(texel) + 0.5, end);
     float reach = 1e9;
     for (int axis = 0; axis < 3; ++axis)

@@ -1,8 +1,7 @@
-// How much of the sun's light comes through to where in a grid that lies on the GPU: what LightVolume knows, found
-// there.
+// Computes the fraction of the sun's light within a grid that is on the GPU: LightVolume's GPU counterpart.
 //
-// Units: cells of the shown grid. Owns: its textures. Threads: the OpenGL thread's.
-// Source: Fedkiw2001, to whom Senger2009 leaves light and shadow.
+// Units: cells of the shown grid. Owns: its textures. Threads: the OpenGL thread.
+// Source: Fedkiw2001; Senger2009 refers to it for light and shadow.
 #pragma once
 
 #include <optional>
@@ -16,13 +15,13 @@ namespace dustbench::raycast {
 
 class LightOnGpu {
  public:
-    /// `toSun`: in the world.
+    /// `toSun`: in world coordinates.
     LightOnGpu(gpu::Device& device, const RaycastSettings& settings, const glm::vec3& toSun);
 
     void set(const ShownTextures& grid);
 
     [[nodiscard]] const gpu::Texture& texture() const { return light_; }
-    /// Cells that the light's texels reach over.
+    /// Number of cells that the light's texels cover.
     [[nodiscard]] const glm::ivec3& cells() const { return cells_; }
     [[nodiscard]] std::size_t gpuBytes() const { return averages_.bytes() + light_.bytes() + fire_.bytes(); }
 
@@ -30,7 +29,7 @@ class LightOnGpu {
     gpu::Device& device_;
     RaycastSettings settings_;
     gpu::Program march_;
-    std::optional<gpu::Program> averageSmoke_, averageFire_;  ///< made when first wanted
+    std::optional<gpu::Program> averageSmoke_, averageFire_;  ///< compiled on first use
     gpu::Texture averages_, light_, fire_;
     glm::ivec3 cells_{0};
 };

@@ -9,7 +9,7 @@
 namespace dustbench::raycast {
 namespace {
 
-constexpr float darkDepth = 8;  ///< no more than 0.03 % comes through
+constexpr float darkDepth = 8;  ///< at most 0.03 % of the light remains
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void LightVolume::set(const ShownGrid& grid) {
     light_.set(texels, values_);
 }
 
-/// What each texel's cells extinguish in the mean, as the density of smoke that does the same.
+/// Mean extinction of each texel's cells, expressed as an equivalent density of smoke.
 void LightVolume::average(const ShownGrid& grid, const glm::ivec3& texels) {
     const auto lastTexel = static_cast<float>(fire_.size() - 1);
     const auto effective = [&](std::size_t cell) {
@@ -62,8 +62,8 @@ void LightVolume::average(const ShownGrid& grid, const glm::ivec3& texels) {
     });
 }
 
-/// Sixteen texels at a time: steps of a texel's edge from each one's middle to where the way to the sun leaves the
-/// grid.
+/// Marches sixteen texels at a time, by steps of a texel's edge from each texel's middle to the point where the ray to
+/// the sun leaves the grid.
 void LightVolume::marchRow(const ShownGrid& grid, int y, int z) {
     const glm::ivec3 texels = paddedDensity_.cells();
     const float perTexel = 1.0f / static_cast<float>(texelCells_);
@@ -73,7 +73,7 @@ void LightVolume::marchRow(const ShownGrid& grid, int y, int z) {
     for (int x = 0; x < texels.x; x += laneCount) {
         Floats column;
         for (int lane = 0; lane < laneCount; ++lane) column[lane] = static_cast<float>(x + lane);
-        // Middles of texels, those that the grid ends in moved to where it does.
+        // Middles of texels; for texels that extend beyond the grid, clamped to its end.
         const Floats from[3] = {atMost(column + 0.5f, all(end.x)), all(std::min(static_cast<float>(y) + 0.5f, end.y)),
                                 all(std::min(static_cast<float>(z) + 0.5f, end.z))};
         Floats length = all(1e9f);

@@ -1,8 +1,8 @@
-// How much of the sun's light comes through to where, in a grid coarser than the one that is shown.
+// Computes the fraction of the sun's light that arrives at each texel of a grid coarser than the one shown.
 //
-// Each texel's value is e^(−D) at its middle, D being the optical depth from there towards the sun.
-// Units: cells of the shown grid. Owns its memory, booked on a ledger. Threads: set() spreads over them.
-// Source: Fedkiw2001, to whom Senger2009 leaves light and shadow.
+// Each texel holds e^(−D) at its middle, where D is the optical depth from there towards the sun.
+// Units: cells of the shown grid. Owns: its memory, booked on a ledger. Threads: set() runs in parallel.
+// Source: Fedkiw2001; Senger2009 refers to it for light and shadow.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@
 
 namespace dustbench::raycast {
 
-/// What a thick cloud reflects, in linear RGB: the sky's light and the sun's.
+/// Light reflected by a thick cloud, in linear RGB: from the sky and from the sun.
 struct Reflected {
     glm::vec3 ambient{0}, sun{0};
     [[nodiscard]] glm::vec3 all() const { return ambient + sun; }
@@ -23,7 +23,7 @@ struct Reflected {
 
 class LightVolume {
  public:
-    /// `toSun`: unit vector in the world.
+    /// `toSun`: unit vector in world coordinates.
     LightVolume(const RaycastSettings& settings, const glm::vec3& toSun, MemoryLedger& ledger);
 
     void set(const ShownGrid& grid);

@@ -1,4 +1,4 @@
-// A pixel of a picture that lies in packets of 4×4 pixels (cpu_march.h).
+// One pixel of a picture stored in packets of 4×4 pixels (cpu_march.h).
 layout(std430, binding = 0) readonly buffer Values {
     float values[];
 };

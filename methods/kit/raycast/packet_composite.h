@@ -1,6 +1,6 @@
-// Puts a picture that the CPU has marched over a layer.
+// Composites a picture marched by the CPU over a layer.
 //
-// Owns: the picture's memory on the GPU, which the CPU writes into. Threads: the OpenGL thread's.
+// Owns: the picture's GPU memory, which the CPU writes to. Threads: the OpenGL thread.
 #pragma once
 
 #include <optional>
@@ -17,9 +17,9 @@ class PacketComposite {
  public:
     explicit PacketComposite(gpu::Device& device) : device_(device), vertices_(device) {}
 
-    /// A picture to be filled; its values are write-only and valid until it is drawn.
+    /// A picture to fill; its values are write-only and valid until it is drawn.
     [[nodiscard]] PacketPicture map(const PixelRectangle& rectangle, int channels);
-    /// Draws what was mapped last. `reflected` is the colour of a picture that has only alpha.
+    /// Draws the picture mapped last. `reflected` is the colour of a picture that has only alpha.
     void draw(const glm::vec3& reflected, const gpu::Layer& layer);
 
     [[nodiscard]] std::size_t gpuBytes() const { return values_.bytes(); }

@@ -1,6 +1,6 @@
-// A grid's cells with copies of the outermost ones around them, so that samples near its faces need no care.
+// A grid's cells surrounded by copies of the outermost ones, so that samples near its faces need no special case.
 //
-// Units: cells; node (0, 0, 0) is the middle of the first cell. Owns its memory, booked on a ledger.
+// Units: cells; node (0, 0, 0) is the middle of the first cell. Owns: its memory, booked on a ledger.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace dustbench::raycast {
 
 class PaddedCells {
  public:
-    /// Layers before the first cell and behind the last one: as far as a window reaches that begins in any cell.
+    /// Layers before the first and behind the last cell: as many as a window that begins in any cell can reach.
     static constexpr int before = 1, behind = 3;
 
     explicit PaddedCells(MemoryAccount& account) : values_(account) {}
@@ -21,10 +21,10 @@ class PaddedCells {
     void set(const glm::ivec3& cells, std::span<const float> values);
 
     [[nodiscard]] const glm::ivec3& cells() const { return cells_; }
-    /// From one row, or slab, to the next.
+    /// Stride from one row, or slab, to the next.
     [[nodiscard]] int row() const { return cells_.x + before + behind; }
     [[nodiscard]] int slab() const { return row() * (cells_.y + before + behind); }
-    /// Node (0, 0, 0); those from −1 to cells + 2 may be read.
+    /// Node (0, 0, 0); nodes from −1 to cells + 2 may be read.
     [[nodiscard]] const float* origin() const { return values_.data() + before * (1 + row() + slab()); }
 
  private:

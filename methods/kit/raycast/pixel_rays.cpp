@@ -9,7 +9,7 @@ PixelRays::PixelRays(const ShownGrid& grid, const scene::View& view) {
     const glm::dmat3 axes = glm::transpose(glm::dmat3(glm::mat3(view.worldToEye())));
     const double pixel = 2 * std::tan(view.camera.verticalFieldOfView / 2) / view.height;
     const glm::dvec3 x = pixel * axes[0], y = pixel * axes[1];
-    // The eye is taken off in double precision, so that the grid may lie anywhere.
+    // Subtract the eye in double precision, so that the grid may lie anywhere.
     eye = glm::vec3((view.camera.eye - grid.originMetres) / grid.spacingMetres);
     corner = glm::vec3(-axes[2] - 0.5 * view.width * x - 0.5 * view.height * y);
     right = glm::vec3(x);
@@ -36,7 +36,7 @@ PixelRectangle pixelsOf(const ShownGrid& grid, const glm::ivec3& minimum, const 
     }
     if (before == 0) return {};
     if (before < 8) return whole;
-    // A pixel more on each side, for rounding.
+    // One more pixel on each side, for rounding.
     const auto within = [](double value, int size) { return static_cast<int>(std::clamp(value, 0.0, double(size))); };
     return {within(std::floor(lower.x) - 1, view.width), within(std::floor(lower.y) - 1, view.height),
             within(std::ceil(upper.x) + 1, view.width), within(std::ceil(upper.y) + 1, view.height)};

@@ -1,4 +1,4 @@
-// The rays through a picture's pixels, in a grid's own cells, and which pixels may see a part of it.
+// The rays through an image's pixels in grid cells, and the pixels that may see a part of the grid.
 //
 // Units: cells; pixels from the bottom left. Frame: the grid's minimum corner. Threads: pure.
 #pragma once
@@ -18,28 +18,28 @@ struct PixelRectangle {
     [[nodiscard]] int width() const { return right - left; }
     [[nodiscard]] int height() const { return top - bottom; }
     [[nodiscard]] std::int64_t count() const { return static_cast<std::int64_t>(width()) * height(); }
-    /// left bottom right top of a picture of that size, each −1..1.
+    /// left bottom right top for an image of that size, each −1..1.
     [[nodiscard]] glm::vec4 inClipSpace(int pictureWidth, int pictureHeight) const {
         const glm::vec2 scale = 2.0f / glm::vec2(pictureWidth, pictureHeight);
         return glm::vec4(glm::vec2(left, bottom) * scale - 1.0f, glm::vec2(right, top) * scale - 1.0f);
     }
 };
 
-/// The ray at picture coordinates (x, y) runs along corner + x·right + y·up, of length 1 along the camera's axis.
+/// The ray at image coordinates (x, y) has direction corner + x·right + y·up, of length 1 along the camera's axis.
 struct PixelRays {
     PixelRays(const ShownGrid& grid, const scene::View& view);
 
     glm::vec3 eye;
     glm::vec3 corner, right, up;
-    float nearDistance;  ///< what the scene's depth has to be divided into, as a distance along the camera's axis
+    float nearDistance;  ///< near distance; divided by the scene's depth it gives the distance along the camera's axis
 };
 
-/// All pixels that may see cells [minimum, most).
+/// All pixels that may see cells in [minimum, maximum).
 [[nodiscard]] PixelRectangle pixelsOf(const ShownGrid& grid, const glm::ivec3& minimum, const glm::ivec3& maximum,
                                       const scene::View& view);
 
-/// The share of a step by which a pixel's steps are shifted: x·1/g + y·1/g², g the plastic number, without the whole
-/// part. Pixels that are neighbours get shares far from each other, and all are used equally often.
+/// Offset of a pixel's steps as a fraction of a step: the fractional part of x/g + y/g², where g is the plastic number.
+/// Neighbouring pixels get distant offsets, and all offsets are equally frequent.
 [[nodiscard]] inline float jitterOf(std::uint32_t x, std::uint32_t y) {
     return static_cast<float>((x * 3242174889u + y * 2447445414u) >> 8) * 0x1p-24f;
 }

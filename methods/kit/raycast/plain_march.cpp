@@ -7,14 +7,14 @@
 namespace dustbench::raycast {
 namespace {
 
-/// Weights of the cells ⌊x⌋ − 1 … ⌊x⌋ + 2 for a place x = ⌊x⌋ + t.
+/// Weights of the cells ⌊x⌋ − 1 … ⌊x⌋ + 2 at a position x = ⌊x⌋ + t.
 std::array<double, 4> weightsOf(Filter filter, double t) {
     if (filter == Filter::linear) return {0, 1 - t, t, 0};
     const double s = 1 - t;  // the cubic B-spline
     return {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6, t * t * t / 6};
 }
 
-/// What `values` of `cells` cells are at a place; beyond the outermost middles they stay.
+/// Interpolates `values` of `cells` cells at a position; constant beyond the outermost middles.
 double sample(std::span<const float> values, glm::ivec3 cells, Filter filter, glm::dvec3 place) {
     const glm::dvec3 fromMiddle = place - 0.5;
     const glm::ivec3 low(glm::floor(fromMiddle));
@@ -33,7 +33,7 @@ double sample(std::span<const float> values, glm::ivec3 cells, Filter filter, gl
     return sum;
 }
 
-/// Emission and extinction factor of what burns: linear between the table's texels.
+/// Emission and extinction factor of fire: linear between the table's texels.
 glm::dvec4 burningAt(const std::vector<glm::vec4>& table, double reaction) {
     const double at = std::clamp(reaction, 0.0, 1.0) * static_cast<double>(table.size() - 1);
     const auto texel = static_cast<std::size_t>(at);

@@ -1,9 +1,10 @@
-// One ray through a grid, as its equations say it, in double precision: what the marches are held against.
+// Reference implementation: marches one ray through a grid in double precision; tests compare the fast marches with it.
 //
 //     D ← D + σ·Δ,   T = e^(−D),   C ← C + (T before − T after)·(reflected + emission)
 //
-// Steps begin at distances (k + jitter)·step from the eye; the first and the last are cut to what lies within the grid
-// and before the scene, and each is sampled in its middle. Units: cells, from the grid's minimum corner. Threads: pure.
+// Steps begin at distances (k + jitter)·step from the eye. The first and the last step are cut to the part within the
+// grid and before the scene; each is sampled in its middle. Units: cells, relative to the grid's minimum corner.
+// Threads: pure.
 // Source: Senger2009, ch. 4.
 #pragma once
 
@@ -20,20 +21,20 @@ struct PlainVolume {
     ShownGrid grid;
     RaycastSettings settings;
     Reflected reflected;
-    std::span<const float> light;  ///< of texels of so many cells as `settings` have for a shadow; empty: no shadow
+    std::span<const float> light;  ///< per texel of `settings.shadowCells`³ cells; empty: no shadow
 };
 
 struct PlainRay {
     glm::dvec3 eye, along;  ///< a unit vector
-    double end;             ///< distance of the scene
-    double jitter;          ///< share of a step
+    double end;             ///< distance to the scene
+    double jitter;          ///< fraction of a step
 };
 
 /// Red, green, blue, premultiplied, and alpha.
 [[nodiscard]] glm::dvec4 plainMarch(const PlainVolume& volume, const PlainRay& ray);
 
-/// The share of a step by which a pixel's steps are shifted, counted from the bottom left: x/g + y/g² without the whole
-/// part, 1/g and 1/g² in units of 2⁻³², g the plastic number.
+/// Offset of a pixel's steps as a fraction of a step, counted from the bottom left: the fractional part of x/g + y/g²,
+/// with 1/g and 1/g² in units of 2⁻³², where g is the plastic number.
 [[nodiscard]] double plainJitter(int x, int y);
 
 }  // namespace dustbench::raycast

@@ -1,6 +1,6 @@
-// The rays of 4×4 neighbouring pixels, and the part of each that is to be marched.
+// The rays of 4×4 neighbouring pixels, and the section of each that is marched.
 //
-// Units: cells; places count from the grid's minimum corner. Private to the march on the CPU.
+// Units: cells; positions are relative to the grid's minimum corner. Internal to the CPU march.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace dustbench::raycast {
 
-/// Parts of sixteen rays, by their distances from the eye.
+/// Sections of sixteen rays, as distances from the eye.
 struct Stretches {
     Floats from, to;
 };
@@ -41,7 +41,7 @@ struct RayPacket {
         }
     }
 
-    /// Where each ray is between two corners; from > to where it misses them.
+    /// Section of each ray between two corners; from > to for rays that miss.
     [[nodiscard]] Stretches within(const glm::vec3& low, const glm::vec3& high) const {
         Stretches parts{Floats{}, all(std::numeric_limits<float>::max())};
         for (int axis = 0; axis < 3; ++axis) {
@@ -52,7 +52,7 @@ struct RayPacket {
         return parts;
     }
 
-    /// The corners of the box that holds all rays between two distances.
+    /// Corners of the box that contains all rays between two distances.
     [[gnu::always_inline]] [[nodiscard]] Four low(float from, float to) const {
         return eye + atMost(from * slowest, to * slowest);
     }
@@ -62,8 +62,8 @@ struct RayPacket {
 
     Four eye;
     Floats along[3];            ///< unit directions
-    Four slowest{}, fastest{};  ///< minimum and maximum of them, by axis
-    Floats stretch;             ///< of a ray of length 1 along the camera's axis
+    Four slowest{}, fastest{};  ///< minimum and maximum direction, by axis
+    Floats stretch;             ///< length of each ray per unit along the camera's axis
     Floats jitter;
 };
 

@@ -1,4 +1,5 @@
-// Ray casting a plume: upload and march apart. The readback of the scene's depths is part of the CPU's march.
+// Benchmarks ray casting of a plume: upload and march separately. The CPU march includes the readback of the scene's
+// depths.
 #include "methods/kit/raycast/raycast_bench_scene.h"
 
 namespace dustbench::raycast {

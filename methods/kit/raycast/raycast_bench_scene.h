@@ -1,7 +1,7 @@
-// What the ray caster and its peers are measured on: a plume of 128×64×64 cells into 800×600 pixels, half a cell a
-// step.
+// The benchmark scene of the ray caster and its peers: a plume of 128×64×64 cells at 800×600 pixels, with half a cell
+// per step.
 //
-// Nothing stands in the picture's way. Threads: the OpenGL thread's.
+// Nothing occludes the plume. Threads: the OpenGL thread.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -22,7 +22,8 @@ inline const TestGrid& benchPlume() {
     return grid;
 }
 
-/// From aside and above, so far that the ball round the grid fills the picture's height at a field of view of 30°.
+/// From the side and above, at the distance where the grid's bounding sphere fills the image height at a field of view
+/// of 30°.
 inline draw::TestCanvas& benchCanvas() {
     static draw::TestCanvas one = [] {
         const glm::dvec3 aside = glm::normalize(glm::dvec3(-0.45, 0.35, 1));
@@ -42,7 +43,7 @@ inline RaycastSettings benchSettings(Backend backend, bool skipEmpty) {
     return settings;
 }
 
-/// The picture that all others must be, within what an early stop may leave out.
+/// The reference picture: all others must match it within the tolerance of an early stop.
 inline const pictures::Image& checkedPicture() {
     static const pictures::Image image = [] {
         MemoryLedger ledger;
@@ -53,7 +54,7 @@ inline const pictures::Image& checkedPicture() {
     return image;
 }
 
-/// Throws where a picture is not that one. `alphaAt` takes an index into its pixels.
+/// Throws if a picture differs from the reference. `alphaAt` takes an index into its pixels.
 template <typename AlphaAt>
 void verifyPicture(benchmark::State& state, const AlphaAt& alphaAt) {
     double worst = 0, sum = 0;

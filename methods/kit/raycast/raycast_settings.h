@@ -1,6 +1,6 @@
-// How a grid is shown.
+// Settings for drawing a grid.
 //
-// Units: cells where it says so, extinction per metre. Colours: linear RGB. Source: Senger2009, ch. 2 and 4.
+// Units: cells where stated, extinction per metre. Colours: linear RGB. Source: Senger2009, ch. 2 and 4.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,27 +11,27 @@
 namespace dustbench::raycast {
 
 enum class Backend {
-    automatic,  ///< the CPU where OpenGL is software, else OpenGL
+    automatic,  ///< the CPU if OpenGL is a software implementation, else OpenGL
     cpu,
     gl,
 };
 inline constexpr Choices<Backend> backends{{"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"gl", Backend::gl}};
 
 enum class Renderer {
-    raycast,     ///< a march along each pixel's ray
-    slices,      ///< planes across the view, blended; OpenGL only, as all that follow
-    splat,       ///< a Gaussian for each cell
-    isosurface,  ///< opaque, where the density has one value
+    raycast,     ///< ray marching for each pixel
+    slices,      ///< blended planes perpendicular to the view; OpenGL only, as are all below
+    splat,       ///< a Gaussian per cell
+    isosurface,  ///< opaque, at one density value
 };
 inline constexpr Choices<Renderer> renderers{{"raycast", Renderer::raycast},
                                              {"slices", Renderer::slices},
                                              {"splat", Renderer::splat},
                                              {"isosurface", Renderer::isosurface}};
 
-/// Between the middles of cells; beyond the outermost ones the values stay.
+/// Interpolation between cell middles; constant beyond the outermost ones.
 enum class Filter {
     linear,
-    cubic,  ///< B-spline: smoother and never negative, but it blurs
+    cubic,  ///< B-spline: smoother and never negative, but blurs
 };
 inline constexpr Choices<Filter> filters{{"linear", Filter::linear}, {"cubic", Filter::cubic}};
 
@@ -40,11 +40,11 @@ struct RaycastSettings {
     Renderer renderer = Renderer::raycast;
     Filter filter = Filter::linear;
     double stepCells = 0.5;
-    bool jitter = true;       ///< shifts each pixel's steps by a fixed share of one: noise instead of bands
-    double stopAlpha = 0.99;  ///< a ray ends where more than this is covered; 1: never
-    bool skipEmpty = true;    ///< leave out bricks of cells without density
-    int shadowCells = 0;      ///< the sun's light falls off within the cloud, found in blocks of so many cells; 0: not
-    double extinctionPerMetre = 1;               ///< of a density of 1
+    bool jitter = true;       ///< offsets each pixel's steps by a fixed fraction of a step: noise instead of banding
+    double stopAlpha = 0.99;  ///< a ray ends when its alpha exceeds this; 1: never
+    bool skipEmpty = true;    ///< skips bricks of cells without density
+    int shadowCells = 0;      ///< block size in cells for self-shadowing of the sun's light; 0: no shadow
+    double extinctionPerMetre = 1;               ///< at a density of 1
     double isoDensity = 0.5;                     ///< of the isosurface
     glm::vec3 smokeColour{0.64f, 0.54f, 0.42f};  ///< albedo
     TransferFunction fire;
@@ -53,7 +53,7 @@ struct RaycastSettings {
 /// Throws InputError for values out of range.
 void check(const RaycastSettings& settings);
 
-/// The optical depth at which a ray may end; infinite where it never may.
+/// The optical depth at which a ray may end; infinite if it never may.
 [[nodiscard]] float opaqueDepth(const RaycastSettings& settings);
 
 }  // namespace dustbench::raycast

@@ -51,7 +51,7 @@ TEST(GridRaycast, ShowsTheSameOnCpuAndGpu) {
     for (const bool burning : {false, true}) {
         const TestGrid grid = lumps(burning);
         for (const Filter filter : {Filter::linear, Filter::cubic})
-            // So near that a packet's neighbours lie in a window, so far that they do not, and within.
+            // Close enough that a packet's neighbours fit a window, too far for that, and inside the grid.
             for (const glm::dvec3& eye : {glm::dvec3(3, 2, 4), glm::dvec3(-25, 9, 30), glm::dvec3(0.3, 0.2, 0.1)}) {
                 canvas.lookFrom(eye, -eye);
                 RaycastSettings settings = settingsOf(Backend::cpu);
@@ -95,7 +95,7 @@ TEST(GridRaycast, ShowsWhatLiesOnTheGpuAsWhatIsUploaded) {
             EXPECT_LT(maximumDifference(image, canvas.picture(grid, settings)), 2e-4) << burning;
             EXPECT_GT(meanAlpha(image), 0.001);
 
-            // What was taken last counts, whichever way it came.
+            // The last grid counts, whether uploaded or taken.
             raycast.upload(TestGrid(grid.cells, 1, {0, 0, 0}, [](const glm::dvec3&) { return 0.0; }).shown());
             raycast.upload(grid.shown());
             EXPECT_EQ(canvas.TestCanvas::picture([&](const gpu::Layer& l) { raycast.draw(canvas.view, l); }).pixels,
@@ -108,7 +108,7 @@ TEST(GridRaycast, ShowsWhatLiesOnTheGpuAsWhatIsUploaded) {
         }
 }
 
-/// Cells of chance, every fourth brick and more without any density.
+/// Random cells; at least every fourth brick has no density.
 TestGrid randomGrid(std::mt19937& random, bool burning) {
     std::uniform_real_distribution<float> share(0, 1);
     TestGrid grid({19, 14, 22}, 0.3, {-2.85, -2.1, -3.3}, [](const glm::dvec3&) { return 0.0; });
@@ -218,7 +218,7 @@ TEST_P(GridRaycastOn, KeepsTheMeanDepthOfALinearFieldWhateverTheJitterAndTheFilt
             double sum = 0;
             const pictures::Image image = canvas.picture(grid, settings);
             for (const glm::vec4& pixel : image.pixels) sum -= std::log1p(-static_cast<double>(pixel.a));
-            // In the mean over the picture x is 0.1 and y, z are 0.
+            // Averaged over the picture, x is 0.1 and y, z are 0.
             EXPECT_NEAR(sum / static_cast<double>(image.pixels.size()), 0.5 * 3 * 2.03, 3e-3) << jitter;
         }
 }
@@ -274,7 +274,7 @@ TEST_P(GridRaycastOn, ShowsTheSideAwayFromTheSunByTheSkyAlone) {
     const Reflected reflected = cloudColour(settings.smokeColour, canvas.lights);
     canvas.lookFrom({0, 0, -6}, {0, 0, 1});
     EXPECT_NEAR(canvas.picture(box, settings).at(48, 36).g, reflected.ambient.g, 2e-3);
-    // Through and back: ∫ σ·e^(−2σt) dt = ½, but for the thickness of the light's texels.
+    // There and back: ∫ σ·e^(−2σt) dt = ½, up to the size of the light's texels.
     canvas.lookFrom({0, 0, 6}, {0, 0, -1});
     settings.extinctionPerMetre = 2;
     const double there = -std::expm1(-8.0), back = -std::expm1(-16.0) / 2;

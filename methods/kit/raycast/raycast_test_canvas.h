@@ -1,4 +1,4 @@
-// Pictures of grids for the ray caster's tests.
+// Renders grids for the ray caster's tests.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class Canvas : public draw::TestCanvas {
         return TestCanvas::picture([&](const gpu::Layer& layer) { raycast.draw(view, layer); });
     }
 
-    /// What is left of a ray between two corners: from the eye, and cut by the wall; in metres.
+    /// Length of a ray in metres between two corners, from the eye to the wall.
     [[nodiscard]] double lengthWithin(int x, int y, const glm::dvec3& minimum, const glm::dvec3& maximum) const {
         const glm::dvec3 along = glm::normalize(glm::dvec3(view.rayDirection(x + 0.5, y + 0.5)));
         const glm::dvec3 forward = glm::normalize(view.camera.target - view.camera.eye);
@@ -38,7 +38,7 @@ class Canvas : public draw::TestCanvas {
     scene::Lights lights;
 };
 
-/// Rays never end early.
+/// Settings in which rays never end early.
 inline RaycastSettings settingsOf(Backend backend) {
     RaycastSettings settings;
     settings.backend = backend;

@@ -1,6 +1,6 @@
 // Grids for the ray caster's tests and benchmarks.
 //
-// Owns: the values of the cells.
+// Owns: the cell values.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace dustbench::raycast {
 
 struct TestGrid {
-    /// Density by the middle of a cell, in metres.
+    /// `densityAt` takes the middle of a cell, in metres.
     TestGrid(glm::ivec3 size, double spacing, glm::dvec3 origin, const std::function<double(glm::dvec3)>& densityAt)
         : cells(size), spacingMetres(spacing), originMetres(origin) {
         for (int z = 0; z < size.z; ++z)
@@ -29,8 +29,8 @@ struct TestGrid {
     std::vector<float> density, reaction;
 };
 
-/// A plume of smoke that goes along x and spreads: lumps of several sizes, clear air around them. 1 is thick. The cells
-/// along the grid's faces are clear, so that nothing depends on what a renderer takes to be beyond them.
+/// A plume of smoke that extends along x and spreads: lumps of several sizes in clear air; 1 is thick. The outermost
+/// cells are clear, so that results do not depend on how a renderer extends the grid.
 inline TestGrid testPlume(glm::ivec3 size = {128, 64, 64}) {
     const double spacing = 6.4 / size.x;
     return {size, spacing, {-3.2, -1.6, -1.6}, [spacing](const glm::dvec3& at) {

@@ -1,4 +1,4 @@
-// The other ways to show a grid, beside the march, and the light volume.
+// Tests the other renderers of a grid against the march, and the light volume.
 #include <gtest/gtest.h>
 
 #include "methods/kit/raycast/iso_surface.h"
@@ -42,7 +42,7 @@ TEST(Renderers, ShowBySplatsAlmostWhatTheMarchShows) {
             redOfMarch += static_cast<double>(march.pixels[i].r);
             redOfSplats += static_cast<double>(splats.pixels[i].r);
         }
-        // A splat is a little wider than linear interpolation, and what burns in part of a cell burns in all of it.
+        // A splat is slightly wider than linear interpolation, and fire in part of a cell fills the whole cell.
         EXPECT_NEAR(meanAlpha(march) / meanAlpha(splats), 1, 0.04);
         EXPECT_NEAR(redOfMarch / redOfSplats, 1, burning ? 0.1 : 0.04);
         EXPECT_LT(difference / static_cast<double>(march.pixels.size()), 0.1 * meanAlpha(march));
@@ -73,7 +73,7 @@ TEST(Renderers, ShowAnIsosurfaceAsASolidThatTheSceneHides) {
     Canvas canvas;
     canvas.lights.toSun = {0, 0, 1};
     canvas.lookFrom({0, 0, 5}, {0, 0, -1});
-    canvas.setWall(3.5, 48);  // before the ball on the right
+    canvas.setWall(3.5, 48);  // in front of the ball's right half
     const TestGrid ball({20, 20, 20}, 0.2, {-2, -2, -2},
                         [](const glm::dvec3& at) { return 2 / (1 + glm::dot(at, at)); });
     RaycastSettings settings;
@@ -82,7 +82,7 @@ TEST(Renderers, ShowAnIsosurfaceAsASolidThatTheSceneHides) {
     const pictures::Image image = canvas.picture(ball, settings);
     double covered = 0;
     for (const glm::vec4& pixel : image.pixels) covered += static_cast<double>(pixel.a);
-    // Half a disc, whose rim is where the line of sight touches the ball: tan² = 1/(25 − 1).
+    // Half a disc, whose rim is where the line of sight is tangent to the ball: tan² = 1/(25 − 1).
     const double pixelsPerSlope = 36 / std::tan(canvas.view.camera.verticalFieldOfView / 2);
     EXPECT_NEAR(covered / (3.14159265 / 48 * pixelsPerSlope * pixelsPerSlope), 1, 0.03);
     const float red = settings.smokeColour.r * (canvas.lights.ambient.r + canvas.lights.sun.r);
@@ -91,7 +91,7 @@ TEST(Renderers, ShowAnIsosurfaceAsASolidThatTheSceneHides) {
 }
 
 TEST(LightVolume, OfAHomogeneousBoxIsTheAnalyticOne) {
-    // Neither the cells nor the rows of texels come out even.
+    // Neither the cells nor the rows of texels are whole multiples.
     const TestGrid box({38, 10, 7}, 0.25, {3, 2, 1}, [](const glm::dvec3&) { return 0.8; });
     for (const glm::dvec3& toSun : {glm::dvec3(-0.48, 0.6, 0.64), glm::dvec3(0, 1, 0), glm::dvec3(0.6, -0.8, 0)}) {
         RaycastSettings settings;

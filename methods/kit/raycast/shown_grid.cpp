@@ -9,7 +9,7 @@
 namespace dustbench::raycast {
 namespace {
 
-constexpr int maximumCells = 2048;  // what every OpenGL 4.5 takes along an axis of a 3D texture
+constexpr int maximumCells = 2048;  // texels per axis of a 3D texture that every OpenGL 4.5 supports
 
 void checkCount(const char* name, std::size_t got, std::size_t allowed) {
     if (got != allowed)

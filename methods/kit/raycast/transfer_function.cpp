@@ -15,7 +15,7 @@ std::string place(const std::string& where, std::size_t row) {
     return where + "row " + std::to_string(row + 1) + ": ";
 }
 
-/// Throws where the row is out of range or not after the one before it.
+/// Throws if the row is out of range or does not follow the previous one.
 void checkRow(const std::vector<TransferFunction::Row>& rows, std::size_t i, const std::string& where) {
     const TransferFunction::Row& row = rows[i];
     if (!(row.reaction >= 0 && row.reaction <= 1))

@@ -1,7 +1,7 @@
-// What burning shows: light given off and extinction, by how fresh the fire is.
+// Maps the freshness of fire to emitted light and extinction.
 //
-// Between rows both go linearly; beyond the first and the last they stay. Light is what a thick cloud of that freshness
-// gives off, in linear RGB; it comes on top of what the cloud reflects. Source: Senger2009, ch. 3; Crane2007.
+// Both are linear between rows and constant beyond the first and the last. Light is that emitted by a thick cloud of
+// this freshness, in linear RGB; it adds to the light that the cloud reflects. Source: Senger2009, ch. 3; Crane2007.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +15,14 @@ class DUSTBENCH_API TransferFunction {
     struct Row {
         double reaction;         ///< 1 fresh … 0 burnt out
         glm::vec3 emission;      ///< linear RGB
-        float extinctionFactor;  ///< of the smoke's extinction at the same density
+        float extinctionFactor;  ///< relative to the smoke's extinction at the same density
     };
-    /// As the shader and the CPU look it up: texel i stands for a reaction of i / (size − 1).
+    /// Size of the lookup table for the shader and the CPU: texel i is at a reaction of i / (size − 1).
     static constexpr int texels = 256;
 
-    /// A yellow flame that goes out through orange and red, and thins the smoke where it burns.
+    /// A yellow flame that fades through orange and red, and thins the smoke where it burns.
     TransferFunction();
-    /// Throws InputError where there are fewer than two rows, or they are not sorted, or a value is out of range.
+    /// Throws InputError if there are fewer than two rows, rows are not sorted, or a value is out of range.
     explicit TransferFunction(std::vector<Row> rows);
 
     /// Emission RGB and extinction factor.

@@ -1,4 +1,5 @@
-// The same plume and picture by NanoVDB: its TreeMarcher skips what is empty, its trilinear sampler takes the steps.
+// The same plume and picture with NanoVDB: its TreeMarcher skips empty space, its trilinear sampler evaluates the
+// steps.
 #include <nanovdb/NanoVDB.h>
 #include <nanovdb/util/GridBuilder.h>
 #include <nanovdb/util/HDDA.h>
@@ -14,7 +15,7 @@ namespace {
 
 using Ray = nanovdb::Ray<float>;
 
-/// Cells with density, and those around them, so that the sampler's reach is not skipped.
+/// Cells with density and their neighbours, so that the sampler's reach is not skipped.
 nanovdb::GridHandle<> treeOf(const TestGrid& grid) {
     nanovdb::GridBuilder<float> builder(0.0f);
     auto accessor = builder.getAccessor();
@@ -78,7 +79,7 @@ void nanoVdb(benchmark::State& state) {
         });
     };
     marchAll();
-    // Pictures read back begin with their top row.
+    // Pictures that are read back begin with the top row.
     const auto width = static_cast<std::size_t>(view.width), last = static_cast<std::size_t>(view.height) - 1;
     verifyPicture(state, [&](std::size_t i) { return alphas[(last - i / width) * width + i % width]; });
     for (auto _ : state) marchAll();
