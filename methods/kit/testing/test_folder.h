@@ -1,4 +1,4 @@
-// For tests: a folder that vanishes with the test.
+// For tests: a temporary folder that is deleted with the test.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// For tests: the line that a call throws.
+// For tests: the message of the InputError that a call throws.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 namespace dustbench {
 
-/// The message of the InputError that `call` throws; a failure where it throws none or several lines.
+/// The message of the InputError that `call` throws; fails the test if there is none or it has several lines.
 template <typename Call>
 std::string inputError(const Call& call) {
     try {

@@ -1,6 +1,6 @@
-// One moment of some dust before an eye, for tests and benchmarks of whole methods.
+// One frame of dust before an eye, for tests and benchmarks of whole methods.
 //
-// Owns: the dust, and what draw/test_canvas.h owns. The dust is the test's own to fill.
+// Owns: the dust, and what draw/test_canvas.h owns. The test fills in the dust.
 #pragma once
 
 #include "methods/contract/method.h"
