@@ -24,7 +24,7 @@ std::optional<draw::PuffTextures> loadPictures(Puff puff, gpu::Device& device) {
     return std::nullopt;
 }
 
-/// Which picture particle `i` shows: its own of several, or by how much of its life is over.
+/// The picture index of particle `i`: by serial, or by age for an animation.
 float frameOf(const Puffs& dust, std::size_t i, Puff puff, int frames) {
     if (puff == Puff::animated)
         return std::clamp(dust.age[i] / dust.lifetime[i], 0.0f, 1.0f) * static_cast<float>(frames - 1);
@@ -72,7 +72,7 @@ void Billboard::upload(const Puffs& dust, std::span<const std::uint32_t> order) 
             }
         }
     };
-    // The reads jump through memory in depth order, which is what a second thread helps with.
+    // The reads jump through memory in depth order; a second thread hides this latency.
     parallel::forEachBlock(order.size(), 16'384, fill);
     quads_->unmap();
 }

@@ -1,7 +1,8 @@
-// Dust as sorted, camera-facing quads: the established way that the octree methods are compared with.
+// Dust as sorted, camera-facing quads: the established method that the octree methods are compared with.
 //
-// Source: Carr2006, 3.1. Departs: opacity by one optical model for all methods (maths/transmittance.h); the paper's one
-// puff picture, several, or animated ones by `puff`, and quads that end softly at what is solid by `soft`.
+// Source: Carr2006, 3.1. Departs: opacity follows the optical model shared by all methods (maths/transmittance.h).
+// `puff` selects the paper's single puff picture, several pictures or an animation; `soft` fades quads out where they
+// meet opaque surfaces.
 #pragma once
 
 #include <memory>
@@ -47,7 +48,7 @@ class Billboard final : public Method {
     std::optional<draw::Billboards> quads_;
 };
 
-/// What the method declares; the registry asks for it.
+/// Called by the registry.
 [[nodiscard]] MethodInfo describe();
 
 }  // namespace dustbench::billboard

@@ -1,7 +1,9 @@
-// 10,000 sorted billboards of 32 pixels: the whole method beside a bare loop of the same shader, target and puffs.
+// Benchmarks 10,000 sorted billboards of 32 pixels: the whole method against a bare loop with the same shader, target
+// and puffs.
 //
-// The bare loop binds, draws and waits; its buffer was written once, in order. Before anything is timed the pictures of
-// both are compared, and their coverage with what the puffs must cover: quads that fail their test are quick to draw.
+// The bare loop binds, draws and waits; its buffer is written once, in order. Before timing, the two pictures are
+// compared with each other, and their coverage with that of the puffs, because quads that fail the depth test are cheap
+// to draw.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -30,7 +32,7 @@ class Workload : public TestMoment {
             dust.x[i] = across(random) * axis / clip[0][0];
             dust.y[i] = across(random) * axis / clip[1][1];
             dust.z[i] = -axis;
-            // Quads of half-side 1.5 r; away from the middle perspective stretches them a little.
+            // Quads have half-side 1.5 r; away from the image centre perspective stretches them slightly.
             dust.radius[i] = static_cast<float>(edgePixels / view.height) * axis / clip[1][1] / 1.5f;
             dust.opacity[i] = opacity;
             dust.lifetime[i] = 5;
@@ -45,7 +47,7 @@ class Workload : public TestMoment {
     }
 };
 
-/// The pass alone, its instances written once in order.
+/// The draw pass alone; its instances are written once, in order.
 class BareLoop {
  public:
     explicit BareLoop(Workload& work) : work_(work), quads_(work.device(), {}) {
@@ -90,10 +92,11 @@ pictures::Image pictureOf(Workload& work, auto& loop) {
     return work.picture([&](const gpu::Layer&) { loop(); });
 }
 
-/// Throws where the picture is not what the puffs must give.
+/// Throws unless the picture shows the puffs' mass.
 void verify(Workload& work, const pictures::Image& bare, const pictures::Image& whole) {
     if (bare.pixels != whole.pixels) throw std::runtime_error("the two loops draw different pictures");
-    // Optical depth over the picture against the puffs' masses: τ·2πs²·f²/(distance along the axis)², in pixels.
+    // Compares the picture's total optical depth with the puffs' masses: τ·2πs²·f²/(distance along the axis)², in
+    // pixels.
     const double focal = static_cast<double>(work.view.eyeToClip()[1][1]) * work.view.height / 2;
     double expected = 0, got = 0;
     for (std::size_t i = 0; i < work.dust.size(); ++i) {
@@ -120,7 +123,7 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Both loops by turns. `share_of_bare` is the median over the rounds of bare / whole time: 1 costs nothing.
+/// Alternates both loops. `share_of_bare` is the median over the rounds of bare / whole time: 1 means no overhead.
 void wholeMethodAgainstBareLoop(benchmark::State& state) {
     const auto count = static_cast<std::size_t>(state.range(0));
     Workload work(count, static_cast<double>(state.range(1)));
@@ -176,7 +179,7 @@ MODE(texture, {draw::SortKind::radix, Puff::texture, {}});
 MODE(textures, {draw::SortKind::radix, Puff::textures, {}});
 MODE(animated, {draw::SortKind::radix, Puff::animated, {}});
 
-/// Sort and upload alone: what the CPU does for a frame.
+/// Sort and upload only: the CPU's work per frame.
 void update(benchmark::State& state, draw::SortKind sort) {
     Workload work(static_cast<std::size_t>(state.range(0)), 1);
     Billboard method({sort, Puff::gaussian, {}});

@@ -14,7 +14,7 @@
 namespace dustbench::billboard {
 namespace {
 
-/// Dust before an eye, over nothing.
+/// Dust in front of an eye, over an empty scene.
 class Moment : public TestMoment {
  public:
     explicit Moment(std::size_t count, std::uint32_t seed = 1) : TestMoment(count, 160, 120, {0, 2, 0}, {0, 0, -10}) {
@@ -87,7 +87,7 @@ TEST(Billboard, SortMattersWhereColoursDiffer) {
     Moment moment(500);
     moment.dust.keepOneColour(false);
     for (std::size_t i = 0; i < moment.dust.size(); ++i) {
-        // The nearer the redder, so that the order shows.
+        // Nearer puffs are red, farther ones green, so that the order shows.
         moment.dust.red[i] = moment.dust.z[i] > -12 ? 1.0f : 0.0f;
         moment.dust.green[i] = 1 - moment.dust.red[i];
         moment.dust.blue[i] = 0;
