@@ -1,4 +1,4 @@
-// The method that draws nothing: what a frame costs without any, and a load of known size to check the measurement by.
+// A method that draws nothing: the baseline cost of a frame, plus a load of known size to validate the timing.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace dustbench::null_method {
 
-/// Draws 1000 random numbers a unit on one thread and gives their sum, so that no compiler leaves them out.
+/// Draws 1000 random numbers per unit on one thread. Returns their sum, so that the compiler cannot drop the work.
 [[nodiscard]] std::uint32_t fixedWork(std::uint64_t units);
 
 class NullMethod final : public Method {
@@ -23,7 +23,7 @@ class NullMethod final : public Method {
     volatile std::uint32_t workDone_ = 0;
 };
 
-/// What the method declares; the registry asks for it.
+/// Called by the registry.
 [[nodiscard]] MethodInfo describe();
 
 }  // namespace dustbench::null_method
