@@ -20,8 +20,8 @@ class Construction {
           voxels_(tree.mutableVoxels()),
           masses_(rule.accumulates() ? tree.mutableMasses() : nullptr) {}
 
-    /// Subdivides the node whose children lie in `block` and whose list is [begin, end) of the stack, which is in use
-    /// up to `top`; `shift` brings a child's octant to the lowest bits of a code.
+    /// Subdivides the node whose children are in `block` and whose list is [begin, end) of the stack; the stack is in
+    /// use up to `top`. `shift` moves a child's octant to the lowest bits of a code.
     void subdivide(std::uint32_t block, std::size_t begin, std::size_t end, std::size_t top, int shift) {
         const int childRise = shift / 3;
         std::array<std::size_t, 8> lengths{};
@@ -32,7 +32,7 @@ class Construction {
         const CellEntry* const parents = lists_.data() + begin;
         const std::size_t count = end - begin;
 
-        // First how long each list gets, so that all eight lie behind one another; then the copies.
+        // Count the lists first, so that all eight are contiguous; then copy.
         for (std::size_t i = 0; i < count; ++i)
             lengths[parents[i].code() >> shift & 7] += parents[i].rise() < childRise ? 1 : 0;
         std::array<std::size_t, 9> starts;

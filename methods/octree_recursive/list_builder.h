@@ -1,7 +1,8 @@
-// Recursive construction: a node's list of particles is split into the lists of its eight children, voxels are put down
-// where the level is right, and the walk that splits also lists the voxels.
+// Recursive construction: splits a node's list of particles into the lists of its eight children and creates voxels at
+// the right level; the same walk also lists the voxels.
 //
-// Owns: the lists, on a ledger, as one stack: a node's lists lie above its parent's. Threads: one, as the paper's.
+// Owns: the lists, booked on a ledger, as one stack: a node's lists lie above its parent's. Threads: one, as in the
+// paper.
 // Source: Carr2006, 3.3 and 3.5.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Octree dust built recursively.
+// Octree dust by recursive construction.
 #include "methods/kit/octree/brick_builder.h"
 #include "methods/kit/octree/octree_dust.h"
 #include "methods/octree_recursive/list_builder.h"

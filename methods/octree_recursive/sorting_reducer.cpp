@@ -9,7 +9,7 @@ namespace dustbench::octree_recursive {
 using namespace octree;
 namespace {
 
-/// A stable counting sort by seven bits of the place in the brick, which is here an entry's code.
+/// A stable counting sort by seven bits of the place in the brick, which is stored in the entry's code.
 void sortByDigit(const CellEntry* from, CellEntry* to, std::uint32_t count, int shift) {
     std::array<std::uint32_t, 128> next{};
     for (std::uint32_t i = 0; i < count; ++i) ++next[from[i].code() >> shift & 127];

@@ -1,5 +1,5 @@
-// A brick's particles to its voxels by sorting them by their Morton codes: what splitting lists level by level comes to
-// when all levels are done at once.
+// Reduces a brick's particles to voxels by sorting their Morton codes: equivalent to splitting lists level by level,
+// with all levels done at once.
 //
 // Threads: one at a time.
 #pragma once
@@ -16,7 +16,7 @@ class SortingReducer {
 
     explicit SortingReducer(const octree::VoxelRule& rule) : rule_(rule) {}
 
-    /// As BrickBuilder asks for it.
+    /// Called by BrickBuilder.
     void reduce(const octree::BrickPartition& partition, const octree::Brick& brick, const octree::BrickVoxels& voxels);
 
  private:
