@@ -1,5 +1,5 @@
-// A brick's particles to its voxels by looking each cell up in a small dense grid: the search principle, whose path is
-// one address.
+// Reduces a brick's particles to voxels through a small dense grid of cells: the search principle, with a path of one
+// address.
 //
 // Threads: one at a time.
 #pragma once
@@ -17,16 +17,16 @@ class GridReducer {
 
     explicit GridReducer(const octree::VoxelRule& rule) : rule_(rule) {}
 
-    /// As BrickBuilder asks for it.
+    /// Called by BrickBuilder.
     void reduce(const octree::BrickPartition& partition, const octree::Brick& brick, const octree::BrickVoxels& voxels);
 
  private:
     octree::VoxelRule rule_;
-    /// By place: the best particle's key, none of which is 0; 0: none yet.
+    /// By place: the best particle's key; 0: none. Keys are never 0.
     std::array<std::uint64_t, octree::placesInBrick> best_{};
     static constexpr std::size_t bits = 64 * std::tuple_size_v<octree::PlaceBits>;
-    std::array<std::uint8_t, bits> isTaken_{};    ///< by place: whether `best_` has one, an eighth of its size
-    std::array<std::uint16_t, bits + 31> taken_;  ///< the places that have one
+    std::array<std::uint8_t, bits> isTaken_{};    ///< by place: whether `best_` has a key; an eighth of its size
+    std::array<std::uint16_t, bits + 31> taken_;  ///< the places that have a key
     std::array<double, octree::placesInBrick> sums_;
 };
 

@@ -36,7 +36,7 @@ std::size_t InsertionBuilder::insertAll(const VoxelRule& rule, Octree& tree) {
 
 namespace {
 
-/// Walks the whole tree in pre-order and gives each voxel its place in the list.
+/// Walks the whole tree in pre-order and assigns each voxel its position in the list.
 struct Lister {
     NodeBlock* blocks;
     const CellEntry* found;

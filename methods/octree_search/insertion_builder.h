@@ -1,7 +1,7 @@
-// The search principle: each particle's path is read off its coordinates and walked from the root, missing nodes are
-// added, and one separate traversal lists the voxels.
+// The search principle: reads each particle's path off its coordinates, walks it from the root and adds missing nodes;
+// a separate traversal lists the voxels.
 //
-// Owns: the voxels in the order of their discovery, on a ledger. Threads: one, as the paper's.
+// Owns: the voxels in order of discovery, booked on a ledger. Threads: one, as in the paper.
 // Source: Carr2006, 3.4 and 3.5.
 #pragma once
 

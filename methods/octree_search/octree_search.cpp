@@ -1,4 +1,4 @@
-// Octree dust built by the search principle.
+// Octree dust by the search principle.
 #include "methods/kit/octree/brick_builder.h"
 #include "methods/kit/octree/octree_dust.h"
 #include "methods/octree_search/grid_reducer.h"
