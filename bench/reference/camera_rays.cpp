@@ -18,7 +18,7 @@ CameraRays::CameraRays(const scene::View& view)
     if (!std::isfinite(length) || !std::isfinite(glm::length(camera.up)) || !(limitY_ > 0) || !std::isfinite(limitX_))
         throw std::invalid_argument("CameraRays: the camera's eye, target, up or field of view is no usable number");
     if (length > 0) ahead_ = sight / length;
-    // As scene::View does: `up` alone decides nothing for a camera that looks along it.
+    // As in scene::View: `up` is not usable if the camera looks along it.
     glm::dvec3 right = glm::cross(ahead_, camera.up);
     if (glm::length(right) < 1e-9) right = glm::cross(ahead_, glm::dvec3(0, 0, -1));
     if (glm::length(right) < 1e-9) right = glm::cross(ahead_, glm::dvec3(1, 0, 0));

@@ -1,8 +1,8 @@
-// The rays of an image's pixel centres in double precision, in the camera's own frame.
+// The rays through an image's pixel centres, in double precision, in the camera's frame.
 //
-// Units: metres, slopes (metres aside per metre ahead). Frame: camera axes (x right, y up, z ahead), origin at the eye.
-// The ray of a pixel is t·(slopeX, slopeY, 1)/√(1 + slopeX² + slopeY²), t being the distance from the eye. The axes are
-// those of scene::View, which gives them in single precision alone.
+// Units: metres, slopes (lateral metres per metre ahead). Frame: camera axes (x right, y up, z ahead), origin at the
+// eye. The ray of a pixel is t·(slopeX, slopeY, 1)/√(1 + slopeX² + slopeY²), t being the distance from the eye. The
+// axes are those of scene::View, which has them in single precision only.
 // Threads: pure.
 #pragma once
 
@@ -14,26 +14,26 @@ namespace dustbench::bench {
 
 class CameraRays {
  public:
-    /// Throws std::invalid_argument for an image without pixels or a camera that is no finite number.
+    /// Throws std::invalid_argument for an image without pixels or a camera with non-finite values.
     explicit CameraRays(const scene::View& view);
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
-    /// Of the centres of a column and of a row, rows from the top.
+    /// Slopes of the centre of a column and of a row; rows from the top.
     [[nodiscard]] double columnSlope(int x) const { return slopeX(x + 0.5); }
     [[nodiscard]] double rowSlope(int y) const { return slopeY(y + 0.5); }
     [[nodiscard]] double slopeX(double pixelX) const { return (2 * pixelX / width_ - 1) * limitX_; }
     [[nodiscard]] double slopeY(double pixelY) const { return (1 - 2 * pixelY / height_) * limitY_; }
-    /// Where the column and the row of a slope lie: the inverse of slopeX and slopeY.
+    /// Pixel coordinates of a slope: the inverse of slopeX and slopeY.
     [[nodiscard]] double pixelX(double slopeX) const { return (slopeX / limitX_ + 1) / 2 * width_; }
     [[nodiscard]] double pixelY(double slopeY) const { return (1 - slopeY / limitY_) / 2 * height_; }
-    /// World to camera frame.
+    /// Transforms a position from world to camera frame.
     [[nodiscard]] glm::dvec3 fromWorld(const glm::dvec3& position) const { return turned(position - eye_); }
-    /// A direction of the world in the camera frame.
+    /// Transforms a direction from world to camera frame.
     [[nodiscard]] glm::dvec3 turned(const glm::dvec3& v) const {
         return {glm::dot(v, right_), glm::dot(v, up_), glm::dot(v, ahead_)};
     }
-    /// Unit vector, in the world.
+    /// Unit vector, in world coordinates.
     [[nodiscard]] glm::dvec3 direction(int x, int y) const {
         return glm::normalize(ahead_ + columnSlope(x) * right_ + rowSlope(y) * up_);
     }

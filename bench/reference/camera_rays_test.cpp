@@ -15,8 +15,8 @@ namespace {
 std::vector<scene::View> views() {
     std::vector<scene::View> all(4);
     all[0].camera = {{3, 2, 10}, {-4, 1, -2}, {0, 1, 0}, 0.9, 0.1};
-    all[1].camera = {{0, 30, 0}, {0, 0, 0}, {0, 1, 0}, 0.6, 0.5};  // straight down: `up` is of no help
-    all[2].camera = {{1, 2, 3}, {1, 2, 3}, {0, 1, 0}, 0.9, 0.1};   // looking at its own eye
+    all[1].camera = {{0, 30, 0}, {0, 0, 0}, {0, 1, 0}, 0.6, 0.5};  // straight down: parallel to `up`
+    all[2].camera = {{1, 2, 3}, {1, 2, 3}, {0, 1, 0}, 0.9, 0.1};   // eye and target coincide
     all[3].camera = {{-200, 4, 90}, {50, 80, -10}, {0.3, 1, 0.1}, 2.2, 0.1};
     all[1].width = 33;
     all[1].height = 70;
@@ -66,7 +66,7 @@ TEST(OpaqueDistances, UndoTheReversedDepthOfPointsOnTheRays) {
         std::vector<double> wanted;
         for (int y = 0; y < view.height; ++y)
             for (int x = 0; x < view.width; ++x) {
-                // A point on the pixel's ray, through the very matrix that OpenGL gets.
+                // A point on the pixel's ray, projected by the same matrix that OpenGL gets.
                 const double metres = 1 + (x + 3 * y) % 50;
                 const glm::dvec3 point = rays.turned(rays.direction(x, y)) * metres;
                 const glm::vec4 clip = view.eyeToClip() * glm::vec4(glm::dvec4(point.x, point.y, -point.z, 1));

@@ -18,11 +18,11 @@
 namespace dustbench::bench {
 namespace {
 
-constexpr double maximumSlabs = 4e6;  ///< of one ray: beyond, memory and patience end
-/// Of the light, from one slab: what is less is not looked for, though it still dims what is behind.
+constexpr double maximumSlabs = 4e6;  ///< per ray: limit of memory and time
+/// Share of the light from one slab below which it is skipped; it still attenuates what is behind.
 constexpr double minimumShare = 1e-9;
 
-/// A puff as one row sees it.
+/// A puff in one row.
 struct RowPuff {
     const Puff* puff;
     RowGeometry geometry;
@@ -31,13 +31,13 @@ struct RowPuff {
     glm::dvec3 colour;
 };
 
-/// A puff as one ray sees it: τ·exp(−b²/2s²), its foot, and where it begins and ends.
+/// A puff along one ray: τ·exp(−b²/2s²), its foot, and the interval that it covers.
 struct RayPuff {
     double depth, foot, inverseWidth, begin, end;
     glm::dvec3 colour;
 };
 
-/// What lies between two distances along a ray: depth, and colours weighted by it.
+/// Contents between two distances along a ray: depth, and depth-weighted colour.
 struct Slab {
     double depth = 0;
     glm::dvec3 colour{0};
@@ -58,7 +58,7 @@ struct MarchedPixel {
     double unevenness = 0;  ///< Σ T·Δ²/8
 };
 
-/// One ray after another; keeps its memory from ray to ray.
+/// Marches one ray at a time; reuses its buffers.
 class RayMarch {
  public:
     explicit RayMarch(double slabMetres) : slabMetres_(slabMetres) {}
@@ -68,7 +68,7 @@ class RayMarch {
         puffs_.clear();
     }
 
-    /// The puff along the ray of column slope x, 1/D = `inverseSquare`.
+    /// Adds the puff along the ray of column slope x; `inverseSquare` is 1/D.
     void add(const RowPuff& row, double x, double inverseSquare) {
         const double u = x - row.geometry.x0;
         const double squareB = (row.geometry.gamma * u * u + row.geometry.kappa) * inverseSquare;
@@ -82,7 +82,7 @@ class RayMarch {
 
     [[nodiscard]] std::size_t size() const { return puffs_.size(); }
 
-    /// `direction`, `eye`: of the ray in the world; `lighting` may be null.
+    /// `eye` and `direction` of the ray in world coordinates; `lighting` may be null.
     MarchedPixel run(const Lighting* lighting, const glm::dvec3& eye, const glm::dvec3& direction) {
         MarchedPixel pixel;
         if (puffs_.empty()) return pixel;
@@ -119,7 +119,7 @@ class RayMarch {
         length_ = (end - begin_) / count;
         slabs_.assign(static_cast<std::size_t>(count), Slab{});
         for (const RayPuff& puff : puffs_) {
-            // From the slab that it begins in to the one that it ends in; the little beyond belongs to these two.
+            // From the first to the last slab that it covers; the tails beyond are added to these two.
             const std::size_t first = slabOf(puff.begin), last = slabOf(puff.end);
             double before = halfErf_(((puff.begin > 0 ? -infinite : 0.0) - puff.foot) * puff.inverseWidth);
             for (std::size_t k = first; k <= last; ++k) {

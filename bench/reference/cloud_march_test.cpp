@@ -74,7 +74,7 @@ TEST(CloudMarch, IsExactForOneColour) {
 TEST(CloudMarch, PuffsApartAreDrawnOneOverTheOther) {
     MemoryLedger ledger;
     ParticleStore store(ledger);
-    // The farther one comes first in the store.
+    // The farther puff comes first in the store.
     test::add(store, {0, 0, -10}, 1, 0.7f);
     test::add(store, {0, 0, 0}, 1, 0.4f);
     store.keepOneColour(false);
@@ -106,7 +106,7 @@ TEST(CloudMarch, ConvergesAtOrderTwoAndStaysWithinItsBound) {
             }
             before = error;
         }
-        // What cloud_march.h promises of the default, 0.1 m.
+        // The accuracy stated in cloud_march.h for the default, 0.1 m.
         EXPECT_LT(largestDifference(marched(store, view, ground, 0.1), finest), 2e-3);
     }
 }
@@ -120,7 +120,7 @@ TEST(CloudMarch, EqualsABruteForceMarchOfColours) {
     const CameraRays rays(view);
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
-            // dL/dt = T·Σσc, dT/dt = −T·Σσ by the midpoint rule, 4 mm a step.
+            // dL/dt = T·Σσc, dT/dt = −T·Σσ by the midpoint rule with steps of 4 mm.
             const auto pixel = static_cast<std::size_t>(y * view.width + x);
             const double end = std::min(20.0, ground.metres[pixel]);
             const int steps = static_cast<int>(end / 0.004) + 1;
@@ -168,8 +168,8 @@ TEST(SunDepth, EqualsTheClosedFormPuffByPuff) {
 }
 
 TEST(LitParticles, EqualTheClosedFormsWithTheSunAlongTheRay) {
-    // In the middle of the picture the ray is the axis. Sun behind the eye: light goes the same way in as out,
-    // ∫ e^(−2τ) dτ = ½(1 − e^(−2Σ)). Sun ahead: whatever the point, it goes through all of the cloud, Σ·e^(−Σ).
+    // At the centre of the picture the ray is the axis. Sun behind the eye: light takes the same path in and out, ∫
+    // e^(−2τ) dτ = ½(1 − e^(−2Σ)). Sun ahead: from any point it passes through the whole cloud, Σ·e^(−Σ).
     MemoryLedger ledger;
     ParticleStore store(ledger);
     test::add(store, {0, 0, 0.3f}, 1.2f, 0.6f);
@@ -187,7 +187,7 @@ TEST(LitParticles, EqualTheClosedFormsWithTheSunAlongTheRay) {
     light.toSun = {0, 0, -1};
     const CloudImage back = renderLitParticles(store, view, skyDistances(view), light, options);
     EXPECT_NEAR(lit(back), 0.8 * 0.9 / 4 * depth * std::exp(-depth), 2e-6);
-    // The sky's light alone is a colour like any other.
+    // Ambient light alone acts like a colour.
     light.sun = glm::dvec3(0);
     light.ambient = {0.3, 0.4, 0.5};
     const CloudImage sky = renderLitParticles(store, view, skyDistances(view), light, options);

@@ -1,6 +1,7 @@
-// 2^x and the error function in double precision, without branches, so that loops over them vectorise.
+// Branch-free 2^x and error function in double precision, so that loops over them vectorise.
 //
-// Both are made of sums and products alone: the same bits at any vector width, as long as the build fuses alike.
+// Both consist of sums and products only: bit-identical at any vector width, as long as the build fuses operations
+// alike.
 // Threads: pure.
 #pragma once
 
@@ -12,10 +13,10 @@
 
 namespace dustbench::bench {
 
-/// Added to a small number, it leaves the nearest whole number in the lowest bits of the sum.
+/// Added to a small number, it leaves the nearest integer in the lowest bits of the sum.
 inline constexpr double roundingMagic = 0x1.8p52;
 
-/// ln2^k / k!, k = 0..9: Taylor's series of 2^x.
+/// ln2^k / k!, k = 0..9: Taylor series of 2^x.
 inline constexpr std::array<double, 10> powerSeries = [] {
     std::array<double, 10> series{};
     double term = 1;
@@ -26,25 +27,25 @@ inline constexpr std::array<double, 10> powerSeries = [] {
     return series;
 }();
 
-/// 2^x, relative error below 1e-11, for |x| ≤ 1000. 2^x = 2^n·2^f with whole n and |f| ≤ ½, where the first term that
-/// is left out is (ln2/2)^10/10! = 7e-12.
+/// 2^x, relative error below 1e-11, for |x| ≤ 1000. 2^x = 2^n·2^f with integer n and |f| ≤ ½; the first omitted term is
+/// (ln2/2)^10/10! = 7e-12.
 [[nodiscard]] inline double powerOfTwo(double x) {
     const auto& [c0, c1, c2, c3, c4, c5, c6, c7, c8, c9] = powerSeries;
     const double shifted = x + roundingMagic;
     const double f = x - (shifted - roundingMagic);
-    // In pairs, so that they do not wait for each other.
+    // In pairs, to shorten the dependency chain.
     const double f2 = f * f, f4 = f2 * f2;
     const double low = (c0 + c1 * f) + (c2 + c3 * f) * f2;
     const double high = (c4 + c5 * f) + (c6 + c7 * f) * f2;
     const double power = low + f4 * (high + f4 * (c8 + c9 * f));
-    // n goes from the sum's lowest bits into the exponent's place; unsigned, so that a negative n wraps as it should.
+    // Moves n from the sum's lowest bits to the exponent; unsigned, so that a negative n wraps correctly.
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(power) + (std::bit_cast<std::uint64_t>(shifted) << 52));
 }
 
-/// ½·erf(z), absolute error below 5e-11 for |z| ≤ 6/√2; beyond, it stays at the value there, 1e-9 from ±½.
+/// ½·erf(z), absolute error below 5e-11 for |z| ≤ 6/√2; beyond, it is constant, 1e-9 from ±½.
 ///
-/// erf(z)/z is even: a polynomial of degree 20 in u = z²/9 − 1, which is −1 to 1, through its values at Chebyshev's
-/// points. (A table would be shorter, but gathering from it takes longer than all of this.)
+/// erf(z)/z is even: a polynomial of degree 20 in u = z²/9 − 1, which ranges from −1 to 1, interpolated at the
+/// Chebyshev points. (A table would be shorter, but gathering from it is slower than this.)
 class HalfErrorFunction {
  public:
     static constexpr double limit = 3 * std::numbers::sqrt2;  ///< 6/√2

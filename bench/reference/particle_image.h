@@ -1,16 +1,15 @@
-// Ground truth: the picture of a cloud of puffs as it is by definition, independent of every method and of OpenGL.
+// Ground truth: the exact picture of a cloud of puffs, independent of every method and of OpenGL.
 //
-// Along a pixel's ray the puffs' optical depths add up by the closed form (methods/kit/maths/transmittance.h), and
-// α = 1 − exp(−Σ). No marching, no order, no voxels.
+// Along a pixel's ray the puffs' optical depths are summed by the closed form (methods/kit/maths/transmittance.h), and
+// α = 1 − exp(−Σ). No marching, no sorting, no voxels.
 //   - One colour for the cloud: colour·α is exact.
-//   - A colour for each particle: α is exact, the colour is integrated over slabs of the ray (see cloud_march.h), with
-//   a
-//     bound on its error.
-// What Σ leaves out is stated in ReferenceOptions::toleratedDepth and depth_sum.h: all in all less than 1e-6 + 4e-9·Σ.
-// The image is sampled at pixel centres, as OpenGL does; nothing is filtered.
+//   - Individual particle colours: α is exact; the colour is integrated over slabs of the ray (see cloud_march.h), with
+//     a bound on its error.
+// The part omitted from Σ is stated in ReferenceOptions::toleratedDepth and depth_sum.h: less than 1e-6 + 4e-9·Σ in
+// total. The image is sampled at pixel centres, as in OpenGL, without filtering.
 //
-// Units: metres; rows from the top. Colours: linear RGB, premultiplied. Threads: uses the current oneTBB arena; same
-// bits at any number of threads.
+// Units: metres; rows from the top. Colours: linear RGB, premultiplied. Threads: uses the current oneTBB arena;
+// bit-identical at any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -27,30 +26,30 @@ struct ReferenceOptions {
     /// Multiplies every puff's optical depth, above 0 and up to 1: 1 for the `particles` reference, 1/64 for the
     /// `continuum`, whose emitters give 64 times the particles.
     double opticalDepthShare = 1;
-    /// As if the opaque scene were not there.
+    /// Ignores occlusion by the opaque scene.
     bool ignoreScene = false;
-    /// Upper bound, in each pixel, of the optical depth that lies beyond the edges of all footprints together.
+    /// Upper bound, in each pixel, of the total optical depth neglected beyond the edges of the footprints.
     double toleratedDepth = 1e-6;
-    /// Length of the slabs along a ray; used where each particle has a colour of its own.
+    /// Length of the slabs along a ray; used if particles have individual colours.
     double slabMetres = 0.1;
 };
 
 struct CloudImage {
     pictures::Image image;              ///< premultiplied linear colour and alpha
     std::vector<double> opticalDepths;  ///< Σ of each pixel
-    double colourErrorBound = 0;        ///< no channel of a pixel is off by more through the slabs; 0 for one colour
-    std::int64_t evaluations = 0;       ///< pairs of puff and pixel that were computed
+    double colourErrorBound = 0;        ///< maximum error of a channel due to the slabs; 0 for one colour
+    std::int64_t evaluations = 0;       ///< computed pairs of puff and pixel
 
     /// 1 − exp(−Σ) of pixel (x, y), in double precision.
     [[nodiscard]] double alpha(int x, int y) const;
 };
 
-/// Throws std::runtime_error naming the serial of a particle that holds no usable number, std::invalid_argument for
-/// distances that do not fit the view or hold NaN, and for options out of range.
+/// Throws std::runtime_error with the serial of a particle that has an invalid number, std::invalid_argument for
+/// distances that do not fit the view or contain NaN, and for options out of range.
 [[nodiscard]] CloudImage renderParticles(const Puffs& store, const scene::View& view, const OpaqueDistances& distances,
                                          const ReferenceOptions& options = {});
 
-/// Throws std::invalid_argument, naming option and value.
+/// Throws std::invalid_argument with the option and its value.
 void checkOptions(const ReferenceOptions& options);
 
 }  // namespace dustbench::bench

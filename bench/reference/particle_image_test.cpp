@@ -23,8 +23,8 @@ struct Case {
     OpaqueDistances distances;
 };
 
-/// Five random scenes: sky alone; camera in the middle of the cloud; puffs half in the ground; both, looking down;
-/// thick puffs all round a camera that stands among walls of its own.
+/// Five random scenes: sky only; camera inside the cloud; puffs half in the ground; both, looking down; thick puffs
+/// around a camera that stands among walls.
 std::vector<Case> fiveScenes(MemoryLedger& ledger) {
     std::vector<Case> cases;
     const auto far = test::viewFrom({2, 3, 14}, {0, 1, 0});
@@ -72,7 +72,7 @@ TEST(ParticleImage, EqualsTheClosedFormPuffByPuff) {
             const CloudImage cloud = renderParticles(test.store, test.view, test.distances, options);
             const auto plain = test::plainDepths(test.store, test.view, test.distances, share);
             for (std::size_t i = 0; i < plain.size(); ++i) {
-                // Short of it by at most the tolerated depth, and off by rounding.
+                // Below it by at most the tolerated depth, and off by rounding.
                 ASSERT_LE(plain[i] - cloud.opticalDepths[i], options.toleratedDepth + 4e-9 * plain[i]) << test.name;
                 ASSERT_LE(cloud.opticalDepths[i] - plain[i], 1e-8 * (1 + plain[i])) << test.name;
             }
@@ -142,7 +142,7 @@ TEST(ParticleImage, SeesHalfOfAPuffFromItsCentreAndNothingOfOneBehind) {
         EXPECT_NEAR(depth, std::log(2) / 2, 1e-9);
     const scene::View away = test::viewFrom({0, 0, -8}, {0, 0, -9});
     for (const double depth : renderParticles(store, away, skyDistances(away)).opticalDepths) EXPECT_LT(depth, 1e-9);
-    // At one s before the eye and looking away: ½·erfc(1/√2) in the middle.
+    // One s in front of the eye and looking away: ½·erfc(1/√2) in the middle.
     const scene::View near = test::viewFrom({0, 0, -1}, {0, 0, -9}, 45, 35);
     EXPECT_NEAR(renderParticles(store, near, skyDistances(near)).opticalDepths[17 * 45 + 22],
                 std::log(2) * std::erfc(std::numbers::sqrt2 / 2) / 2, 1e-8);

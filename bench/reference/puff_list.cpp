@@ -23,8 +23,8 @@ void check(const Puffs& store, std::size_t i) {
                     store.serial[i], store.x[i], store.y[i], store.z[i], store.radius[i], store.opacity[i]));
 }
 
-/// Slopes [low, high] at which the half-plane through the camera's other axis meets the sphere of radius R about the
-/// centre, of which `aside` and `ahead` are the two coordinates in question. All slopes unless it is wholly ahead.
+/// Range of slopes at which the half-plane through the camera's other axis meets the sphere of radius R around the
+/// centre; `aside` and `ahead` are its two relevant coordinates. All slopes unless the sphere is wholly ahead.
 struct Slopes {
     double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
 };
@@ -35,10 +35,10 @@ Slopes slopesOf(double aside, double ahead, double reach) {
     return {(aside * ahead - root) * scale, (aside * ahead + root) * scale};
 }
 
-/// The pixels whose centres lie between two pixel coordinates, a little widened, within 0..count.
+/// The pixels whose centres lie between two pixel coordinates, slightly widened, within 0..count.
 Columns pixelsBetween(double low, double high, int count) {
     const double limit = count;
-    // The order of the arguments makes a NaN the widest bound.
+    // The order of the arguments turns NaN into the widest bound.
     const double first = std::clamp(std::floor(std::max(0.0, low) - 0.5), 0.0, limit);
     const double end = std::clamp(std::ceil(std::min(limit, high) + 0.5), 0.0, limit);
     if (!(first < end)) return {0, 0};
@@ -95,12 +95,11 @@ Columns columnsOf(const Puff& puff, const RowGeometry& row, double slopeY, const
     const double q = b + std::copysign(std::sqrt(discriminant), b);
     const double low = std::min(q / a, c / q), high = std::max(q / a, c / q);
     if (a >= 0) {
-        // The whole interval lies on one side of the eye: ahead, or on the rays' backward parts.
+        // The whole interval lies on one side of the eye: ahead, or on the rays' backward extensions.
         if (row.footAtZero + row.footPerSlope * (b / a) <= 0) return {0, 0};
         return pixelsBetween(rays.pixelX(low), rays.pixelX(high), rays.width());
     }
-    // The camera's x axis itself meets the sphere: the slopes beyond one root see it ahead, those beyond the other
-    // behind.
+    // The camera's x axis itself meets the sphere: slopes beyond one root meet it ahead, those beyond the other behind.
     if (puff.centre.x > 0) return pixelsBetween(rays.pixelX(high), rays.width(), rays.width());
     return pixelsBetween(0, rays.pixelX(low), rays.width());
 }

@@ -1,4 +1,4 @@
-// The particles of a store as the ground truth takes them: checked Gaussians of extinction in the camera's frame, each
+// The particles of a store prepared for the ground truth: validated Gaussians of extinction in the camera's frame, each
 // with its footprint.
 //
 // Units: metres; optical depth has none. Frame: camera axes (see camera_rays.h). Threads: pure.
@@ -12,35 +12,35 @@
 
 namespace dustbench::bench {
 
-/// Along a ray, a puff begins and ends this many s from its centre: ½·erfc(6/√2) = 1e-9 of its depth lies beyond.
+/// Along a ray, a puff is cut off at this many s from its centre: ½·erfc(6/√2) = 1e-9 of its depth lies beyond.
 inline constexpr double sigmasAlongRay = 6;
 
 struct Puff {
     glm::dvec3 centre;
     double deviationMetres;  ///< s = r/2
     double opticalDepth;     ///< τ through the centre
-    double reachMetres;      ///< R: a ray that passes at a greater distance is left alone by it
+    double reachMetres;      ///< R: rays that pass at a greater distance are unaffected
     int firstRow, endRow;    ///< rows of the image that its footprint may touch
     std::uint32_t index;     ///< in the store
 };
 
-/// Smallest depth that a puff still counts with, so that all that is neglected together stays below `toleratedDepth`.
+/// Minimum depth at which a puff still counts, so that the total neglected depth stays below `toleratedDepth`.
 [[nodiscard]] double neglectedDepth(double toleratedDepth, std::size_t puffs);
 
-/// In store order, without those that leave the image alone (no opacity, no radius, behind the camera, out of sight).
-/// τ = −ln(1 − α)·`opticalDepthShare`. R = s·√(2·ln(τ/`neglected`)): there τ·exp(−R²/2s²) = `neglected`.
-/// Throws std::runtime_error that names the particle's serial where a position, radius or opacity is no finite number,
-/// the radius negative, or the opacity outside [0, 1).
+/// In store order, without puffs that do not affect the image (no opacity, no radius, behind the camera, out of view).
+/// τ = −ln(1 − α)·`opticalDepthShare`. R = s·√(2·ln(τ/`neglected`)): there τ·exp(−R²/2s²) = `neglected`. Throws
+/// std::runtime_error with the particle's serial if a position, radius or opacity is not finite, the radius is
+/// negative, or the opacity is outside [0, 1).
 [[nodiscard]] std::vector<Puff> preparePuffs(const Puffs& store, const CameraRays& rays, double opticalDepthShare,
                                              double neglected);
 
-/// The columns [first, end) of row `y` that a puff may touch, widened by less than a pixel; first == end: none.
+/// The columns [first, end) of row `y` that a puff may touch, widened by less than a pixel; empty if first == end.
 struct Columns {
     int first, end;
 };
 
-/// What the ray through column slope X of one row has to do with a puff: the ray runs along (X, Y, 1), and the square
-/// of the length of centre × (X, Y, 1) is γ·(X − X0)² + κ; divided by D = 1 + X² + Y², it is b². No digits cancel.
+/// Geometry of a puff for the rays through column slopes X of one row. The ray runs along (X, Y, 1), and the squared
+/// length of centre × (X, Y, 1) is γ·(X − X0)² + κ; divided by D = 1 + X² + Y², it is b². Avoids cancellation.
 struct RowGeometry {
     double gamma, x0, kappa;
     double footAtZero, footPerSlope;  ///< centre · (X, Y, 1) = footAtZero + footPerSlope·X = tc·√D

@@ -44,11 +44,11 @@ SunDepth::SunDepth(const Puffs& store, const glm::dvec3& toSun, double opticalDe
     }
     if (puffs_.empty()) return;
 
-    // Cells of a quarter metre, or more where the cloud is wide.
+    // Cells of a quarter metre, or larger for a wide cloud.
     const double edge = std::max(high.x - low_.x, high.y - low_.y);
     cellMetres_ = std::max(0.25, edge / maximumCells);
     cells_ = glm::ivec2(glm::ceil((high - low_) / cellMetres_)) + 1;
-    // Twice over the puffs: first each cell's count, then its entries, in the order of the store.
+    // Two passes over the puffs: first each cell's count, then its entries, in the order of the store.
     const auto forEachCell = [&](auto visit) {
         for (std::size_t i = 0; i < puffs_.size(); ++i)
             for (int y = cell(puffs_[i].v - reaches[i], 1); y <= cell(puffs_[i].v + reaches[i], 1); ++y)
@@ -71,13 +71,13 @@ int SunDepth::cell(double coordinate, int axis) const {
 double SunDepth::at(const glm::dvec3& position) const {
     if (puffs_.empty()) return 0;
     const double u = glm::dot(position, first_), v = glm::dot(position, second_), w = glm::dot(position, toSun_);
-    // Beyond the rim no puff reaches; the rim's cells would only give what is neglected.
+    // No puff reaches beyond the edge; edge cells contribute only neglected depth.
     const std::size_t k = static_cast<std::size_t>(cell(v, 1)) * static_cast<std::size_t>(cells_.x) +
                           static_cast<std::size_t>(cell(u, 0));
     const HalfErrorFunction& halfErf = HalfErrorFunction::instance();
     const std::uint32_t end = cellStart_[k + 1];
     double sum = 0;
-    // Several at a time, side by side, so that the loop over them vectorises; the last few with puffs of no depth.
+    // Processed in batches, so that the loop vectorises; the last batch is padded with puffs of zero depth.
     std::array<double, atOnce> exponents, along, depths;
     for (std::uint32_t n = cellStart_[k]; n < end; n += atOnce) {
         exponents.fill(minimumExponent);

@@ -1,7 +1,7 @@
 // The optical depth between a point in a cloud and the sun, by the closed form.
 //
-// Units: metres; depth has none. Frame: world. Owns: a grid over the plane that the sun faces, each cell with the puffs
-// that reach into it. Threads: const access from any.
+// Units: metres; depth has none. Frame: world. Owns: a grid over the plane perpendicular to the sun direction; each
+// cell lists the puffs that reach into it. Threads: const access from any.
 #pragma once
 
 #include <cstdint>

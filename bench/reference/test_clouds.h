@@ -1,4 +1,4 @@
-// Clouds and scenes for the ground truth's tests and benchmarks, and the slow ways to the same picture.
+// Clouds and scenes for the ground truth's tests and benchmarks, and slow reference implementations.
 //
 // Units: metres. Frame: world. Threads: pure.
 #pragma once
@@ -51,8 +51,8 @@ inline particles::ParticleStore ball(MemoryLedger& ledger, std::uint64_t seed, s
     return store;
 }
 
-/// Dust behind a vehicle that has come along +X to the origin, as data/particles/wheel_dust.toml makes it: puffs swell
-/// from 0.25 to 1.6 m, thin out from 0.25 to 0, spread and rise as they age.
+/// Dust behind a vehicle that has driven along +X to the origin, as made by data/particles/wheel_dust.toml: with age,
+/// puffs grow from 0.25 to 1.6 m, fade from 0.25 to 0, spread and rise.
 inline particles::ParticleStore trail(MemoryLedger& ledger, std::size_t count, float lengthMetres) {
     particles::ParticleStore store(ledger);
     store.resize(count);
@@ -73,7 +73,7 @@ inline particles::ParticleStore trail(MemoryLedger& ledger, std::size_t count, f
     return store;
 }
 
-/// Level ground at a height, up to the horizon.
+/// Level ground at a given height, up to the horizon.
 inline OpaqueDistances groundDistances(const scene::View& view, double height) {
     const CameraRays rays(view);
     OpaqueDistances ground{view.width, view.height, {}};
@@ -85,7 +85,7 @@ inline OpaqueDistances groundDistances(const scene::View& view, double height) {
     return ground;
 }
 
-/// The picture's optical depths by maths::rayOpticalDepth, every puff in every pixel: the law itself, nothing left out.
+/// Optical depths by maths::rayOpticalDepth for every puff in every pixel: the definition, with nothing neglected.
 inline std::vector<double> plainDepths(const Puffs& store, const scene::View& view, const OpaqueDistances& distances,
                                        double opticalDepthShare = 1) {
     const CameraRays rays(view);
@@ -108,7 +108,7 @@ inline std::vector<double> plainDepths(const Puffs& store, const scene::View& vi
 }
 
 /// The same by brute force, without any closed form: the puffs' extinctions are summed at points along the ray and
-/// integrated by Simpson's rule, `perDeviation` steps in the smallest s.
+/// integrated by Simpson's rule with `perDeviation` steps per smallest s.
 inline std::vector<double> marchedDepths(const Puffs& store, const scene::View& view, const OpaqueDistances& distances,
                                          double perDeviation = 12) {
     const CameraRays rays(view);

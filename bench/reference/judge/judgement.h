@@ -1,4 +1,4 @@
-// What a run's metrics come to: its row of metrics.csv for each judged frame, and its cells of summary.csv.
+// The metrics of a run: a row of metrics.csv for each judged frame, and cells of summary.csv.
 #pragma once
 
 #include <optional>
@@ -12,22 +12,22 @@
 
 namespace dustbench::bench {
 
-/// Of one run; frames rise.
+/// Metrics of one run; frames ascending.
 struct Judgement {
-    std::vector<MomentMetrics> frames;  ///< judged moments, and those of the popping stretch, which have that alone
+    std::vector<MomentMetrics> frames;  ///< judged moments, and frames of the popping stretch, which have only popping
     std::optional<double> popping, poppingMax;
 };
 
 /// `frame,time_s,` and every metric.
 [[nodiscard]] std::string metricsCsv(const Judgement& judgement);
 
-/// Means over the moments at which a metric is defined, by column of summary.csv; `identical` is 1 where all moments
-/// are. A metric that is defined at none is left out.
+/// Means over the moments at which a metric is defined, by column of summary.csv; `identical` is 1 if all moments are
+/// identical. Metrics that are never defined are omitted.
 [[nodiscard]] std::vector<std::pair<std::string, double>> summaryOf(const Judgement& judgement);
 
 struct MetricInfo {
     std::string_view column;  ///< of summary.csv
-    std::string_view title;   ///< a line
+    std::string_view title;   ///< a one-line description
 };
 /// All metrics in order. reports/METRICS.md defines them.
 [[nodiscard]] std::span<const MetricInfo> metricInfos();

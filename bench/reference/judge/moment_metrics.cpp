@@ -15,7 +15,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// On the reference's default export grid.
+/// Computed on the reference's default export grid.
 std::optional<double> volumeErrorOf(const CollectedVolume& volume, const CollectedVolume& exact) {
     if (volume.isNothing() || exact.isNothing()) return std::nullopt;
     const GridPlan plan = planGrid(exact.bounds(), VolumeSettings().resolution);
@@ -23,7 +23,7 @@ std::optional<double> volumeErrorOf(const CollectedVolume& volume, const Collect
     return volumeError({plan.cells, reference.extinctionPerMetre}, {plan.cells, grid.extinctionPerMetre}).value;
 }
 
-/// What the pixels hold is opaque up to rounding; the metrics want it to be so exactly.
+/// The pixels are opaque up to rounding; the metrics require exactly 1.
 pictures::Image overScene(const pictures::Image& layer, const pictures::Image& scene) {
     pictures::Image image = pictures::over(layer, scene);
     for (glm::vec4& pixel : image.pixels) pixel.a = 1;

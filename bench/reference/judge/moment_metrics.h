@@ -1,4 +1,4 @@
-// The metrics of one moment, and of a run: reports/METRICS.md defines them.
+// The metrics of one moment and of a run, as defined in reports/METRICS.md.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace dustbench::bench {
 
-/// Every number is empty where it is not defined.
+/// Undefined metrics are empty.
 struct MomentMetrics {
     std::int64_t frame = 0;
     double timeSeconds = 0;
@@ -21,9 +21,9 @@ struct MomentMetrics {
     std::optional<double> gaps, components, componentsReference, cutoff, selfSimilarity, quadsPerPixel, volumeError;
 };
 
-/// What a moment is judged by besides its pictures.
+/// Data for judging a moment other than its pictures.
 struct MomentFacts {
-    std::int64_t primitives = 0;  ///< that the method handed to the GPU
+    std::int64_t primitives = 0;  ///< handed to the GPU by the method
     const CollectedVolume& volume;
     const CollectedVolume& referenceVolume;
     const scene::View& view;
@@ -34,16 +34,16 @@ struct JudgedMoment {
     MomentMetrics metrics;
     pictures::Image picture;    ///< over the scene
     pictures::Image reference;  ///< over the scene
-    Plane difference;           ///< FLIP's map
+    Plane difference;           ///< FLIP map
 };
 
-/// All but popping. `exact` with all its layers.
+/// All metrics except popping. `exact` must have all its layers.
 [[nodiscard]] JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, const MomentFacts& facts);
 
-/// Of consecutive frames.
+/// Computes popping over consecutive frames.
 class PoppingJudge {
  public:
-    /// The next frame of the stretch; empty for its first.
+    /// Adds the next frame of the stretch; empty for the first.
     std::optional<double> add(const DrawnMoment& drawn, const ExactMoment& exact);
     [[nodiscard]] const PoppingSummary& summary() const { return summary_; }
 

@@ -1,4 +1,4 @@
-// What is judged of one moment: a method's pictures of it, and the exact ones.
+// The pictures judged at one moment: the method's and the exact ones.
 //
 // Units: linear light; layers premultiplied. Rows from the top.
 #pragma once
@@ -16,30 +16,30 @@
 
 namespace dustbench::bench {
 
-/// As a method drew it.
+/// The method's pictures.
 struct DrawnMoment {
     pictures::Image scene;              ///< the opaque scene
-    std::vector<float> sceneDepth;      ///< reversed
+    std::vector<float> sceneDepth;      ///< reversed depth
     pictures::Image layer;              ///< the method's dust
-    pictures::Image layerWithoutScene;  ///< the same as if nothing stood before it; empty where it was not asked for
+    pictures::Image layerWithoutScene;  ///< the same without occlusion by the scene; empty if not requested
 };
 
-/// As it is.
+/// The exact pictures.
 struct ExactMoment {
-    pictures::Image layer;              ///< of the particles themselves
+    pictures::Image layer;              ///< empty if not requested
     pictures::Image layerWithoutScene;  ///< empty where it was not asked for
-    pictures::Image continuum;          ///< of 64 times as many; empty where it was not asked for
+    pictures::Image continuum;          ///< of 64 times as many particles; empty if not requested
 };
 
-/// Whose particles the continuum is made of.
+/// Number of continuum particles per particle.
 inline constexpr std::int64_t continuumParticles = 64;
 
-/// `withDetail`: the layers without the scene as well. `continuum` may be empty.
+/// `withDetail`: also renders the layers without the scene. `continuum` may be empty.
 [[nodiscard]] ExactMoment exactMoment(const scene::View& view, const DrawnMoment& drawn, const Puffs& dust,
                                       bool withDetail, const std::optional<Puffs>& continuum);
 
-/// Puffs, or voxels as the puffs of their optical depth (edge = 1.2533 r), as the view shows them; those behind the eye
-/// are left out.
+/// Screen positions of puffs, or of voxels as puffs of equal optical depth (edge = 1.2533 r). Primitives behind the eye
+/// are omitted.
 [[nodiscard]] std::vector<ScreenPrimitive> primitivesOnScreen(const CollectedVolume& volume, const scene::View& view);
 
 }  // namespace dustbench::bench
