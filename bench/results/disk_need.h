@@ -1,4 +1,4 @@
-// How much room a run's files may take, so that a long list of runs does not end in half a file.
+// Estimates the disk space of a run's files, so that a long list of runs does not fail half-way.
 //
 // Units: bytes.
 #pragma once
@@ -11,11 +11,11 @@
 
 namespace dustbench::bench {
 
-/// At most, as far as it can be known before: tables, pictures without compression, grids at their full resolution. How
-/// many particles and octree nodes a volume will hold is not known; they count as a grid does.
+/// Upper bound as far as known in advance: tables, uncompressed pictures, grids at their full resolution. The numbers
+/// of particles and octree nodes in a volume are unknown; they count as a grid.
 [[nodiscard]] std::uint64_t maximumBytesOf(const RunSpec& spec);
 
-/// What an ordinary user may still write where `folder` lies.
+/// Space available to an ordinary user on the file system of `folder`.
 [[nodiscard]] std::uint64_t freeBytes(const std::filesystem::path& folder);
 
 /// `1.4 GB`

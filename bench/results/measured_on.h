@@ -1,4 +1,4 @@
-// Whether two runs were measured on the same machine, drawn by the same graphics device, and built the same way.
+// Compares the circumstances of two runs: machine, graphics device and build.
 #pragma once
 
 #include <span>
@@ -10,9 +10,9 @@
 
 namespace dustbench::bench {
 
-/// Fields of the provenance in run.json in which runs must agree before their times are compared.
+/// Provenance fields in run.json that must be equal for times to be comparable.
 [[nodiscard]] std::span<const std::string_view> machineFields();
-/// Fields that may well be what is compared, but should be known: `compiler`, `gl_version` …
+/// Fields that may differ on purpose but should be reported: `compiler`, `gl_version` …
 [[nodiscard]] std::span<const std::string_view> circumstanceFields();
 
 struct FieldDifference {

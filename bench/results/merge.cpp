@@ -12,7 +12,7 @@ namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
-/// Sizes of all files below the run's folder, by their name relative to it.
+/// Sizes of all files below the run's folder, by relative name.
 std::map<std::string, std::uintmax_t> filesOf(const fs::path& run) {
     std::map<std::string, std::uintmax_t> sizes;
     for (const auto& entry : fs::recursive_directory_iterator(run))

@@ -1,4 +1,5 @@
-// Puts the runs of several results folders, such as the shards of a suite, into one: the rows are those of one machine.
+// Merges the runs of several results folders, such as the shards of a suite, into one. All rows should be from one
+// machine.
 #pragma once
 
 #include <cstdint>
@@ -19,23 +20,24 @@ struct MergePlan {
         std::filesystem::path from;
     };
     std::vector<Copy> copies;
-    std::size_t there = 0;  ///< runs of the sources that need no copy: in the results, or in a source before
+    std::size_t there = 0;  ///< runs of the sources that need no copy: already in the results or in an earlier source
     std::uintmax_t bytes = 0;
 };
 
-/// A results folder and what readStoredRuns found in it.
+/// A results folder and the runs that readStoredRuns found in it.
 using MergeSource = std::pair<std::filesystem::path, StoredRuns>;
 
-/// Looks at everything before anything is written. One result of a run is enough where all are equal (the same run.json
-/// byte by byte, the same files by name and size). Throws InputError with the folder where one is missing or a run in
-/// it cannot be read, and with both places where there are two results of one run.
+/// Checks everything before writing anything. Of equal results for a run (same run.json byte by byte, same files by
+/// name and size) one is kept. Throws InputError with the folder if it is missing or contains an unreadable run, and
+/// with both places if a run has two different results.
 [[nodiscard]] MergePlan planMerge(const std::vector<MergeSource>& sources, const ResultsFolder& results);
 
-/// Throws InputError with both numbers where the copies do not fit.
+/// Throws InputError with both sizes if the copies do not fit.
 void requireSpace(const MergePlan& plan, const std::filesystem::path& folder, std::uintmax_t availableBytes);
 
-/// Copies run by run; each appears by one rename, so that a kill loses none and the same command goes on. `interrupted`
-/// is asked between runs; false: it was. Throws InputError with the file that cannot be copied.
+/// Copies run by run. Each run appears by one rename, so an interrupted merge loses nothing and can be repeated to
+/// continue. `interrupted` is called between runs; returns false if it was true. Throws InputError with the file that
+/// cannot be copied.
 [[nodiscard]] bool merge(const MergePlan& plan, ResultsFolder& results, const std::function<bool()>& interrupted);
 
 }  // namespace dustbench::bench

@@ -49,7 +49,7 @@ class Merge : public testing::Test {
         std::ifstream stream(file, std::ios::binary);
         return {std::istreambuf_iterator<char>(stream), {}};
     }
-    /// A results folder with the runs of these seeds; `fps` tells measurements apart.
+    /// A results folder with the runs of these seeds; `fps` distinguishes measurements.
     fs::path results(const std::string& name, const std::vector<int>& seeds, double fps = 30) const {
         for (const int seed : seeds) {
             RunRecord record;
@@ -102,7 +102,7 @@ TEST_F(Merge, TakesEqualResultsOnceAndGoesOnWhereItWas) {
     MergePlan plan = mergeInto(folder_ / "out", {a, b});
     EXPECT_EQ(plan.copies.size(), 3u);
     EXPECT_EQ(plan.there, 1u);
-    // As a kill leaves it: one run not yet there, one half copied, no summary.
+    // State after an interruption: one run missing, one half copied, no summary.
     fs::remove_all(runFolder(folder_ / "out", 3));
     write(folder_ / "out" / "runs" / (".unfinished-" + runId(spec(3))) / "run.json", "{");
     const std::string summary = content(folder_ / "out" / "summary.csv");

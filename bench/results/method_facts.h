@@ -1,4 +1,4 @@
-// The facts that the methods of this build declare (methods/contract/facts.h): each is a column of summary.csv.
+// The facts declared by the methods of this build (methods/contract/facts.h); each is a column of summary.csv.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@ namespace dustbench::bench {
 
 struct MethodFact {
     FactInfo info;
-    std::vector<std::string> methods;  ///< that declare it, sorted
+    std::vector<std::string> methods;  ///< the methods that declare it, sorted
 };
 
-/// Sorted by name. Throws std::logic_error where two methods declare the same name and do not mean the same.
+/// Sorted by name. Throws std::logic_error if two methods declare the same name with different meanings.
 [[nodiscard]] const std::vector<MethodFact>& methodFacts();
 
 }  // namespace dustbench::bench

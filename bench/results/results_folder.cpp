@@ -35,7 +35,7 @@ ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)) {
 
     lock_ = open(runs.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock_ < 0) throw cannotWrite(runs, std::strerror(errno));
-    // What a program that was just killed had locked is free a moment later, when its child has gone as well.
+    // The lock of a program that was just killed is released a moment later, when its child process has ended too.
     for (int attempt = 0; attempt < 10 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++attempt)
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
     if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
@@ -65,7 +65,7 @@ void ResultsFolder::cleanUp() {
             left.push_back(entry.path());
     for (const fs::path& path : left) {
         const std::string name = path.filename();
-        // A kill between the two renames of `publish` left the old result without a successor.
+        // If `publish` was killed between its two renames, the old result is restored.
         if (name.starts_with(oldStart) && !fs::exists(runFolder(name.substr(oldStart.size()))))
             fs::rename(path, runFolder(name.substr(oldStart.size())));
         else

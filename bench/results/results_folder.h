@@ -1,6 +1,6 @@
-// The folder that `--out` names: one folder per run, which appears by one rename, and summary.csv over all of them.
+// The folder given by `--out`: one folder per run, which appears by one rename, and summary.csv over all runs.
 //
-// Owns: a lock on the folder, so that two programs never write into one. Threads: one at a time.
+// Owns: a lock on the folder, so that two programs never write to the same one. Threads: one at a time.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +14,9 @@ namespace dustbench::bench {
 
 class ResultsFolder {
  public:
-    /// Makes the folder, checks that it can be written, removes what killed runs left behind, and reads the runs that
-    /// are there; those whose run.json is damaged are set aside. Throws InputError where it cannot be written or
-    /// another program is writing into it.
+    /// Creates the folder, checks that it is writable, removes leftovers of interrupted runs, and reads the existing
+    /// runs; runs with a damaged run.json are set aside. Throws InputError if it is not writable or another program is
+    /// writing to it.
     explicit ResultsFolder(std::filesystem::path folder);
     ~ResultsFolder();
     ResultsFolder(const ResultsFolder&) = delete;
@@ -26,19 +26,19 @@ class ResultsFolder {
     [[nodiscard]] std::filesystem::path runFolder(const std::string& runId) const { return folder_ / "runs" / runId; }
     /// By run id.
     [[nodiscard]] const StoredRuns& runs() const { return runs_; }
-    /// A sentence for each run that was set aside: why, and under which name it lies in runs/ now.
+    /// A sentence for each run that was set aside: the reason, and its new name in runs/.
     [[nodiscard]] const std::vector<std::string>& setAside() const { return setAside_; }
 
-    /// A new hidden folder in which the run is written until it is complete.
+    /// Creates a hidden folder in which the run is written until it is complete.
     [[nodiscard]] std::filesystem::path beginRun(const std::string& runId);
-    /// Makes the hidden folder, with its run.json, the run's; an older result under the same id goes. Then rewrites
-    /// summary.csv.
+    /// Publishes the hidden folder, with its run.json, as the run's result, replacing an older result with the same id.
+    /// Then rewrites summary.csv.
     void publish(const std::string& runId);
-    /// The same without summary.csv, for whoever has many of them.
+    /// The same without rewriting summary.csv, for publishing many runs.
     void place(const std::string& runId);
     void discard(const std::string& runId);
 
-    /// All runs that are there, one row each, in the order of their ids; p.… columns are the union of all parameters.
+    /// Writes all runs, one row each, ordered by id; p.… columns are the union of all parameters.
     void writeSummary() const;
 
  private:

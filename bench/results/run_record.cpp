@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Numbers in canonical text become numbers, everything else stays text.
+/// Canonical text of numbers becomes a number, everything else stays text.
 Json typed(const std::string& text) {
     const char* const end = text.data() + text.size();
     std::int64_t whole = 0;
@@ -130,7 +130,7 @@ std::optional<JudgingPlan> readJudging(const Json& json) {
     return judging;
 }
 
-/// Text that is no UTF-8 (a file name, a child's last words) must not keep a result from being written.
+/// Invalid UTF-8 (in a file name or a child's output) must not prevent a result from being written.
 std::string text(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -1,6 +1,6 @@
-// What is kept of one run as run.json is written, and the specification a run's process is given.
+// The record of one run as written to run.json, and the specification passed to a run's process.
 //
-// The JSON library behind it stays in one source file. stored_run.h reads what is written here.
+// The JSON library is used in one source file only. stored_run.h reads what is written here.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,9 @@ inline constexpr Choices<RunStatus> runStatuses{{"done", RunStatus::done},
                                                 {"timeout", RunStatus::timeout},
                                                 {"skipped", RunStatus::skipped}};
 
-/// A cell of summary.csv; nothing, and numbers that are not finite, are empty there and null in JSON.
+/// A cell of summary.csv. Missing and non-finite values are empty in CSV and null in JSON.
 using Value = std::variant<std::monostate, std::int64_t, double, std::string>;
-/// As it stands in a CSV file, not yet quoted.
+/// Text in a CSV file, before quoting.
 [[nodiscard]] std::string valueText(const Value& value);
 
 using Columns = std::vector<std::pair<std::string, Value>>;
@@ -36,11 +36,11 @@ using Columns = std::vector<std::pair<std::string, Value>>;
 struct RunRecord {
     RunSpec spec;
     RunStatus status = RunStatus::done;
-    std::string reason;      ///< why it is not done; empty where it is
+    std::string reason;      ///< why it is not done; empty if done
     std::string drive;       ///< the resolved one
     std::string stateHash;   ///< 16 hexadecimal digits, of vehicle and shared dust after the last frame
-    std::string methodHash;  ///< of the method's own simulation; empty where it has none
-    Columns summary;         ///< what summary.csv shows, without parameters
+    std::string methodHash;  ///< of the method's own simulation; empty if it has none
+    Columns summary;         ///< cells of summary.csv, without parameters
     std::vector<std::pair<std::string, MemoryUse>> memory;  ///< owner (`world`, `method`, `device`) and structure
     Provenance provenance;
 };
@@ -48,7 +48,7 @@ struct RunRecord {
 /// run.json as text.
 [[nodiscard]] std::string toJson(const RunRecord& record);
 
-/// What is kept of an export beside its files.
+/// The record of an export, written beside its files.
 struct ExportRecord {
     struct Moment {
         std::int64_t frame;
@@ -73,9 +73,9 @@ struct ListedItem {
     std::vector<Parameter> parameters;
     bool withParameters = false;
 };
-/// An array of objects with the items' cells in order, and `parameters` where asked for. For `--json`.
+/// An array of objects with the items' cells in order, and `parameters` if requested. For `--json`.
 [[nodiscard]] std::string listToJson(const std::vector<ListedItem>& items);
-/// One object, with the machine's adapters and `more` behind what is known of every run.
+/// One object with the provenance fields of a run, followed by the machine's adapters and `more`.
 [[nodiscard]] std::string provenanceToJson(const Provenance& provenance, std::span<const gpu::Adapter> adapters,
                                            const Columns& more);
 

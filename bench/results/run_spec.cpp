@@ -14,7 +14,7 @@ namespace {
 
 constexpr int largestEdge = 16384;
 
-/// Letters, digits, '_' and '-' of a scene's name or of its file's.
+/// The letters, digits, '_' and '-' in the stem of a scene's name or file name.
 std::string plainName(std::string_view name) {
     std::string plain;
     for (const char letter : std::filesystem::path(name).stem().string())

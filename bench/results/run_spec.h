@@ -1,4 +1,5 @@
-// One run, fully named: what is measured, under which parameters and how. Two equal specifications have one run id.
+// The full specification of one run: what is measured, with which parameters and how. Equal specifications have equal
+// ids.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@
 
 namespace dustbench::bench {
 
-/// What waits for the GPU: every frame, every stage, or no frame before two are in flight.
+/// When to wait for the GPU: every frame, every stage, or only while two frames are in flight.
 enum class Sync { frame, stage, none };
 inline constexpr Choices<Sync> syncs{{"frame", Sync::frame}, {"stage", Sync::stage}, {"none", Sync::none}};
 
@@ -38,31 +39,31 @@ struct RunSpec {
     std::int64_t warmup = 10;
     ImageSize size;
     std::uint64_t seed = 1;
-    int threads = 0;  ///< 0: as many as there are cores
+    int threads = 0;  ///< 0: one per core
     Sync sync = Sync::frame;
     std::int64_t imagesEvery = 0;           ///< 0: no images
-    std::optional<VolumeSettings> volumes;  ///< what is exported besides; none: nothing
-    std::optional<JudgingPlan> judging;     ///< which frames get metrics; none: no frame
-    int repetition = 1;                     ///< from 1
+    std::optional<VolumeSettings> volumes;  ///< volume export; empty: none
+    std::optional<JudgingPlan> judging;     ///< frames that get metrics; empty: none
+    int repetition = 1;                     ///< counts from 1
 };
 
-/// Throws InputError where a volume or a metric is asked for of a frame that the run does not record.
+/// Throws InputError if a volume or metric is requested for a frame that the run does not record.
 void requireFramesWithinRun(const RunSpec& spec);
 
-/// A specification's values, sorted out into the world's and the method's.
+/// A specification's parameter values, split into the world's and the method's.
 struct ResolvedParameters {
     ParameterValues world;
     ParameterValues method;
 };
 
-/// Sorts `given` out; what is not given has its default. Throws InputError for an unknown name (with the nearest of
-/// both sets) or a value that is not allowed.
+/// Splits `given`; missing parameters get their defaults. Throws InputError for an unknown name (with the nearest name
+/// of both sets) or an invalid value.
 [[nodiscard]] ResolvedParameters resolveParameters(const MethodInfo& method, const ParameterTexts& given);
 
-/// Fills in all defaults and puts every value into canonical form.
+/// Fills in all defaults and converts every value to canonical form.
 [[nodiscard]] ParameterTexts canonicalParameters(const MethodInfo& method, const ParameterTexts& given);
 
-/// Everything that tells two runs apart, one `name=value` a line in a fixed order.
+/// Everything that distinguishes two runs, one `name=value` per line in a fixed order.
 [[nodiscard]] std::string canonicalKey(const RunSpec& spec);
 
 /// `billboard-plain-r1-0f3a9b5c2d1e`: a readable start and the first 12 digits of the key's SHA-256.

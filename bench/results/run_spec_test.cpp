@@ -25,7 +25,7 @@ TEST(RunSpec, IdDoesNotDependOnOrderOrSpellingOfParameters) {
     a.parameters = canonicalParameters(haze(), {{"mode", "hard"}, {"thickness", "0.50"}});
     b.parameters = canonicalParameters(haze(), {{"thickness", ".5"}, {"mode", "hard"}});
     EXPECT_EQ(runId(a), runId(b));
-    // A default that is spelled out names the same run as one that is not.
+    // An explicit default gives the same run id as an omitted one.
     b.parameters = canonicalParameters(haze(), {{"mode", "hard"}});
     EXPECT_EQ(runId(a), runId(b));
 }

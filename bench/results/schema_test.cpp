@@ -1,4 +1,4 @@
-// Holds reports/SCHEMA.md against the headers of the files that the program writes, in both directions.
+// Checks reports/SCHEMA.md against the headers of the files that the program writes, in both directions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Row {
     Names cells;
 };
 
-/// The rows of the table below `## section`, without its head.
+/// The rows of the table below `## section`, without its header.
 std::vector<Row> tableOf(const std::string& section) {
     std::ifstream file(std::string(DUSTBENCH_SOURCE_DIR) + "/reports/SCHEMA.md");
     std::vector<Row> rows;
@@ -45,7 +45,8 @@ std::vector<Row> tableOf(const std::string& section) {
     return rows;
 }
 
-/// The columns that a row stands for: `a`, `b` and `c` … `f`, which is all of the header from c to f; `<stage>` is any.
+/// The columns described by a row: `a`, `b` and `c` … `f`, which is all of the header from c to f; `<stage>` matches
+/// any.
 Names namesIn(const std::string& cell, const Names& header) {
     Names names;
     const std::regex name("(`([^`]+)`)|…");
@@ -68,7 +69,7 @@ Names namesIn(const std::string& cell, const Names& header) {
     return names;
 }
 
-/// Every column has a unit's cell and a definition, and nothing else is defined.
+/// Every column has a unit cell and a definition, and nothing else is defined.
 void expectDefined(const std::string& section, const Names& header, std::size_t definitionCell = 2) {
     std::set<std::string> defined;
     for (const Row& row : tableOf(section)) {
@@ -97,7 +98,7 @@ TEST(Schema, DefinesEveryColumnOfEveryTable) {
     expectDefined("summary.csv", summary);
 }
 
-/// A row of the page without a fact is one of a method that this build leaves out.
+/// Rows without a fact belong to methods that this build excludes.
 TEST(Schema, ShowsEveryFactAsItsMethodsDeclareIt) {
     std::map<std::string, std::string> rows;
     for (const Row& row : tableOf("Facts of methods")) {

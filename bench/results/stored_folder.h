@@ -1,4 +1,4 @@
-// Reads the runs of a results folder and leaves it as it is: no lock, nothing made, nothing removed.
+// Reads the runs of a results folder without changing it: no lock, nothing created, nothing removed.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace dustbench::bench {
 
-/// What is finished; what another program is still writing is not seen. Throws InputError with the folder or file where
-/// it is no results folder, or a run in it cannot be read.
+/// Reads completed runs only, not those that another program is still writing. Throws InputError with the folder or
+/// file if it is not a results folder, or a run in it cannot be read.
 [[nodiscard]] StoredRuns readStoredRuns(const std::filesystem::path& folder);
 
 }  // namespace dustbench::bench

@@ -11,7 +11,7 @@ namespace {
 using simdjson::dom::element;
 using simdjson::dom::object;
 
-/// A value as it stands in a table; empty for null, arrays and objects.
+/// Text of a value in a table; empty for null, arrays and objects.
 std::string cellText(element value) {
     switch (value.type()) {
         case simdjson::dom::element_type::STRING:
@@ -40,7 +40,7 @@ std::string textOf(element value) {
 }  // namespace
 
 StoredRun readRunFile(const std::filesystem::path& file) {
-    thread_local simdjson::dom::parser parser;  // keeps its memory from file to file
+    thread_local simdjson::dom::parser parser;  // reuses its memory
     try {
         const object json = parser.load(file.string());
         StoredRun run;

@@ -1,4 +1,4 @@
-// What a run.json says, as far as resuming, summary.csv, comparisons and people at the console need it.
+// The contents of a run.json that are needed to resume, summarise, compare and display runs.
 //
 // Threads: any.
 #pragma once
@@ -19,8 +19,8 @@ struct StoredRun {
     ParameterTexts parameters;
     std::map<std::string, std::string, std::less<>> cells;  ///< by column of summary.csv
     std::vector<std::string> warnings{};
-    std::string stateHash{}, methodHash{};  ///< empty where the run did not get there, or has none
-    /// By field: `cpu`, `build_type`, `key` …, but for the inputs.
+    std::string stateHash{}, methodHash{};  ///< empty if the run did not get that far, or has none
+    /// By field: `cpu`, `build_type`, `key` …, without the inputs.
     std::map<std::string, std::string, std::less<>> provenance{};
     std::vector<InputHash> inputs{};
 };
@@ -28,7 +28,7 @@ struct StoredRun {
 /// By run id.
 using StoredRuns = std::map<std::string, StoredRun>;
 
-/// Throws InputError with the file where it is no such thing.
+/// Throws InputError with the file if it is not a valid run.json.
 [[nodiscard]] StoredRun readRunFile(const std::filesystem::path& file);
 
 }  // namespace dustbench::bench

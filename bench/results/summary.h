@@ -1,4 +1,4 @@
-// From the recorded frames of a run to its row of summary.csv. `reports/SCHEMA.md` defines every column.
+// Computes a run's row of summary.csv from its recorded frames. `reports/SCHEMA.md` defines every column.
 #pragma once
 
 #include <optional>
@@ -15,19 +15,19 @@ namespace dustbench::bench {
 [[nodiscard]] const std::vector<std::string>& columnsBeforeParameters();
 [[nodiscard]] const std::vector<std::string>& columnsAfterParameters();
 
-/// The cells that every run has, whatever became of it.
+/// The cells that every run has, whatever its status.
 [[nodiscard]] Columns identityColumns(const RunRecord& record, int threads);
 
-/// What is measured of a run as a whole; empty where the machine does not tell.
+/// Measurements of a run as a whole; empty if not available on this machine.
 struct WholeRun {
     std::int64_t peakResidentBytes = 0;
-    std::optional<std::int64_t> driverBytes;     ///< that went from the GPU's free memory since the run began
+    std::optional<std::int64_t> driverBytes;     ///< decrease of the GPU's free memory since the run began
     std::optional<double> startSeconds;          ///< from the process's start to its first picture
     std::optional<double> cpuJoules, gpuJoules;  ///< over the recorded frames
-    bool softwareRenderer = false;               ///< then the CPU's energy is all there is
+    bool softwareRenderer = false;               ///< if true, the CPU's energy is the total
 };
 
-/// The cells that the frames and the run as a whole give.
+/// The cells computed from the frames and the run as a whole.
 [[nodiscard]] Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run);
 
 }  // namespace dustbench::bench
