@@ -18,7 +18,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// What this build measures, by column of summary.csv; reports/SCHEMA.md and METRICS.md have the definitions.
+/// Measured quantities, by column of summary.csv; defined in reports/SCHEMA.md and METRICS.md.
 std::vector<CatalogueItem> listMetrics() {
     std::vector<CatalogueItem> items;
     const auto add = [&items](const std::string& id, const std::string& title) {
@@ -63,7 +63,7 @@ std::vector<CatalogueItem> listExperiments() {
     return items;
 }
 
-/// What the tables of a particle system may be, in files of data/particles.
+/// The tables available to particle systems in files of data/particles.
 std::vector<CatalogueItem> listParts() {
     std::vector<CatalogueItem> items;
     for (const particles::PartInfo& info : particles::partTable())

@@ -1,4 +1,4 @@
-// What this build and its data offer, for `dustbench list` and its JSON.
+// Lists what this build and its data provide, for `dustbench list` and its JSON.
 #pragma once
 
 #include <string>
@@ -10,24 +10,24 @@ namespace dustbench::bench {
 
 struct CatalogueItem {
     std::string kind;  ///< one of catalogueKinds()
-    std::string id;    ///< of a part `kind/name`
+    std::string id;    ///< of a part: `kind/name`
     std::string title;
     std::string summary;
-    std::string source;                   ///< key in data/references.bib, of a part with section; or empty
+    std::string source;                   ///< key in data/references.bib, for a part with section; or empty
     std::vector<Parameter> parameters{};  ///< of a part: the keys of its table
 };
 
-/// `methods scenes drives suites metrics parts`
+/// `methods scenes drives suites experiments metrics parts`
 [[nodiscard]] const std::vector<std::string>& catalogueKinds();
 
-/// Sorted by id; metrics in the order of summary.csv, parts kind by kind.
+/// Sorted by id; metrics in the order of summary.csv, parts grouped by kind.
 [[nodiscard]] std::vector<CatalogueItem> catalogue(const std::string& kind);
 
 /// Throws InputError with the nearest id.
 [[nodiscard]] CatalogueItem findItem(const std::string& kind, const std::vector<CatalogueItem>& items,
                                      const std::string& id);
 
-/// The parameters of the world that every method is shown.
+/// Parameters of the world, which are the same for every method.
 [[nodiscard]] const std::vector<Parameter>& worldParameterList();
 
 /// An array of objects.

@@ -21,7 +21,7 @@ std::string worldKey(const RunSpec& spec) {
     return key;
 }
 
-/// Disjoint sets of cells, each known by the first of its cells.
+/// Disjoint sets of cells (union-find); each set is identified by its first cell.
 class CellGroups {
  public:
     explicit CellGroups(std::size_t cells) : parents_(cells) { std::iota(parents_.begin(), parents_.end(), 0); }

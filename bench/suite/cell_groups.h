@@ -1,6 +1,6 @@
-// Which cells of a suite belong together: all methods of one world, and the worlds that a comparison brings together.
+// Groups the cells of a suite: all methods of one world, and worlds that are linked by a comparison.
 //
-// Such cells run on one machine, and within a round one after the other.
+// The cells of a group run on one machine, and consecutively within a round.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace dustbench::bench {
 
-/// For each cell, the number of the first cell of its group.
+/// For each cell, the index of the first cell of its group.
 [[nodiscard]] std::vector<std::size_t> groupCells(const Suite& suite);
 
 }  // namespace dustbench::bench

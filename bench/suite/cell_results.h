@@ -11,14 +11,14 @@
 
 namespace dustbench::bench {
 
-/// The cell's run of this repetition (from 1) where it is done, or null.
+/// The cell's run of this repetition (from 1) if it is done, else null.
 [[nodiscard]] const StoredRun* doneRun(const PlannedRun& cell, int repetition, const StoredRuns& runs);
-/// All that are done, in order.
+/// All done runs of a cell, in order.
 [[nodiscard]] std::vector<const StoredRun*> doneRuns(const PlannedRun& cell, int repetitions, const StoredRuns& runs);
 
-/// A cell of summary.csv; nothing where it is empty.
+/// A cell of summary.csv; empty if it has no value.
 [[nodiscard]] std::optional<double> numberIn(const StoredRun& run, std::string_view column);
-/// Those of the runs that have it.
+/// The values of the runs that have one.
 [[nodiscard]] std::vector<double> numbersIn(const std::vector<const StoredRun*>& runs, std::string_view column);
 
 }  // namespace dustbench::bench

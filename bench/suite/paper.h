@@ -1,4 +1,4 @@
-// A paper of data/papers/: what it is and which suites are its experiments.
+// A paper in data/papers/: its description and the suites that are its experiments.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct Paper {
     std::string id;
     std::string title;
     std::string authors;
-    std::int64_t year = 0;  ///< 0: not known
+    std::int64_t year = 0;  ///< 0: unknown
     std::string venue;
     std::string key;  ///< in data/references.bib
     std::string summary;
@@ -27,7 +27,7 @@ struct Paper {
 /// Ids of the papers in the folders of data, sorted.
 [[nodiscard]] std::vector<std::string> listPapers();
 
-/// Throws InputError: an unknown id with the nearest, or what is wrong with its paper.toml.
+/// Throws InputError for an unknown id (with the nearest), or an error in its paper.toml.
 [[nodiscard]] Paper loadPaper(const std::string& id);
 
 }  // namespace dustbench::bench

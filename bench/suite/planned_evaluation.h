@@ -1,4 +1,4 @@
-// What a suite's `[[compare]]` and `[[fit]]` tables ask for: the times of one method against those of another, and
+// The `[[compare]]` and `[[fit]]` tables of a suite: comparisons of one method's times with another's, and fits of
 // times against a load.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace dustbench::bench {
 
-/// The cells of one method, or those of them that have these parameters: `octree_search layout=morton`.
+/// The cells of one method, optionally only those with these parameters: `octree_search layout=morton`.
 struct ComparedSide {
     std::string method;
     ParameterTexts pinned;  ///< in canonical form
@@ -23,7 +23,7 @@ struct PlannedComparison {
     std::string where;                 ///< `file:line: `, for messages
 };
 
-/// The `[[compare]]` tables, none where the key is missing or an empty array. `methods` are those of the suite. Throws
+/// The `[[compare]]` tables; none if the key is missing or an empty array. `methods` are those of the suite. Throws
 /// InputError with file and line.
 [[nodiscard]] std::vector<PlannedComparison> readComparisons(files::TomlReader& suite,
                                                              const std::vector<std::string>& methods);
@@ -34,12 +34,12 @@ struct PlannedFit {
     std::string where;                 ///< `file:line: `, for messages
 };
 
-/// The `[[fit]]` tables, none where the key is missing or an empty array. Throws InputError with file and line.
+/// The `[[fit]]` tables; none if the key is missing or an empty array. Throws InputError with file and line.
 [[nodiscard]] std::vector<PlannedFit> readFits(files::TomlReader& suite);
 
-/// The columns of summary.csv that can be compared: times, and rates as the time a frame takes.
+/// The columns of summary.csv that can be compared: times, and rates as the time per frame.
 [[nodiscard]] std::vector<std::string> comparableColumns();
-/// A rate is the inverse of a time.
+/// Whether the column is a rate, which is the inverse of a time.
 [[nodiscard]] bool isRate(std::string_view column);
 
 }  // namespace dustbench::bench

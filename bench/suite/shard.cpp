@@ -32,7 +32,7 @@ std::vector<int> shardOfCells(const Suite& suite, int count) {
     std::vector<std::pair<std::size_t, std::size_t>> largestFirst(sizes.begin(), sizes.end());
     std::ranges::stable_sort(largestFirst, std::ranges::greater(), [](const auto& entry) { return entry.second; });
 
-    std::set<std::pair<std::size_t, int>> loads;  // the minimum cells, then the lowest number, comes first
+    std::set<std::pair<std::size_t, int>> loads;  // ordered by the number of cells, then by shard number
     for (int shard = 1; shard <= count; ++shard) loads.emplace(0, shard);
     std::map<std::size_t, int> shardOfGroup;
     for (const auto& [first, size] : largestFirst) {

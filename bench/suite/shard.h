@@ -1,8 +1,8 @@
-// A suite in parts, for several machines: `--shard 2/3`.
+// Splits a suite into parts for several machines: `--shard 2/3`.
 //
-// Runs that are compared with each other belong on one machine, so what is shared out are groups of cells
-// (cell_groups.h) with all their repetitions. The largest group goes first, each to the shard that has the minimum
-// runs. This depends on the suite alone; run ids do not depend on it.
+// Runs that are compared with each other must run on one machine, so groups of cells (cell_groups.h) are distributed
+// with all their repetitions. The largest group goes first, each to the shard with the fewest runs. The split depends
+// only on the suite; run ids do not depend on it.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ inline constexpr int maximumShards = 10'000;
 /// The shard of every cell, from 1.
 [[nodiscard]] std::vector<int> shardOfCells(const Suite& suite, int count);
 
-/// The suite with the shard's cells only. Its verdicts are left out: they are for the whole.
+/// The suite with only the shard's cells. Verdicts are omitted: they need the whole suite.
 [[nodiscard]] Suite partOf(const Suite& suite, Shard shard);
 
 /// The shard's runs, in the order of the whole suite's plan.

@@ -57,7 +57,7 @@ TEST(Shard, KeepsTheOrderOfThePlanAndAWorldInOnePiece) {
             shardsOfWorld[run.spec.parameters.at("particles") + " " + run.spec.parameters.at("speed") + " " +
                           std::to_string(run.spec.size.width)]
                 .insert(index);
-        // Twelve worlds of nine runs: two or three a shard.
+        // Twelve worlds of nine runs: two or three per shard.
         EXPECT_TRUE(plan.size() == 18 || plan.size() == 27) << plan.size();
     }
     EXPECT_EQ(shardsOfWorld.size(), 12u);

@@ -39,12 +39,12 @@ Variant parseVariant(const std::string& text) {
     return variant;
 }
 
-/// Throws for a parameter that nothing has.
+/// Throws for a parameter that no method and not the world has.
 void requireKnown(const ParameterTexts& given, const std::vector<Variant>& variants) {
     for (const auto& [name, value] : given) {
         if (worldParameters().find(name)) continue;
         if (std::ranges::any_of(variants, [&](const Variant& v) { return v.method->parameters.find(name); })) continue;
-        (void)resolveParameters(*variants.front().method, {{name, value}});  // says so
+        (void)resolveParameters(*variants.front().method, {{name, value}});  // throws
     }
 }
 

@@ -1,4 +1,4 @@
-// Several methods side by side in one world, as a suite of its own.
+// Builds a suite that compares several methods side by side in one world.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace dustbench::bench {
 
-/// `METHOD` or `METHOD:name=value,name=value`: parameters of that method's own. `given` holds further ones, of the
-/// world or of methods; those of methods go to each that has them. Every method is judged and compared with the first.
-/// `base` says all else of the runs. Throws InputError.
+/// `METHOD` or `METHOD:name=value,name=value` with parameters of that method. `given` holds further parameters, of the
+/// world or of methods; those of methods are given to each method that has them. Every method is judged and compared
+/// with the first. `base` specifies the rest. Throws InputError.
 [[nodiscard]] Suite sideBySideSuite(const std::vector<std::string>& variants, const ParameterTexts& given,
                                     const RunSpec& base, int repetitions);
 

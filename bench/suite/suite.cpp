@@ -40,7 +40,7 @@ bool covers(const Exception& exception, const RunSpec& cell) {
            std::ranges::all_of(exception.parameters, hasOneOf);
 }
 
-/// How many cells it leaves out, or some of whose repetitions.
+/// Returns the number of cells that it excludes wholly or in part.
 std::size_t leaveOut(const Exception& exception, std::vector<PlannedRun>& cells) {
     const auto isCovered = [&](const PlannedRun& cell) { return covers(exception, cell.spec); };
     if (exception.afterRepetition == 0) return std::erase_if(cells, isCovered);
@@ -53,7 +53,7 @@ std::size_t leaveOut(const Exception& exception, std::vector<PlannedRun>& cells)
     return count;
 }
 
-/// `wholeFile`: an exception that leaves nothing out is a mistake; in `[quick]`, which has fewer cells, it is not.
+/// `wholeFile`: an exception that excludes nothing is an error; in `[quick]`, which has fewer cells, it is not.
 Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     requireFramesWithinRun(draft.base);
     Suite suite = std::move(draft.suite);
@@ -98,7 +98,7 @@ Suite readSuite(files::TomlReader file, const fs::path& place, std::string id, b
     draft.read(file);
     Suite suite = multiplyOut(draft, true);
     if (file.has("quick")) {
-        // Read in any case, so that a mistake in it shows early.
+        // Always read, so that errors in it are found early.
         files::TomlReader table = file.table("quick");
         draft.read(table);
         table.finish();
@@ -110,7 +110,7 @@ Suite readSuite(files::TomlReader file, const fs::path& place, std::string id, b
     return suite;
 }
 
-/// A round's own random order of things.
+/// Random order of a round.
 class RoundShuffle {
  public:
     RoundShuffle(std::uint64_t seed, int round) : seed_(seed), round_(static_cast<std::uint32_t>(round)) {}
@@ -128,7 +128,7 @@ class RoundShuffle {
     std::uint64_t draws_ = 0;
 };
 
-/// Numbers of cells, group by group.
+/// Cell indices by group.
 std::vector<std::vector<std::size_t>> listGroups(const Suite& suite) {
     std::map<std::size_t, std::vector<std::size_t>> members;
     const std::vector<std::size_t> groups = groupCells(suite);

@@ -1,4 +1,4 @@
-// What differs between the cells of a suite: the world that all methods are shown, and the settings of each method.
+// What varies between the cells of a suite: the world, which all methods share, and the settings of each method.
 #pragma once
 
 #include <functional>
@@ -16,14 +16,14 @@ struct Axis {
     std::function<std::string(const RunSpec&)> of;
 };
 
-/// Scene, drive, size and the world's parameters, as far as they are not the same in all cells.
+/// Those of scene, drive, size and the world's parameters that vary between cells.
 [[nodiscard]] std::vector<Axis> worldAxes(std::span<const PlannedRun* const> cells);
 
-/// Parameters of their methods that take several values among the cells of one method. What merely differs from method
-/// to method is how the suite sets them up.
+/// Parameters of methods that vary between the cells of one method. Parameters that only differ between methods are
+/// part of the suite's setup.
 [[nodiscard]] std::vector<Axis> methodAxes(std::span<const PlannedRun* const> cells);
 
-/// `particles=500 speed=20`; values that are empty are left out.
+/// `particles=500 speed=20`; empty values are omitted.
 [[nodiscard]] std::string labelOf(const std::vector<Axis>& axes, const RunSpec& spec);
 
 [[nodiscard]] bool isOfTheWorld(std::string_view parameter);

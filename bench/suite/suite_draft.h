@@ -1,4 +1,4 @@
-// What a suite's file says, before anything is multiplied out.
+// The contents of a suite file, before the combinations are expanded.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@
 
 namespace dustbench::bench {
 
-/// An `[[except]]` table: cells that have one of the values of every list that is not empty are left out.
+/// An `[[except]]` table: excludes cells that match one value of every non-empty list.
 struct Exception {
     std::vector<std::string> methods, scenes, drives, sizes;
     ParameterLists parameters;
-    int afterRepetition = 0;  ///< those up to this one are not left out
+    int afterRepetition = 0;  ///< repetitions up to this one are kept
     std::string where;        ///< `file:line: `, for messages
 };
 
@@ -31,14 +31,15 @@ struct SuiteDraft {
     Suite suite;
     ParameterLists parameters;
     std::vector<std::pair<std::string, ParameterLists>> methodParameters;
-    std::map<std::string, ParameterTexts> finerSettings;  ///< by method: what it is judged against
+    std::map<std::string, ParameterTexts> finerSettings;  ///< by method: the settings of its reference
     std::vector<Exception> exceptions;
 
-    /// Reads a table over what is there: a whole file, or its `[quick]`. Throws InputError with file and line.
+    /// Reads a table on top of the present values: a whole file, or its `[quick]`. Throws InputError with file and
+    /// line.
     void read(files::TomlReader& table);
 };
 
-/// Puts the values of a parameter into its place, or at the end.
+/// Replaces the values of a parameter, or appends it.
 void setList(ParameterLists& lists, const std::string& name, std::vector<std::string> values);
 
 }  // namespace dustbench::bench

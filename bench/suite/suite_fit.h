@@ -1,6 +1,6 @@
-// The growth of costs with a load that a suite's `[[fit]]` tables ask for, from its stored runs.
+// Fits the growth of costs with a load, for a suite's `[[fit]]` tables, from its stored runs.
 //
-// All cells that are equal but for the load make one curve, ms = a + b·N^k; each run is a point of it.
+// All cells that differ only in the load form one curve, ms = a + b·N^k; each run is a point of it.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct LoadedCells {
     std::vector<const PlannedRun*> cells;
 };
 
-/// Points into the suite. Throws InputError where no cell has the parameter as a number.
+/// Points into the suite. Throws InputError if no cell has a numeric value of the parameter.
 [[nodiscard]] std::vector<LoadedCells> cellsByLoad(const Suite& suite, const PlannedFit& fit);
 
 struct FittedCurve {
@@ -33,7 +33,7 @@ struct FitResult {
 
 [[nodiscard]] std::vector<FitResult> fitSuite(const Suite& suite, const StoredRuns& runs);
 
-/// A row for each curve: a, b and k with their intervals, loads and runs, or the reason why there is none.
+/// A row for each curve: a, b and k with their intervals, loads and runs, or the reason if there is no fit.
 [[nodiscard]] TextRows tabulate(const FitResult& result);
 
 }  // namespace dustbench::bench

@@ -36,7 +36,7 @@ Row timesOf(const std::vector<const StoredRun*>& done) {
     return row;
 }
 
-/// Of the first repetition, the one that is judged. Where none of three digits is left, the number is in powers of ten.
+/// Metrics of the first repetition, which is the judged one. Small numbers use three significant digits.
 Row metricsOf(const std::vector<const StoredRun*>& done) {
     Row row;
     for (const MetricInfo& metric : metricInfos()) {
@@ -52,7 +52,7 @@ Row joined(Row row, Row more) {
     return row;
 }
 
-/// The cells by the world that they show, in the order in which the suite first names it.
+/// The cells by world, in order of first appearance in the suite.
 std::vector<std::pair<std::string, std::vector<const PlannedRun*>>> groupByWorld(
     const std::vector<const PlannedRun*>& cells, const std::vector<Axis>& world) {
     std::vector<std::pair<std::string, std::vector<const PlannedRun*>>> groups;
@@ -65,7 +65,7 @@ std::vector<std::pair<std::string, std::vector<const PlannedRun*>>> groupByWorld
     return groups;
 }
 
-/// `numbersOf` gives the cells under `numberHeader` for a cell's runs.
+/// `numbersOf` returns the cells under `numberHeader` for a cell's runs.
 template <typename NumbersOf>
 TextRows tabulateRuns(const Suite& suite, const StoredRuns& runs, const Row& numberHeader, const NumbersOf& numbersOf) {
     TextRows table;

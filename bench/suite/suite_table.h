@@ -1,6 +1,6 @@
-// A suite's results for people: FPS and the stages of a frame, medians over the repetitions of each cell.
+// A suite's results as console tables: FPS and the stages of a frame, medians over the repetitions of each cell.
 //
-// Cells that show their methods the same world stand together, so that the methods can be read against each other.
+// Cells with the same world are adjacent, so that their methods can be compared.
 // Units: ms, and frames per second.
 #pragma once
 
@@ -17,16 +17,16 @@ struct TextRows {
     std::vector<std::vector<std::string>> rows;  ///< each as long as the header
 };
 
-/// FPS (median, minimum and maximum run), frame time and stages. Where the suite has one method in one setting, a row
-/// says in columns of its own what varies; otherwise a row `particles=500 speed=20`, empty but for that, heads the
-/// rows of the methods, and these say which settings vary: `octree_search layout=morton`. Rows whose runs are not
-/// all done tell so: `billboard (4 of 6 runs)`.
+/// FPS (median, minimum and maximum run), frame time and stages. If the suite has one method in one setting, columns of
+/// each row show what varies. Otherwise a row with only the world's label, `particles=500 speed=20`, heads the rows of
+/// the methods, which are labelled with their varying settings: `octree_search layout=morton`. Rows with incomplete
+/// runs are marked: `billboard (4 of 6 runs)`.
 [[nodiscard]] TextRows tabulate(const Suite& suite, const StoredRuns& runs);
 
-/// The same rows with the metrics of those that were judged (reports/METRICS.md); no rows where none were.
+/// The same rows with the metrics of judged runs (reports/METRICS.md); no rows if none were judged.
 [[nodiscard]] TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs);
 
-/// Four digits, three of them behind the point at most: `0.047`, `12.35`, `123.5`; empty for NaN.
+/// Four significant digits, at most three after the point: `0.047`, `12.35`, `123.5`; empty for NaN.
 [[nodiscard]] std::string fourDigits(double value);
 
 }  // namespace dustbench::bench

@@ -72,7 +72,7 @@ TEST(SuiteTable, MethodsStandTogetherBelowTheWorldTheyAreShown) {
     store(runs, suite.cells[0], 2, "10");
     const TextRows table = tabulate(suite, runs);
 
-    // A setting that differs between the methods but not within one is not shown.
+    // A setting that differs between methods but not within one is not shown.
     Row names;
     for (const Row& row : table.rows) {
         EXPECT_EQ(row.size(), table.header.size());

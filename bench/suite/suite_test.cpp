@@ -161,7 +161,7 @@ TEST(Suite, BatchOrderKeepsTheRepetitionsOfACellTogether) {
 TEST(Suite, EveryMethodOfTheBuildTakesPartWhereAllAre) {
     const Suite suite = parseSuite("methods = \"all\"", "all", false);
     EXPECT_EQ(suite.cells.size(), methods().size());
-    // In summary.csv many readers would take such a name for a missing value.
+    // Many CSV readers would treat such a name as a missing value.
     for (const MethodInfo& method : methods())
         EXPECT_THAT(method.id, testing::Not(testing::AnyOf("null", "none", "nan", "na", "n_a"))) << method.id;
 }

@@ -31,7 +31,7 @@ std::string ratioText(double ratio) {
     return std::isfinite(ratio) && ratio < 0.1 ? fmt::format("{:.3g}", ratio) : fourDigits(ratio);
 }
 
-/// The pair's ln(of / with), or nothing where a run is missing or has no time above 0.
+/// The pair's ln(of / with); empty if a run is missing or has no time above 0.
 std::optional<double> logRatio(const CellPair& pair, int repetition, const std::string& column,
                                const StoredRuns& runs) {
     const StoredRun* of = doneRun(*pair.of, repetition, runs);
@@ -43,7 +43,7 @@ std::optional<double> logRatio(const CellPair& pair, int repetition, const std::
     return isRate(column) ? -difference : difference;
 }
 
-/// Where both runs are done on different machines: in what they differ. Else empty.
+/// If both runs are done but on different machines, the difference; else empty.
 std::string otherMachine(const CellPair& pair, int repetition, const StoredRuns& runs) {
     const StoredRun* of = doneRun(*pair.of, repetition, runs);
     const StoredRun* with = doneRun(*pair.with, repetition, runs);
@@ -147,7 +147,7 @@ MatchedCells matchCells(const Suite& suite, const PlannedComparison& comparison)
         throw InputError(fmt::format("{}compare: got '{}' and '{}', which have no two different runs in the same world",
                                      comparison.where, comparison.of.label, comparison.with.label));
 
-    // What a side does not vary is the same in all its cells, so an axis is told from the side that varies it.
+    // A parameter that a side does not vary is constant in its cells, so an axis is taken from the side that varies it.
     const auto addAxes = [&](const std::vector<Axis>& axes, const PlannedRun* CellPair::*side) {
         for (const Axis& axis : axes) {
             const auto valueOf = [&](const CellPair& pair) { return axis.of((pair.*side)->spec); };

@@ -1,10 +1,9 @@
-// The verdicts that a suite's `[[compare]]` tables ask for, from its stored runs.
+// Computes the verdicts of a suite's `[[compare]]` tables from its stored runs.
 //
-// Cells are paired that show their methods the same world: scene, drive, size and the world's parameters are equal, and
-// so are the methods' own parameters where the suite varies them on both sides. Parameters that a side names
-// (`octree_search layout=morton`) are left out of this. Repetition k of the one is paired with repetition k of the
-// other; both ran in the same round, which is why a suite in batches resolves nothing. Two runs of different machines
-// (merged folders can have such) are no pair.
+// Two cells are paired if scene, drive, size and the world's parameters are equal, and so are the methods' own
+// parameters that the suite varies on both sides. Parameters named by a side (`octree_search layout=morton`) are
+// exempt. Repetition k of one is paired with repetition k of the other; both ran in the same round, so a suite in
+// batches resolves nothing. Runs from different machines, possible in merged folders, are not paired.
 #pragma once
 
 #include <string>
@@ -28,17 +27,17 @@ struct MatchedCells {
     std::vector<CellPair> pairs;
 };
 
-/// Points into the suite. Throws InputError where no two cells can be compared.
+/// Points into the suite. Throws InputError if no two cells can be compared.
 [[nodiscard]] MatchedCells matchCells(const Suite& suite, const PlannedComparison& comparison);
 
 struct CellVerdict {
     std::vector<std::string> at;  ///< a value for each axis; all empty for all cells together
     PairedRatio result;
-    std::string reason;  ///< why too little is there for a verdict, or what was left out; else empty
+    std::string reason;  ///< why there is not enough data for a verdict, or what was left out; else empty
 };
 
-/// One column of summary.csv. All together: each round gives one ratio, the geometric mean over the pairs of cells, and
-/// a round counts where all pairs of cells that were measured at all have their times.
+/// One column of summary.csv. For all cells together, each round gives one ratio, the geometric mean over the pairs of
+/// cells; a round counts if all pairs of cells that were measured at all have times in it.
 struct ColumnVerdict {
     std::string column;
     std::vector<CellVerdict> cells;
@@ -56,7 +55,7 @@ struct ComparisonResult {
 /// A row for each column and pair of cells: ratio, interval, pairs and verdict; then `build_ms_median, all`.
 [[nodiscard]] TextRows tabulate(const ComparisonResult& comparison);
 
-/// A line for each column, on all together: `build_ms_median: A takes 0.84 [0.81, 0.87] of the time of B: FASTER`.
+/// One line per column for all cells: `build_ms_median: A takes 0.84 [0.81, 0.87] of the time of B: FASTER`.
 [[nodiscard]] std::vector<std::string> conclusions(const ComparisonResult& comparison);
 
 }  // namespace dustbench::bench

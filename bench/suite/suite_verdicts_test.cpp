@@ -29,7 +29,7 @@ with = "billboard sort=radix"
 columns = ["sort_ms_median", "fps_avg"]
 )";
 
-/// Runs of every cell: `timeOf` gives its sort time in ms by cell and repetition, nothing for a run that is missing.
+/// Runs of every cell: `timeOf` gives the sort time in ms by cell and repetition, empty for a missing run.
 template <typename TimeOf>
 StoredRuns runsOf(const Suite& suite, const TimeOf& timeOf) {
     StoredRuns runs;
@@ -46,7 +46,7 @@ StoredRuns runsOf(const Suite& suite, const TimeOf& timeOf) {
     return runs;
 }
 
-/// Quicksort takes `ratio` times as long as radix, by 1 % more or less in turn, on a machine that gets slower.
+/// Quicksort takes `ratio` times as long as radix, alternating ±1 %, on a machine that gets slower.
 auto ratioIs(double ratio) {
     return [ratio](const ParameterTexts& parameters, int repetition) {
         const double scatter = repetition % 2 ? 1.01 : 0.99;

@@ -30,7 +30,7 @@ std::optional<double> number(std::string_view text) {
     return value;
 }
 
-/// 0.1 + 2·0.1 as 0.3: the twelve digits that a person would have written.
+/// 0.1 + 2·0.1 as 0.3: rounds to twelve digits.
 std::string roundedText(double value) {
     char buffer[64];
     const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 12);

@@ -1,4 +1,4 @@
-// The short forms of several values: lists `a,b,c` and ranges `a:b:step`.
+// Short notations for several values: lists `a,b,c` and ranges `a:b:step`.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace dustbench::bench {
 
-/// `5:40:5` counts from 5 in steps of 5 and includes 40; a negative step counts down. `a,b,c` are values (or ranges)
-/// one after the other; anything else is one value. `what` names it in messages. Throws InputError.
+/// `5:40:5` counts from 5 in steps of 5 and includes 40; a negative step counts down. `a,b,c` is a list of values or
+/// ranges; anything else is one value. `what` names it in messages. Throws InputError.
 [[nodiscard]] std::vector<std::string> expandValues(std::string_view what, std::string_view text);
 
 }  // namespace dustbench::bench

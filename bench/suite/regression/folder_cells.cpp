@@ -22,7 +22,7 @@ std::optional<double> asNumber(const std::string& text) {
     return number;
 }
 
-/// Numbers come before texts, or the two would have no order.
+/// Numbers sort before texts, to make the order total.
 bool valueLess(const std::string& a, const std::string& b) {
     const auto x = asNumber(a), y = asNumber(b);
     if (x && y && *x != *y) return *x < *y;

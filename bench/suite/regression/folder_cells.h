@@ -1,4 +1,4 @@
-// The runs of two results folders, sorted into cells: runs that are equal in everything but the repetition.
+// Groups the runs of two results folders into cells: runs that are equal in everything except the repetition.
 #pragma once
 
 #include <string>
@@ -10,36 +10,37 @@
 namespace dustbench::bench {
 
 struct ResultsSide {
-    std::string name;  ///< for people: the folder as it was given
+    std::string name;  ///< for messages: the folder as given
     StoredRuns runs;
 };
 
-/// One cell's runs of one folder. Points into it.
+/// One cell's runs in one folder. Points into it.
 struct CellRuns {
     std::vector<const StoredRun*> done;
-    std::vector<const StoredRun*> failed;   ///< and those that ran out of time
-    std::vector<const StoredRun*> skipped;  ///< the method cannot take the scene
+    std::vector<const StoredRun*> failed;   ///< including timeouts
+    std::vector<const StoredRun*> skipped;  ///< the method does not support the scene
     [[nodiscard]] std::size_t count() const { return done.size() + failed.size() + skipped.size(); }
 };
 
-/// What tells a cell from others, in the order of the run's key: `method`, `scene`, `drive`, `p.particles`, `frames` …
+/// The fields that distinguish a cell, in the order of the run's key: `method`, `scene`, `drive`, `p.particles`,
+/// `frames` …
 using CellIdentity = std::vector<std::pair<std::string, std::string>>;
 
 struct FolderCell {
     CellIdentity identity;
     CellRuns a, b;
-    /// Empty where the cell has no such thing.
+    /// Empty if the cell has no such field.
     [[nodiscard]] std::string valueOf(const std::string& name) const;
 };
 
-/// Which frames get metrics is not part of a cell: that happens after the timed frames, in the first repetition alone.
-/// Throws InputError where a run does not say what it was.
+/// The frames that get metrics are not part of a cell: metrics are computed after the timed frames, in the first
+/// repetition only. Throws InputError if a run does not contain its key.
 [[nodiscard]] CellIdentity identityOf(const StoredRun& run);
 
-/// By identity, numbers in their order.
+/// Sorted by identity, numbers numerically.
 [[nodiscard]] std::vector<FolderCell> cellsOf(const ResultsSide& a, const ResultsSide& b);
 
-/// What must be named beside the method to tell the cells apart: what takes several values among those of one method.
+/// The fields needed besides the method to distinguish cells: those with several values within one method.
 [[nodiscard]] std::vector<std::string> tellingNames(const std::vector<FolderCell>& cells);
 
 /// `billboard particles=500 sort=none`

@@ -1,8 +1,8 @@
-// Two results folders against each other: each cell's times in B over those in A, and whether they can be compared.
+// Compares two results folders: the ratio of each cell's times in B and A, and whether the folders are comparable.
 //
-// The two were not measured by turns, so no repetition has a partner (unpaired_ratio.h). All cells together: each
-// repetition of a folder gives one time, the geometric mean over the cells, so that what a round has in common counts
-// as what it is; a repetition counts where all cells have a time.
+// The folders were not measured interleaved, so repetitions are not paired (unpaired_ratio.h). For all cells together,
+// each repetition of a folder gives one time, the geometric mean over the cells, so that variation common to a round is
+// counted once; a repetition counts only if all cells have a time.
 #pragma once
 
 #include <string>
@@ -14,33 +14,33 @@
 namespace dustbench::bench {
 
 struct JudgedCell {
-    const FolderCell* cell = nullptr;  ///< null: all together
+    const FolderCell* cell = nullptr;  ///< null: all cells together
     std::string column;                ///< of summary.csv
-    double aMs = 0, bMs = 0;           ///< geometric means; NaN for none. Rates count as time per frame
+    double aMs = 0, bMs = 0;           ///< geometric means; NaN if none. Rates count as time per frame
     UnpairedRatio result;              ///< of B over A
-    std::string reason;                ///< why too little is there for a verdict; empty where it is not so
+    std::string reason;                ///< why there is not enough data for a verdict; empty if there is
 };
 
-/// Points into itself and into the sides: move it, and keep them.
+/// Points into itself and into the sides: move it, and keep the sides alive.
 struct FolderComparison {
     FolderComparison() = default;
     FolderComparison(FolderComparison&&) = default;
 
     std::vector<FolderCell> cells;
-    std::vector<std::string> axes;       ///< what tells the cells apart beside their method
-    std::vector<std::string> obstacles;  ///< why the folders cannot be compared, one sentence each; empty: they can
-    std::vector<std::string> remarks;    ///< what else should be known: what is missing, failed, differs or disturbed
-    std::vector<JudgedCell> judged;      ///< column by column: the cells that are in both, then all together
-    /// Cells that are done in A without a failure, and fail or run out of time in B.
+    std::vector<std::string> axes;       ///< the fields that distinguish cells besides the method
+    std::vector<std::string> obstacles;  ///< why the folders cannot be compared, one sentence each; empty if they can
+    std::vector<std::string> remarks;    ///< further notes: missing or failed runs, differences, disturbances
+    std::vector<JudgedCell> judged;      ///< column by column: the cells in both folders, then all together
+    /// Cells that are done in A without a failure, and fail or time out in B.
     std::vector<const FolderCell*> broken;
 };
 
-/// `acrossMachines`: runs of different machines or builds are compared all the same. Throws InputError where a run
-/// does not say what it was.
+/// `acrossMachines`: also compares runs of different machines or builds. Throws InputError if a run does not contain
+/// its key.
 [[nodiscard]] FolderComparison compareFolders(const ResultsSide& a, const ResultsSide& b,
                                               const std::vector<std::string>& columns, bool acrossMachines);
 
-/// True where enough runs are there and the whole interval lies above 1 + percent/100.
+/// True if there are enough runs and the whole interval lies above 1 + percent/100.
 [[nodiscard]] bool isSlowerBy(const JudgedCell& judged, double percent);
 
 }  // namespace dustbench::bench

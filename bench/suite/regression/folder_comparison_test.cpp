@@ -40,7 +40,7 @@ StoredRun runOf(const std::string& method, int particles, int repetition, double
     return run;
 }
 
-/// Two methods with two numbers of particles; `factor` times as slow as usual, by 1 % more or less.
+/// Two methods with two numbers of particles; times are `factor` times the usual, ±1 %.
 StoredRuns session(double factor, int repetitions = 6) {
     StoredRuns runs;
     for (const char* method : {"haze", "fog"})
@@ -70,7 +70,7 @@ TEST(FolderComparison, FindsTheRatioOfEveryCellAndOfAllTogether) {
     EXPECT_THAT(result.remarks, IsEmpty());
     EXPECT_THAT(result.axes, ElementsAre("p.particles"));
     ASSERT_EQ(result.judged.size(), 10u);
-    // ±1 % in turn: s² = 6·h²/5 of the logarithms, with h half their distance.
+    // ±1 % alternating: s² = 6·h²/5 of the logarithms, with h half their distance.
     const double h = std::log(1.01 / 0.99) / 2;
     const double half = studentQuantile(0.975, 10) * std::sqrt(2 * h * h / 5);
     for (const JudgedCell& judged : result.judged) {
@@ -87,7 +87,7 @@ TEST(FolderComparison, FindsTheRatioOfEveryCellAndOfAllTogether) {
 }
 
 TEST(FolderComparison, AllTogetherCountsWhatARoundHasInCommonOnce) {
-    // Every round of A is slower or faster as a whole: four cells say no more about it than one does.
+    // Each round of A is slower or faster as a whole: four cells give no more information about it than one.
     StoredRuns a = session(1), b = session(1);
     for (StoredRuns* runs : {&a, &b})
         for (auto& [id, run] : *runs) {
@@ -118,7 +118,7 @@ TEST(FolderComparison, OtherMachinesAreAnObstacleUnlessAllowed) {
     EXPECT_THAT(allowed.obstacles, IsEmpty());
     EXPECT_THAT(allowed.remarks, Contains(HasSubstr("'Cpu 2' in B")));
     EXPECT_EQ(allowed.judged.size(), 5u);
-    // One run of another machine, and in the same folder.
+    // One run from another machine in the same folder.
     const auto mixed = with(session(1), "haze-200-r4", [](StoredRun& run) { run.provenance["build_type"] = "Debug"; });
     EXPECT_THAT(compare(mixed, session(1)).obstacles,
                 ElementsAre("build_type: 'Release' in A and 'Debug' in A (1 cell)"));
@@ -147,7 +147,7 @@ TEST(FolderComparison, NothingIsSilent) {
         StoredRun& run = b.at(fmt::format("haze-200-r{}", k));
         run.status = k == 5 ? RunStatus::failed : RunStatus::timeout;
         run.reason = "too long";
-        run.provenance.erase("cpu");  // a run that failed may not know
+        run.provenance.erase("cpu");  // a failed run may not have it
     }
     b.at("haze-1000-r1").warnings = {"busy"};
     for (auto& [id, run] : b)

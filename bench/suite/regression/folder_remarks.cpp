@@ -19,7 +19,7 @@ std::string quantity(std::size_t count, std::string_view what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-/// The cell's done runs with the letter of their folder, A's first.
+/// The cell's done runs with the letter of their folder, A first.
 std::vector<std::pair<const StoredRun*, char>> doneRuns(const FolderCell& cell) {
     std::vector<std::pair<const StoredRun*, char>> runs;
     runs.reserve(cell.a.done.size() + cell.b.done.size());
@@ -28,7 +28,7 @@ std::vector<std::pair<const StoredRun*, char>> doneRuns(const FolderCell& cell) 
     return runs;
 }
 
-/// `cpu: 'X' in A and 'Y' in B`, each once, with the number of cells in which it is so.
+/// `cpu: 'X' in A and 'Y' in B`, each once, with the number of affected cells.
 std::map<std::string, std::size_t> differencesWithin(const std::vector<FolderCell>& cells,
                                                      std::span<const std::string_view> fields) {
     std::map<std::string, std::size_t> cellCounts;
@@ -53,7 +53,7 @@ std::vector<std::string> withCounts(const std::map<std::string, std::size_t>& ce
     return sentences;
 }
 
-/// The first file that is not the same for both; empty where all are.
+/// The first file that differs between both; empty if all are equal.
 std::string differingInput(const StoredRun& first, const StoredRun& second) {
     std::map<std::string, std::string> hashes;
     for (const InputHash& input : first.inputs) hashes[input.file] = input.sha256;
@@ -99,7 +99,7 @@ std::string FolderRemarks::nothingInCommon() const {
                                                 cells_, [](const auto& cell) { return cell.b.count() > 0; })),
                                             "cell"),
                                    quantity(b_.runs.size(), "run"));
-    // Where nearly everything is equal, what is not is likely the mistake.
+    // If nearly everything is equal, the difference is likely the mistake.
     const auto mine = std::ranges::find_if(cells_, [](const FolderCell& cell) { return !cell.a.done.empty(); });
     std::vector<std::string> nearest;
     for (const FolderCell& theirs : cells_) {

@@ -1,4 +1,4 @@
-// What is to be said of two results folders beside their times: why they cannot be compared, or what should be known.
+// Notes on two results folders besides their times: why they cannot be compared, and other differences.
 #pragma once
 
 #include <string>
@@ -8,19 +8,19 @@
 
 namespace dustbench::bench {
 
-/// All sentences are one line. Keeps references.
+/// Each sentence is one line. Keeps references.
 class FolderRemarks {
  public:
     FolderRemarks(const ResultsSide& a, const ResultsSide& b, const std::vector<FolderCell>& cells,
                   const std::vector<std::string>& tellingNames)
         : a_(a), b_(b), cells_(cells), tellingNames_(tellingNames) {}
 
-    /// No cell in both, or cells whose runs did not do the same work: other inputs, or another state in the end.
+    /// No common cell, or cells whose runs did different work: other inputs, or a different final state.
     [[nodiscard]] std::vector<std::string> obstacles() const;
-    /// Cells whose runs are of different machines or builds.
+    /// Cells whose runs are from different machines or builds.
     [[nodiscard]] std::vector<std::string> machines() const;
-    /// What is in one folder only, did not end well, was measured by a build for debugging or under warnings, and what
-    /// else differs between the two programs.
+    /// Runs in only one folder, failed runs, runs from debug builds or with warnings, and other differences between the
+    /// two programs.
     [[nodiscard]] std::vector<std::string> rest() const;
 
  private:

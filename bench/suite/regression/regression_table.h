@@ -1,4 +1,5 @@
-// A comparison of two results folders as a table for people and as comparison.csv. `reports/SCHEMA.md` has the columns.
+// Formats a comparison of two results folders as a console table and as comparison.csv. `reports/SCHEMA.md` defines the
+// columns.
 #pragma once
 
 #include <optional>
@@ -11,12 +12,12 @@ namespace dustbench::bench {
 
 [[nodiscard]] TextRows tabulate(const FolderComparison& comparison);
 
-/// The columns of comparison.csv before and after those that tell the cells.
+/// The columns of comparison.csv before and after those that identify the cells.
 [[nodiscard]] std::vector<std::string> comparisonColumnsBefore();
 [[nodiscard]] std::vector<std::string> comparisonColumnsAfter();
 
-/// All that was compared, then the cells that are done in one folder alone. `percent`: what counts as a regression;
-/// none: nothing was asked for.
+/// All comparisons, then the cells that are done in only one folder. `percent`: the regression threshold; empty: none
+/// given.
 [[nodiscard]] std::string comparisonCsv(const FolderComparison& comparison, std::optional<double> percent);
 
 }  // namespace dustbench::bench
