@@ -1,4 +1,5 @@
-// The claims of a paper held against a results folder's summary.csv and experiments.csv, as claims.csv and for people.
+// Judges the claims of a paper against a results folder's summary.csv and experiments.csv, for claims.csv and the
+// console.
 #pragma once
 
 #include <set>
@@ -16,18 +17,18 @@ struct JudgedClaim {
     ClaimResult result;
 };
 
-/// The runs that the suite can have in the table, in its whole and its quick form, however often repeated.
+/// Run ids of the suite, in its whole and its quick form, for every repetition number in the table.
 [[nodiscard]] std::set<std::string> runIdsOf(const std::string& suite, const files::CsvTable& summary);
 
-/// Of each claim the runs of its suite count, in its whole and its quick form, or what its experiment found. Throws
-/// InputError for a claims.toml or a suite that cannot be read.
+/// Each claim is judged by the runs of its suite, in its whole and its quick form, or by its experiment's finding.
+/// Throws InputError for a claims.toml or a suite that cannot be read.
 [[nodiscard]] std::vector<JudgedClaim> judgeClaims(const std::string& paper, const files::CsvTable& summary,
                                                    const std::vector<StoredFinding>& findings = {});
 
 /// `id,paper,claim,verdict,measured,expected,interval,runs`, as reports/SCHEMA.md defines them.
 [[nodiscard]] std::string claimsCsv(const std::vector<JudgedClaim>& claims);
 
-/// A row each: id, verdict, what was measured with its interval, what is expected, the claim and the note.
+/// A row each: id, verdict, measured value with its interval, expected range, the claim and the note.
 [[nodiscard]] TextRows tabulate(const std::vector<JudgedClaim>& claims);
 
 }  // namespace dustbench::bench

@@ -18,14 +18,14 @@
 namespace dustbench::bench {
 namespace {
 
-/// One value of the quantity: of one cell, or pair of cells, in one repetition.
+/// One value of the quantity: for one cell, or pair of cells, in one repetition.
 struct Sample {
     std::string cell;
     int repetition = 1;
     double value = 0;
 };
 
-/// What is measured, before anything is made of it.
+/// The measured values, before evaluation.
 struct Samples {
     std::vector<Sample> list;
     std::vector<std::size_t> rows;
@@ -52,7 +52,7 @@ void noteMissing(Samples& samples, const Claim& claim, const Selection& selectio
             fmt::format("no {} of {} in a run of {} that is done", claim.column, textOf(selection), claim.suite);
 }
 
-/// The selected rows that have the column.
+/// The selected rows that have a value in the column.
 std::vector<std::size_t> rowsWith(const Claim& claim, const Selection& selection, const ResultRows& rows,
                                   Samples& samples) {
     std::vector<std::size_t> chosen = rows.select(selection);
@@ -100,7 +100,7 @@ Samples values(const Claim& claim, const ResultRows& rows) {
     return samples;
 }
 
-/// The points of each curve: rows that are equal but for the load.
+/// The points of each curve: rows that differ only in the load.
 std::map<std::string, std::vector<std::size_t>> curves(const Claim& claim, const ResultRows& rows, Samples& samples) {
     std::map<std::string, std::vector<std::size_t>> groups;
     for (const std::size_t row : rowsWith(claim, claim.of, rows, samples))
@@ -140,7 +140,7 @@ ClaimVerdict verdictOf(const Claim& claim, const ClaimResult& result) {
     return below || above ? ClaimVerdict::refuted : ClaimVerdict::unresolved;
 }
 
-/// Which cells they are, where it can be said in a line; `keys`: of all cells.
+/// Names the cells if they are few enough for one line; `keys` are those of all cells.
 std::string listed(const std::vector<std::string>& cells, const std::vector<std::string>& keys, const char* intro,
                    const ResultRows& rows) {
     constexpr std::size_t maximumListed = 3;
@@ -151,7 +151,7 @@ std::string listed(const std::vector<std::string>& cells, const std::vector<std:
     return fmt::format(": {} {}", intro, fmt::join(texts, "; "));
 }
 
-/// The range over the cells, and their mean.
+/// Uses the range over the cells, and their mean.
 void judgeExact(const Claim& claim, const Samples& samples, bool logarithmic, const ResultRows& rows,
                 ClaimResult& result) {
     std::map<std::string, double> byCell;  // the same in every repetition
@@ -179,7 +179,7 @@ void judgeExact(const Claim& claim, const Samples& samples, bool logarithmic, co
     }
 }
 
-/// Student's interval over the repetitions; a repetition counts where all cells have their value.
+/// Uses Student's interval over the repetitions; a repetition counts if all cells have a value.
 void judgeRepeated(const Claim& claim, const Samples& samples, bool logarithmic, ClaimResult& result) {
     std::map<int, std::map<std::string, double>> byRepetition;
     std::size_t cells = 0;

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int repetitions = 6;
 
-/// ms of a method in a world: `value(method, particles, repetition)`, or nothing where that run failed.
+/// ms of a method in a world: `value(method, particles, repetition)`; empty for a failed run.
 using Value = std::function<double(const std::string&, int, int)>;
 
 /// Two methods, three loads, six repetitions; `haze` has a parameter of its own.
@@ -40,7 +40,7 @@ files::CsvTable table(const Value& value) {
     return files::CsvTable::parseText(text, "summary.csv");
 }
 
-/// Scatter by about one percent, the same for every caller.
+/// Scatter of about one percent; deterministic.
 double scatter(int particles, int repetition, std::uint32_t stream) {
     const auto words = maths::randomWords(
         9, stream, static_cast<std::uint64_t>(particles) * 100 + static_cast<std::uint64_t>(repetition));
@@ -56,7 +56,7 @@ ClaimResult judged(const std::string& rule, const Value& value) {
     return judgeClaim(claimOf(rule), ResultRows(rows, nullptr));
 }
 
-/// Haze takes `ratio` of the time of mist in every world.
+/// Haze takes `ratio` times as long as mist in every world.
 Value ratioOf(double ratio) {
     return [ratio](const std::string& method, int particles, int repetition) {
         const bool haze = method == "haze";
@@ -74,7 +74,7 @@ TEST(ClaimRules, ARatioTurnsRoundWithTheTimes) {
     EXPECT_LT(holds.low, holds.measured);
     EXPECT_GT(holds.high, holds.measured);
     EXPECT_EQ(holds.runs.size(), 48u);
-    // The same table with the names of the methods exchanged.
+    // The same table with the method names swapped.
     const Value value = ratioOf(0.9);
     const ClaimResult reversed = judged(faster, [&](const std::string& method, int particles, int repetition) {
         return value(method == "haze" ? "mist" : "haze", particles, repetition);
@@ -84,7 +84,7 @@ TEST(ClaimRules, ARatioTurnsRoundWithTheTimes) {
 }
 
 TEST(ClaimRules, ARatioPairsTheSameWorldAndRepetitionAlone) {
-    // Rounds drift by a factor of three; only pairs of one round show the one percent.
+    // Rounds drift by a factor of three; only pairs within a round reveal the small difference.
     const auto drifting = [](const std::string& method, int particles, int repetition) {
         return (method == "haze" ? 0.97 : 1) * particles * (1 + repetition % 3);
     };
@@ -233,7 +233,7 @@ TEST(Claims, ThoseOfEveryPaperCanBeReadAndTheirSuitesAreThePapers) {
 }
 
 TEST(Claims, ReadTheRunsOfTheirSuiteAndNoOthers) {
-    // Both octrees of the comparison's quick form, by their true names, the recursive one taking half the time.
+    // Both octrees of the comparison's quick form, by their real names; the recursive one takes half the time.
     const Suite suite = loadSuite("carr2006-compare", true);
     std::string text = "run_id,status,method,repetition,p.particles,p.layout,build_ms_median\n";
     for (const bool isSuites : {true, false})

@@ -1,6 +1,6 @@
-// What the experiments of methods (methods/contract/experiment.h) found, as experiments.csv keeps it.
+// Findings of the methods' experiments (methods/contract/experiment.h), as stored in experiments.csv.
 //
-// reports/SCHEMA.md has its columns.
+// reports/SCHEMA.md defines its columns.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ struct StoredFinding : Finding {
 
 [[nodiscard]] std::vector<std::string> experimentNames();
 
-/// Throws InputError for a name that is unknown, and where an experiment needs OpenGL and there is none.
+/// Throws InputError for an unknown name, or if an experiment needs OpenGL and it is not available.
 [[nodiscard]] std::vector<StoredFinding> runExperiment(std::string_view name, std::uint64_t seed = 1);
 
 [[nodiscard]] std::string findingsCsv(const std::vector<StoredFinding>& findings);
-/// Of a results folder; none where it has no experiments.csv. Throws InputError where it cannot be read.
+/// Findings of a results folder; none if it has no experiments.csv. Throws InputError if it cannot be read.
 [[nodiscard]] std::vector<StoredFinding> readFindings(const std::filesystem::path& folder);
 
 }  // namespace dustbench::bench

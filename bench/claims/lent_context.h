@@ -1,7 +1,7 @@
-// What the harness lends an experiment: its seed, worlds as runs have them, and an OpenGL device made when first
-// wanted.
+// The context that the harness lends to an experiment: its seed, worlds as in runs, and an OpenGL device created on
+// first use.
 //
-// Owns: the device. The worlds it gives out are their own.
+// Owns: the device. Worlds are owned by the caller.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
-// The numbers that a paper prints, beside ours: `data/papers/<id>/numbers.csv`.
+// Compares the numbers printed in a paper with ours: `data/papers/<id>/numbers.csv`.
 //
-// Its columns: `what` in words; `suite`, whose runs count (empty: all), and `of` them; `columns` of summary.csv whose
-// sum is ours, with blanks between; `published`, as printed; `formula`, what the paper's formula gives when worked out,
-// or empty.
+// Its columns: `what` in words; `suite`, whose runs count (empty: all), and `of`, the selection among them; `columns`
+// of summary.csv whose sum is our number, separated by blanks; `published`, as printed; `formula`, the value of the
+// paper's formula, or empty.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@
 
 namespace dustbench::bench {
 
-/// A row for each of the paper's numbers: what, published, formula, measured (the median over the runs; empty where
-/// there is none) and measured/formula. No rows where the paper has no such file. Throws InputError with file and line.
+/// A row for each of the paper's numbers: what, published, formula, measured (the median over the runs; empty if there
+/// are none) and measured/formula. No rows if the paper has no such file. Throws InputError with file and line.
 [[nodiscard]] TextRows tabulatePrinted(const std::string& paper, const files::CsvTable& summary);
-/// The same of a table that was read already.
+/// The same for a table that was already read.
 [[nodiscard]] TextRows tabulatePrinted(const files::CsvTable& published, const files::CsvTable& summary);
 
 }  // namespace dustbench::bench
