@@ -1,4 +1,4 @@
-// The file that takes what a process prints: whole where it is short, its beginning and its end where it is not.
+// A log file of bounded size for a process's output: complete if short, otherwise only its beginning and end.
 //
 // Threads: one at a time.
 #pragma once
@@ -16,14 +16,14 @@ class BoundedLog {
     static constexpr std::size_t headBytes = 1 << 20;
     static constexpr std::size_t tailBytes = 64 << 10;
 
-    /// Throws InputError where the file cannot be made.
+    /// Throws InputError if the file cannot be created.
     explicit BoundedLog(const std::filesystem::path& file);
 
     void write(std::string_view text);
-    /// Writes what is left: a line that says how much is missing, where something is, and the end.
+    /// Writes the rest: a line stating how much is missing, if anything, and the end of the output.
     void finish();
 
-    /// The last line so far that is not blank, cut after 500 bytes.
+    /// The last non-blank line so far, cut after 500 bytes.
     [[nodiscard]] std::string lastLine() const;
 
  private:

@@ -26,7 +26,7 @@ std::runtime_error systemError(const std::string& what) {
     return std::runtime_error(what + ": " + std::strerror(errno));
 }
 
-/// A file descriptor that is closed once.
+/// Owns a file descriptor.
 class Descriptor {
  public:
     explicit Descriptor(int value) : value_(value) {}
@@ -43,9 +43,9 @@ class Descriptor {
     int value_;
 };
 
-/// After fork: only what is safe between fork and exec.
+/// Runs after fork: only async-signal-safe calls until exec.
 [[noreturn]] void becomeCommand(char* const* argv, int output, int errors, pid_t parent) {
-    setpgid(0, 0);  // Ctrl-C reaches the parent alone, which then decides
+    setpgid(0, 0);  // Ctrl-C reaches only the parent, which then decides
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(127);
     signal(SIGINT, SIG_DFL);
@@ -59,14 +59,14 @@ class Descriptor {
     _exit(127);
 }
 
-/// The reading end of a child's stream, and what is done with what comes out of it.
+/// The reading end of a child's stream and the handler of its data.
 class Stream {
  public:
     Stream(int readingEnd, std::function<void(std::string_view)> take)
         : descriptor_(readingEnd), take_(std::move(take)) {}
 
     [[nodiscard]] pollfd watched() const { return {open_ ? descriptor_.get() : -1, POLLIN, 0}; }
-    /// Once something is there, or its end.
+    /// Call when data or the end of the stream is available.
     void read() {
         std::array<char, 65536> buffer;
         const ssize_t got = ::read(descriptor_.get(), buffer.data(), buffer.size());
@@ -83,7 +83,7 @@ class Stream {
     bool open_ = true;
 };
 
-/// Makes whole lines of what comes in pieces. A line without an end is dropped once it is too long to be one.
+/// Assembles lines from chunks. A line without an end is dropped once it is too long.
 class LineSplitter {
  public:
     explicit LineSplitter(std::function<void(std::string_view)> onLine) : onLine_(std::move(onLine)) {}
@@ -147,7 +147,7 @@ ChildOutcome runChild(const ChildCommand& command) {
     const pid_t child = fork();
     if (child < 0) throw systemError("fork");
     if (child == 0) becomeCommand(argv.data(), outputStart, errorsStart, parent);
-    setpgid(child, child);  // here as well: whichever of the two comes first
+    setpgid(child, child);  // in both processes, whichever runs first
     outputOfChild.reset();
     errorsOfChild.reset();
 
@@ -157,7 +157,7 @@ ChildOutcome runChild(const ChildCommand& command) {
     auto lastSign = start;
     bool killed = false;
     int status = 0;
-    // Its streams may stay open in a process it left behind, or close early: its own end is what counts.
+    // Its streams may stay open in processes that it left behind, or close early: only its own exit counts.
     for (;;) {
         std::array<pollfd, 2> watched{output.watched(), errors.watched()};
         poll(watched.data(), watched.size(), 100);
@@ -181,7 +181,7 @@ ChildOutcome runChild(const ChildCommand& command) {
         }
         if (killed) kill(-child, SIGKILL);
     }
-    kill(-child, SIGKILL);  // what it may have started itself
+    kill(-child, SIGKILL);  // processes that it may have started
     output.readWhatIsThere();
     errors.readWhatIsThere();
     log.finish();

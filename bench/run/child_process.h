@@ -1,4 +1,4 @@
-// Runs a command in a process of its own, with a time limit, and says what became of it.
+// Runs a command in a child process with a time limit and reports how it ended.
 //
 // The child cannot outlive this process: the kernel kills it when its parent dies. Threads: call from the main thread.
 #pragma once
@@ -15,7 +15,7 @@ struct ChildOutcome {
     enum class End { exited, killedBySignal, timedOut, interrupted };
     End end = End::exited;
     int code = 0;           ///< exit status, or the signal's number
-    std::string lastWords;  ///< the last line on its stderr that is not blank
+    std::string lastWords;  ///< the last non-blank line on its stderr
     [[nodiscard]] bool succeeded() const { return end == End::exited && code == 0; }
     /// `killed by SIGSEGV: …`, `exit code 1: …`, `no end after 600 s`.
     [[nodiscard]] std::string reason() const;
@@ -24,15 +24,15 @@ struct ChildOutcome {
 
 struct ChildCommand {
     std::vector<std::string> argv;  ///< argv[0] is the program's path
-    std::filesystem::path log;      ///< takes its stderr, of very much its beginning and its end
+    std::filesystem::path log;      ///< receives its stderr; of long output only the beginning and the end
     double timeoutSeconds = 0;      ///< 0: no limit
-    /// Gets every line of its stdout, and an empty line about once a second where it says nothing.
+    /// Receives every line of its stdout, and an empty line about once a second while there is no output.
     std::function<void(std::string_view)> onLine;
-    /// Asked several times a second; true kills the child.
+    /// Called several times a second; returning true kills the child.
     std::function<bool()> interrupted;
 };
 
-/// Waits for its end. Throws std::runtime_error where no process can be made.
+/// Waits for the child to end. Throws std::runtime_error if it cannot be created.
 [[nodiscard]] ChildOutcome runChild(const ChildCommand& command);
 
 }  // namespace dustbench::bench

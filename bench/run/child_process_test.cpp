@@ -74,7 +74,7 @@ TEST(ChildProcess, EndsAHangWithEverythingItStarted) {
     EXPECT_EQ(outcome.end, End::timedOut);
     EXPECT_EQ(outcome.reason(), "no end after 2 s");
     ASSERT_GT(grandchild, 0);
-    // Dead, or a zombie that nobody has collected yet.
+    // Dead, or a zombie that has not been reaped yet.
     const auto alive = [&] {
         std::ifstream file("/proc/" + std::to_string(grandchild) + "/stat");
         std::string pid, name, state;

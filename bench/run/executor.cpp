@@ -20,7 +20,7 @@ bool isFailure(RunStatus status) {
     return status == RunStatus::failed || status == RunStatus::timeout;
 }
 
-/// Room that must be left for tables and logs to end in order.
+/// Space to keep free for tables and logs.
 constexpr std::uint64_t reserveBytes = 16 << 20;
 
 void requireRoom(const ResultsFolder& results, std::uint64_t bytes) {
@@ -31,7 +31,7 @@ void requireRoom(const ResultsFolder& results, std::uint64_t bytes) {
                                                       bytesText(free), bytesText(bytes)));
 }
 
-/// The parts of the plan that are to be done, and a count of those that are not.
+/// The runs of the plan to do; counts the others in `result`.
 std::vector<const PlannedRun*> chooseRuns(const std::vector<PlannedRun>& plan, const ResultsFolder& results,
                                           const ExecutionOptions& options, ExecutionResult& result) {
     Freshness freshness;
@@ -56,7 +56,7 @@ std::vector<const PlannedRun*> chooseRuns(const std::vector<PlannedRun>& plan, c
     return toDo;
 }
 
-/// False where it was interrupted.
+/// False if interrupted.
 bool coolDown(const ExecutionOptions& options, ExecutionListener& listener) {
     const auto total = static_cast<std::int64_t>(options.cooldownSeconds * 10);
     for (std::int64_t done = 0; done < total; ++done) {
@@ -67,7 +67,7 @@ bool coolDown(const ExecutionOptions& options, ExecutionListener& listener) {
     return true;
 }
 
-/// What is left of a run that did not end well: its reason and its log.
+/// Stores a failed run: its reason and its log.
 void keepFailure(const fs::path& folder, const RunSpec& spec, RunStatus status, const std::string& reason,
                  const ExecutionOptions& options) {
     for (const auto& entry : fs::directory_iterator(folder))
@@ -121,7 +121,7 @@ Outcome runOne(const PlannedRun& run, ResultsFolder& results, const ExecutionOpt
 
     if (!fs::exists(specFile)) throw cannotWrite(folder, "it was removed while a run was being written there");
     fs::remove(specFile);
-    // What the disk did is no result of the run.
+    // A full disk is not a result of the run.
     if (!outcome.succeeded()) requireRoom(results, reserveBytes);
     if (!outcome.succeeded() || !fs::exists(folder / "run.json")) {
         const RunStatus status = outcome.end == End::timedOut ? RunStatus::timeout : RunStatus::failed;

@@ -1,4 +1,4 @@
-// What befalls a long list of runs: kills, a damaged result, a folder that goes away, another build.
+// Faults during a long list of runs: kills, a damaged result, a removed folder, another build.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -66,7 +66,7 @@ class ExecutorFaults : public testing::Test {
         ExecutionListener quiet;
         return execute(plan_, 1, results, options_, quiet);
     }
-    /// Names of the results that a reader would see, each of them looked at: whole, and what its name says.
+    /// Names of the results visible to a reader, each checked to be complete and to match its name.
     [[nodiscard]] std::set<std::string> wholeResults() const {
         std::set<std::string> names;
         std::error_code missing;
@@ -105,7 +105,7 @@ TEST_F(ExecutorFaults, FiftyKillsLoseNothingThatWasFinished) {
             }
             _exit(0);
         }
-        // Long enough for one or two runs, so that the last kills still find work.
+        // Long enough for one or two runs, so that the last kills still hit a running plan.
         std::this_thread::sleep_for(std::chrono::microseconds(1000 + words[0] % 40'000));
         pid_t child = 0;
         std::ifstream(pid()) >> child;

@@ -62,7 +62,7 @@ class Executor : public testing::Test {
         ExecutionListener quiet;
         return execute(plan_, 1, results, options, quiet);
     }
-    /// Names in runs/, hidden ones too.
+    /// Names in runs/, including hidden ones.
     [[nodiscard]] std::vector<std::string> entries() const {
         std::vector<std::string> names;
         for (const auto& entry : fs::directory_iterator(out() / "runs")) names.push_back(entry.path().filename());
@@ -115,7 +115,7 @@ TEST_F(Executor, ACrashIsAFailedRunAndThePlanGoesOn) {
     EXPECT_EQ(run.reason, "killed by SIGABRT: bad thing");
     EXPECT_TRUE(fs::exists(folder / "log.txt"));
     EXPECT_FALSE(fs::exists(folder / "frames.csv"));
-    // It stays failed until one asks for it again.
+    // It stays failed until a retry is requested.
     EXPECT_EQ(runAll(shell(good)).failed, 1u);
     ExecutionOptions retry = shell(good);
     retry.retryFailed = true;
@@ -162,7 +162,7 @@ TEST_F(Executor, InterruptionLeavesNothingOfTheRunInFlight) {
 }
 
 TEST_F(Executor, AKillLosesAtMostTheRunInFlightAndTheNextCallResumes) {
-    // The third run hangs; by then the first two are complete. The whole process dies there.
+    // The third run hangs after the first two are complete; then the whole process is killed.
     const std::string hang = "case $2 in *" + runId(plan_[2].spec) + ") touch $1/frames.csv; sleep 600;; esac; ";
     const pid_t victim = fork();
     if (victim == 0) {

@@ -64,7 +64,7 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
 }  // namespace
 
 std::int64_t lastFrameOfDrive(const World& world, std::int64_t warmup) {
-    // Steps end at whole multiples of their length. The preroll ends at time 0, or a step later where it has no step
+    // Steps end at integer multiples of their length. The preroll ends at time 0, or one step later if it has no step
     // of its own.
     const std::int64_t stepsOfDrive = std::llround(world.driveSeconds() / stepSeconds);
     return stepsOfDrive - 1 - warmup - (stepsBeforeWarmup(world) - world.prerollSteps());

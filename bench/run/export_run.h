@@ -1,4 +1,4 @@
-// Volumes of a run without its measurement: the same world and method step by step, nothing drawn, nothing timed.
+// Exports volumes of a run without measuring it: same world and method step by step, nothing drawn or timed.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +12,18 @@
 
 namespace dustbench::bench {
 
-/// The last frame whose time lies within the drive; below 0: there is none.
+/// The last frame whose time lies within the drive; negative if there is none.
 [[nodiscard]] std::int64_t lastFrameOfDrive(const World& world, std::int64_t warmup);
 
 struct ExportResult {
     std::vector<std::filesystem::path> series;
     bool gridsDiffer = false;  ///< see VolumeExporter
-    bool aborted = false;      ///< `interrupted` said so; what was written is whole
+    bool aborted = false;      ///< `interrupted` returned true; files already written are complete
 };
 
-/// Writes what `spec.volumes` asks for, and export.json, into `folder`. At each of its frames the world and the method
-/// have gone through the very steps that they would have in `measureRun`. `interrupted` is asked after every step.
-/// Throws InputError for what a person can mend, frames beyond the drive's end among it, before the folder is made.
+/// Writes the volumes requested in `spec.volumes`, and export.json, into `folder`. At each exported frame the world and
+/// the method have made exactly the same steps as in `measureRun`. `interrupted` is called after every step. Throws
+/// InputError for user-correctable errors, including frames beyond the drive's end, before the folder is created.
 [[nodiscard]] ExportResult exportVolumes(const RunSpec& spec, const std::filesystem::path& folder,
                                          std::vector<std::string> argv, const RunProgress& progress,
                                          const std::function<bool()>& interrupted);

@@ -1,4 +1,4 @@
-// What is known before of how long runs take, cell by cell.
+// Forecasts of the duration of runs, by cell.
 //
 // Units: seconds.
 #pragma once
@@ -11,14 +11,14 @@
 
 namespace dustbench::bench {
 
-/// What all repetitions of a cell have in common; the first alone is judged.
+/// Identifies the cell of a run: equal for all its repetitions, whether judged or not.
 [[nodiscard]] std::string cellOf(RunSpec run);
 
 class ForecastByCell {
  public:
-    /// Of all repetitions of a cell.
+    /// Sets the forecast for all repetitions of a cell.
     void set(const RunSpec& cell, const RunForecast& forecast);
-    /// The metrics count only where the run has them. Negative where nothing is known.
+    /// Includes the metrics only if the run has them. Negative if unknown.
     [[nodiscard]] double seconds(const RunSpec& run) const;
 
  private:

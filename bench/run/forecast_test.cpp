@@ -1,4 +1,4 @@
-// How long runs will take: the arithmetic, a begun run against the whole one, and a plan whose children are scripts.
+// Forecasts of durations: the arithmetic, a started run compared with the whole, and a plan whose children are scripts.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,8 @@ TEST(RunForecast, CountsEveryFrameOnceForWhatItNeeds) {
 }
 
 TEST(RunForecast, BeginsEveryKindOfFrame) {
-    // One method that is judged by the exact picture, and one that needs a finer setting of itself and has none here.
+    // One method that is judged by the exact picture, and one that needs a finer setting of itself, which is missing
+    // here.
     std::map<bool, const MethodInfo*> kinds;
     for (const MethodInfo& info : methods())
         kinds.emplace(info.create(resolveParameters(info, {}).method)->stateHash().has_value(), &info);
@@ -72,7 +73,7 @@ TEST(ForecastByCell, MetricsCountForTheRunThatHasThem) {
     EXPECT_DOUBLE_EQ(remaining.seconds(), 100 + 4 + 10 + 4 + 10);
     remaining.ended(120);
     EXPECT_DOUBLE_EQ(remaining.seconds(), 28);
-    remaining.ended(20);  // what was seen counts more than what was expected
+    remaining.ended(20);  // measured times take precedence over forecasts
     EXPECT_DOUBLE_EQ(remaining.seconds(), 20);
 }
 

@@ -13,10 +13,10 @@
 namespace dustbench::bench {
 namespace {
 
-/// Half a step of an 8-bit image: less cannot be seen, and the order of additions on a GPU may differ.
+/// Half a step of an 8-bit image: smaller differences are invisible, and the order of additions on a GPU may vary.
 constexpr float sameColour = 0.5f / 255;
 
-/// Divided, not multiplied by 1e-6: 3497 ns is the number 0.003497 and is written so.
+/// Divided, not multiplied by 1e-6: 3497 ns becomes exactly 0.003497 and prints so.
 double milliseconds(std::int64_t ns) {
     return static_cast<double>(ns) / 1e6;
 }
@@ -27,7 +27,7 @@ std::int64_t cpuBytes(const MemoryReport& report) {
     return static_cast<std::int64_t>(bytes);
 }
 
-/// The largest difference of any channel; infinite where one of the pictures holds something that is not a number.
+/// The maximum difference of any channel; infinite if a picture has a non-finite value.
 float maximumDifference(const pictures::Image& a, const pictures::Image& b) {
     float maximum = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
@@ -103,7 +103,7 @@ void FrameRunner::waitForGpu() {
         device_.finish();
         return;
     }
-    // The frame before this one must be done: then this one and the next are the two in flight.
+    // Waits for the previous frame: then this one and the next are the two in flight.
     gpu::Fence thisFrame = gpu::Fence::afterQueuedWork();
     lastFrame_.wait();
     lastFrame_ = std::move(thisFrame);
@@ -116,7 +116,7 @@ void FrameRunner::frame(std::int64_t index) {
     const bool timeGpu = useGpuTimers_ && index >= 0;
     gpu::TimerQuery gpuTime = timeGpu ? gpu::TimerQuery(device_) : gpu::TimerQuery();
 
-    // Frames that overlap follow each other without a gap, or the GPU would work in time that belongs to no frame.
+    // Overlapping frames are timed without a gap; otherwise GPU work would fall into time that belongs to no frame.
     const std::int64_t start = lastEndNs_ != 0 ? lastEndNs_ : steadyNow();
     {
         const auto timing = clock.measure(Stage::input);

@@ -1,6 +1,6 @@
 // Steps a world and times the frames of one method in it: input, simulation, method, opaque scene, drawing, waiting.
 //
-// Owns: the method's host. Threads: the one that made it, inside the oneTBB arena to be used.
+// Owns: the method's host. Threads: the one that created it, inside the oneTBB arena to be used.
 #pragma once
 
 #include <cstdint>
@@ -22,34 +22,34 @@
 
 namespace dustbench::bench {
 
-/// Steps of the world before the warm-up: the preroll, and one at least, to be verified.
+/// Steps of the world before the warm-up: the preroll, but at least one, for verification.
 [[nodiscard]] std::int64_t stepsBeforeWarmup(const World& world);
 
 class FrameRunner {
  public:
-    /// Hosts the method of `spec` with `parameters`. `useGpuTimers`: only where they were found to be true. `world` and
-    /// `device` must outlive the runner.
+    /// Hosts the method of `spec` with `parameters`. `useGpuTimers`: set only if they were found to be reliable.
+    /// `world` and `device` must outlive the runner.
     FrameRunner(const RunSpec& spec, World& world, gpu::Device& device, const ParameterValues& parameters,
                 bool useGpuTimers);
 
-    /// One step of the world without a picture; the method takes part where it wants to.
+    /// One step of the world without a picture; the method is updated if it requires that.
     void stepWithoutPicture(std::int64_t index);
-    /// One step whose picture is drawn twice: right away, as a timed frame is, and again with every stage waited for.
-    /// Throws std::runtime_error where the two differ.
+    /// One step whose picture is drawn twice: as in a timed frame, and again with a wait after every stage. Throws
+    /// std::runtime_error if the two pictures differ.
     void verifiedStep(std::int64_t index);
-    /// One step of the world and of the method, which sees what it would see in a frame but is not drawn. For exports.
+    /// One step of the world and of the method, as in a frame but without drawing. For exports.
     void updateOnly(std::int64_t index);
     /// One frame as it is measured; recorded where `index` is 0 or more.
     void frame(std::int64_t index);
     /// Waits for all frames in flight and completes their records.
     void drain();
 
-    /// Draws what the last `updateOnly` led to, apart from all that is timed. For metrics. `withDetail`: the layer
-    /// without the scene as well.
+    /// Draws the state of the last `updateOnly`, outside all timing. For metrics. `withDetail`: also draws the layer
+    /// without the scene.
     [[nodiscard]] DrawnMoment drawn(bool withDetail);
     /// The last frame over its scene, linear.
     [[nodiscard]] pictures::Image picture();
-    /// Of the last `frame` or `updateOnly`: what the method hands over (Method::volume), and the facts that it told.
+    /// The volume (Method::volume) and the facts that the method provides for the last `frame` or `updateOnly`.
     void volume(VolumeVisitor& visitor);
     [[nodiscard]] Columns facts();
     [[nodiscard]] std::span<const FrameRecord> records() const { return records_; }
@@ -68,7 +68,7 @@ class FrameRunner {
     MethodHost host_;
     StageRecorder recorder_;
     gpu::Fence lastFrame_;
-    std::int64_t lastEndNs_ = 0;  ///< where the next frame begins that overlaps this one; 0: nothing is in flight
+    std::int64_t lastEndNs_ = 0;  ///< start of the next overlapping frame; 0: none in flight
     std::int64_t lastIndex_ = 0;
     bool useGpuTimers_;
     std::deque<std::pair<std::size_t, gpu::TimerQuery>> pendingGpuTimes_;  ///< by index into records_

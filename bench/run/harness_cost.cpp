@@ -11,7 +11,7 @@ namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
-/// Gone with everything in it.
+/// Removed with all its contents on destruction.
 class TemporaryFolder {
  public:
     TemporaryFolder() {

@@ -1,4 +1,4 @@
-// What the harness itself takes: measured with the null method, as every run is measured.
+// Overhead of the harness itself, measured with the null method like any run.
 #pragma once
 
 #include <functional>
@@ -9,13 +9,13 @@
 namespace dustbench::bench {
 
 struct HarnessCost {
-    double harnessUs = 0;     ///< of a frame, in no stage
-    double startSeconds = 0;  ///< from a process's start to its first timed frame, without preroll
+    double harnessUs = 0;     ///< per frame, outside all stages
+    double startSeconds = 0;  ///< from process start to the first timed frame, without preroll
     double frameMs = 0;       ///< of a frame without a method, 640x480
 };
 
-/// Runs the null method in a temporary folder, one process; about two seconds. Throws InputError where this build has
-/// no such method or the run does not end well, with its reason.
+/// Runs the null method in a temporary folder, in one process; takes about two seconds. Throws InputError if this build
+/// does not have the method or the run fails, with the reason.
 [[nodiscard]] HarnessCost measureHarness(ExecutionOptions options);
 
 }  // namespace dustbench::bench

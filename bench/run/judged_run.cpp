@@ -23,7 +23,7 @@ ResolvedParameters resolvedWith(const RunSpec& spec, const ParameterTexts& finer
     return resolveParameters(findMethod(spec.method), all);
 }
 
-/// The same method at a finer setting, in a world of its own that goes along step by step.
+/// The same method at a finer setting, in its own world, stepped in parallel.
 class FinerRun {
  public:
     FinerRun(const RunSpec& spec, gpu::Device& device)
@@ -113,7 +113,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         judgement.frames.push_back(metrics);
     };
     const std::int64_t preroll = stepsBeforeWarmup(world);
-    // The continuum goes along up to the last moment that needs it.
+    // The continuum is stepped up to the last moment that needs it.
     const std::int64_t continuumSteps = preroll + spec.warmup + moments.back() + 1;
     std::int64_t steps = 0;
     const auto stepped = [&] {

@@ -1,5 +1,5 @@
-// The metrics of a run, after its timed frames and apart from them: its states gone through again, some of them drawn
-// and held against the exact pictures.
+// Computes the metrics of a run after its timed frames: replays its states and compares some of them with exact
+// pictures.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +11,13 @@
 
 namespace dustbench::bench {
 
-/// Why a run cannot be judged, or empty: it can. A method with a simulation of its own needs a finer setting of itself
-/// to be judged against, which its suite must name.
+/// Why a run cannot be judged; empty if it can. A method with its own simulation must be judged against a finer setting
+/// of itself, which the suite must name.
 [[nodiscard]] std::string whyNotJudged(const JudgingPlan& plan, const Method& method);
 
-/// Judges the frames that `spec.judging` names. Leaves metrics.csv in `folder` and, of each moment, the method's
-/// picture, the reference (.png, .exr) and FLIP's map (.png) in images/. `stateHash` is that after the run's last
-/// frame: throws std::runtime_error where going through it again leads elsewhere.
+/// Judges the frames selected by `spec.judging`. Writes metrics.csv to `folder` and, for each moment, the method's
+/// picture and the reference (.png, .exr) and the FLIP map (.png) to images/. `stateHash` is the state after the run's
+/// last frame: throws std::runtime_error if the replay ends in another state.
 [[nodiscard]] Judgement judgeRun(const RunSpec& spec, const std::filesystem::path& folder, gpu::Device& device,
                                  const std::string& stateHash, const RunProgress& progress);
 

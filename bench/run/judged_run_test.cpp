@@ -1,4 +1,4 @@
-// The flaws of whole runs, as small as they can be told apart.
+// Flaws of whole runs, at the minimum level at which they can be distinguished.
 #include "bench/run/judged_run.h"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ namespace {
 
 class JudgedRun : public testing::Test {
  protected:
-    /// The summary of a judged run of so many frames.
+    /// The summary of a judged run with this many frames.
     std::map<std::string, double> judged(const std::string& method, const ParameterTexts& parameters,
                                          std::int64_t frames = 31, const std::string& drive = "straight",
                                          const ParameterTexts& finer = {}) {

@@ -36,7 +36,7 @@ void addMemory(RunRecord& record, const std::string& owner, const MemoryReport& 
     for (const MemoryUse& use : report) record.memory.emplace_back(owner, use);
 }
 
-/// The volumes of a run, which are written between two frames.
+/// The volumes of a run, written between frames.
 class RunVolumes {
  public:
     RunVolumes(const RunSpec& spec, const fs::path& folder, const World& world, std::vector<std::string>& warnings)
@@ -55,14 +55,14 @@ class RunVolumes {
         if (index == exporter_->settings().frames.first) leaveOutImpossible(volume);
         exporter_->write({index, spec_.method, volume, world_.scene(), world_.state(), world_.dust()});
     }
-    /// As summary.csv shows it; empty where no volume was asked for.
+    /// For summary.csv; empty if no volume was requested.
     [[nodiscard]] std::string firstSeries() const {
         if (!exporter_ || exporter_->seriesFiles().empty()) return {};
         return "runs/" + runId(spec_) + "/volumes/" + exporter_->seriesFiles().front().filename().string();
     }
 
  private:
-    /// A suite asks the same of all its methods: what one of them cannot give is no failure, unless nothing is left.
+    /// A suite requests the same formats from all its methods: an unsupported one is not an error unless none remain.
     void leaveOutImpossible(const CollectedVolume& volume) {
         const std::vector<VolumeFormat> asked = exporter_->settings().formats;
         std::vector<std::string> reasons;
@@ -82,14 +82,14 @@ class RunVolumes {
     std::optional<VolumeExporter> exporter_;
 };
 
-/// The moments of a run that cannot be judged: their pictures are kept all the same, to be looked at.
+/// Moments of a run that cannot be judged: their pictures are stored anyway, for inspection.
 std::vector<std::int64_t> momentsToShow(const RunSpec& spec, const Method& method) {
     if (!spec.judging || whyNotJudged(*spec.judging, method).empty()) return {};
     return spec.judging->momentsOf(spec.frames);
 }
 
-/// The untimed steps, of which the last is verified, then warm-up and recorded frames. Fills in what is measured of the
-/// run as a whole.
+/// Runs the untimed steps, the last of which is verified, then warm-up and recorded frames. Fills in the measurements
+/// of the run as a whole.
 void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, const fs::path& folder,
                RunVolumes& volumes, EnergyMeter& energy, const RunProgress& progress, WholeRun& run) {
     const std::int64_t preroll = stepsBeforeWarmup(world);
@@ -146,7 +146,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     record.provenance.device = device.info();
     WholeRun whole;
     whole.softwareRenderer = device.isSoftware();
-    // Without a GPU there is no time of its own to tell, and the self-test would have a shader made.
+    // Without a GPU there are no GPU times, and the self-test would compile a shader.
     record.provenance.gpuTimersTrusted = !whole.softwareRenderer && gpu::timerQueriesAreTrue(device);
     std::optional<FrameRunner> timed;
     FrameRunner& runner = timed.emplace(spec, world, device, parameters.method, record.provenance.gpuTimersTrusted);

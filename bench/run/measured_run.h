@@ -1,4 +1,4 @@
-// One run from beginning to end, in the process that is its own: world, method, preroll, verification, warm-up, frames.
+// Executes one run from start to end in its own process: world, method, preroll, verification, warm-up, frames.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace dustbench::bench {
 
-/// `phase` is `preroll`, `warmup`, `frames` or `metrics`, whose steps are those of all three. Heard before each step,
-/// and once at the end of `frames` and `metrics`.
+/// `phase` is `preroll`, `warmup`, `frames` or `metrics`; the steps of `metrics` are those of the other three together.
+/// Called before each step, and once at the end of `frames` and `metrics`.
 using RunProgress = std::function<void(std::string_view phase, std::int64_t done, std::int64_t total)>;
 
-/// Measures and leaves frames.csv, stages.csv, metrics.csv, images/ and volumes/ in `folder`. `argv` is the command the
-/// user gave. Throws InputError for what a person can mend and std::runtime_error where the method fails.
+/// Measures the run and writes frames.csv, stages.csv, metrics.csv, images/ and volumes/ to `folder`. `argv` is the
+/// user's command. Throws InputError for user-correctable errors and std::runtime_error if the method fails.
 [[nodiscard]] RunRecord measureRun(const RunSpec& spec, const std::filesystem::path& folder,
                                    std::vector<std::string> argv, const RunProgress& progress);
 

@@ -1,5 +1,5 @@
-// One method shown in one world: its graphics, its memory and its facts. The world is stepped by others, so that
-// several hosts can show the same moment of it.
+// Hosts one method in one world: its graphics, memory and facts. The world is stepped by the caller, so several hosts
+// can show the same moment.
 //
 // Owns: the method, the picture's targets and the ledger of all GPU memory behind them. Threads: the device's.
 #pragma once
@@ -26,23 +26,24 @@ class MethodHost {
     MethodHost(const World& world, gpu::Device& device, const MethodInfo& info, const ParameterValues& parameters,
                int width, int height);
 
-    /// The world's moment as the method sees it: valid until the next call or step. `clock` must outlive it.
+    /// The current state of the world as the method sees it: valid until the next call or step. `clock` must outlive
+    /// it.
     [[nodiscard]] Frame see(std::int64_t index, const StageClock& clock);
     void update(const Frame& frame);
-    /// The opaque scene, the method over it, and the two composed; reported as the stages `scene` and `draw`.
+    /// Draws the opaque scene and the method and composes them; reported as the stages `scene` and `draw`.
     void draw(const Frame& frame);
 
-    /// What the last `draw` left, linear: the method's layer, and the composed picture as it would be shown.
+    /// Results of the last `draw`, linear: the method's layer, and the composed picture as it would be displayed.
     [[nodiscard]] pictures::Image layer() const;
     [[nodiscard]] pictures::Image result() const;
     /// The layer over its scene, linear.
     [[nodiscard]] pictures::Image picture() const;
-    /// Draws the moment apart from all that is timed. `withDetail`: the layer without the scene as well.
+    /// Draws the frame outside all timing. `withDetail`: also draws the layer without the scene.
     [[nodiscard]] DrawnMoment drawn(const Frame& frame, bool withDetail);
 
-    /// Keeps those facts whose maximum over all recorded frames counts. After a recorded frame, untimed.
+    /// Updates the facts that are maxima over all recorded frames. Call after a recorded frame, untimed.
     void keepFacts(const Frame& frame);
-    /// All facts that the method told, by column; those of the last frame are asked for now.
+    /// All facts reported by the method, by column; those of the last frame are queried now.
     [[nodiscard]] Columns facts(const Frame& lastFrame);
 
     [[nodiscard]] const Method& method() const { return *method_; }
@@ -60,11 +61,11 @@ class MethodHost {
     std::unique_ptr<draw::OpaqueScene> scene_;
     std::unique_ptr<gpu::Layer> layer_;
     std::unique_ptr<draw::Composite> composite_;
-    gpu::Texture noScene_;  ///< a depth image of nothing; made when first wanted
+    gpu::Texture noScene_;  ///< an empty depth image, created on first use
     int width_, height_;
     scene::View view_{};
     Facts ofFrame_;
-    std::vector<std::optional<FactValue>> maxima_;  ///< by place in info_.facts
+    std::vector<std::optional<FactValue>> maxima_;  ///< by index in info_.facts
 };
 
 }  // namespace dustbench::bench

@@ -41,7 +41,7 @@ PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& re
     const std::vector<const PlannedRun*> toDo = runsToDo(plan, results, options);
     PlanForecast result;
     result.runs = toDo.size();
-    // One run of each cell, which is the one with the metrics if any of them has metrics.
+    // One run per cell, with metrics if any of its runs has them.
     std::map<std::string, const PlannedRun*> cells;
     for (const PlannedRun* run : toDo) {
         const PlannedRun*& chosen = cells[cellOf(run->spec)];
@@ -71,7 +71,7 @@ PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& re
             return result;
         }
         if (!outcome.succeeded() || !forecast) {
-            // The run itself is likely to end in the same way.
+            // The run itself is likely to fail in the same way.
             result.warnings.push_back(nameOf(*run) + ": " + (outcome.succeeded() ? "said nothing" : outcome.reason()));
             forecast = RunForecast{std::chrono::duration<double>(Clock::now() - start).count(), 0};
         } else if (options.timeoutSeconds > 0 && forecast->seconds() > options.timeoutSeconds) {

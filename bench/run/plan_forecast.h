@@ -1,4 +1,4 @@
-// How long a plan will take, from a beginning of each of its cells (run_forecast.h) in a process of its own.
+// Forecasts the duration of a plan by starting a run of each cell (run_forecast.h) in its own process.
 //
 // Threads: call from the main thread.
 #pragma once
@@ -12,17 +12,17 @@
 namespace dustbench::bench {
 
 struct PlanForecast {
-    std::size_t runs = 0;  ///< that are left to do
-    double seconds = 0;    ///< of all of them, with the rest between them
-    /// A sentence for each cell that failed when it was begun, or will take longer than it may.
+    std::size_t runs = 0;  ///< runs still to do
+    double seconds = 0;    ///< total, including the pauses between them
+    /// A sentence for each cell that failed to start, or is expected to exceed the time limit.
     std::vector<std::string> warnings{};
     bool aborted = false;
 };
 
-/// What a begun run's process says on stdout, and what is read there.
+/// The line that a forecasting process prints on stdout and that is parsed from it.
 [[nodiscard]] std::string forecastLine(const RunForecast& forecast);
 
-/// Fills in `options.forecasts` for all that is left to do; the listener hears `begun 3 48`.
+/// Sets `options.forecasts` for all runs to do; the listener hears `begun 3 48`.
 [[nodiscard]] PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& results,
                                         ExecutionOptions& options, ExecutionListener& listener);
 

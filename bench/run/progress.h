@@ -1,4 +1,4 @@
-// The words of a progress report.
+// Formats progress messages.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace dustbench::bench {
 [[nodiscard]] std::string progressLine(std::size_t position, std::size_t total, const PlannedRun& run, int repetitions,
                                        double etaSeconds);
 
-/// Of `frames 12 120`: 0.1, which is `[#####…] frames 12/120` on a terminal `width` columns wide. Empty for other
+/// For `frames 12 120`, which is 10 %: `[#####…] frames 12/120` on a terminal `width` columns wide. Empty for other
 /// lines.
 [[nodiscard]] std::string progressBar(std::string_view line, int width);
 

@@ -1,4 +1,4 @@
-// How long a list of runs will still take: from those that have ended, and from what was known before.
+// Estimates the remaining time of a list of runs, from finished runs and forecasts.
 //
 // Units: seconds.
 #pragma once
@@ -15,14 +15,14 @@ namespace dustbench::bench {
 
 class RemainingTime {
  public:
-    /// The runs still to do, in order, with a rest before each but the first.
+    /// `toDo` are the runs still to do, in order, with a pause before each except the first.
     explicit RemainingTime(const std::vector<const PlannedRun*>& toDo, const ForecastByCell& forecasts = {},
                            double cooldownSeconds = 0);
 
-    /// The next of them took so long, with the rest before it.
+    /// Records the duration of the next run, including the pause before it.
     void ended(double seconds);
-    /// Of all that is left: a run counts as long as the other repetitions of its cell did; the first of a cell as long
-    /// as its forecast, or without one as all others on average. Negative while nothing is known of some run.
+    /// Total of all remaining runs: a run counts as the mean of its cell's finished repetitions; if there are none, as
+    /// its forecast; without one, as the mean of all finished runs. Negative if some run has no estimate.
     [[nodiscard]] double seconds() const;
 
  private:
@@ -32,8 +32,8 @@ class RemainingTime {
         [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
     };
     struct Run {
-        std::string cell;     ///< what its repetitions have in common
-        double forecast = 0;  ///< with the rest before it; negative: none
+        std::string cell;     ///< identifies the cell
+        double forecast = 0;  ///< including the pause before it; negative: none
     };
     std::vector<Run> runs_;
     std::size_t next_ = 0;

@@ -1,5 +1,5 @@
-// Goes through a run's steps again without its measurement: at each frame, world and method have gone through the very
-// steps that they go through in `measureRun`.
+// Repeats the steps of a run without measuring: at each frame, world and method have made exactly the same steps as in
+// `measureRun`.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ struct Replay {
     FrameRunner& runner;
     std::int64_t prerollSteps;  ///< stepsBeforeWarmup
     std::int64_t lastFrame;
-    /// After each step, the untimed ones before frame 0 included; false: stop.
+    /// Called after each step, including the untimed ones before frame 0; returning false stops the replay.
     std::function<bool()> stepped;
-    /// After each frame from 0 on.
+    /// Called after each frame from 0 on.
     std::function<void(std::int64_t frame)> visit;
     /// As RunProgress.
     std::function<void(std::string_view phase, std::int64_t done, std::int64_t total)> progress;
 };
 
-/// False where `stepped` stopped it.
+/// Returns false if `stepped` stopped it.
 bool replay(const Replay& replay);
 
 }  // namespace dustbench::bench

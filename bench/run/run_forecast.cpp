@@ -16,11 +16,11 @@ namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
-/// Frames are begun until both are reached; a run that is shorter ends by itself.
+/// Frames are run until both are reached; a shorter run ends by itself.
 constexpr std::int64_t minimumFrames = 4;
 constexpr double minimumSeconds = 0.3;
 
-/// Thrown out of a run that has gone far enough.
+/// Thrown to stop a run early.
 struct Enough {};
 
 double seconds(std::int64_t nanoseconds) {
@@ -43,15 +43,15 @@ FramesBegun beginFrames(RunSpec spec, const fs::path& folder) {
         (void)measureRun(spec, folder, {}, hear);
     } catch (const Enough&) {
     }
-    // A method that cannot take the scene has no frames.
+    // A method that does not support the scene has no frames.
     begun.untilFrames = untilCall + seconds((frames < 0 ? steadyNow() : first) - called);
     if (frames > 0) begun.perFrame = seconds(last - first) / static_cast<double>(frames);
     return begun;
 }
 
-/// The metrics of a run as short as has every kind of frame: plain ones, a moment, the beginning of a stretch.
+/// The metrics of the shortest run that has every kind of frame: plain ones, a moment, the beginning of a stretch.
 MetricsBegun beginMetrics(RunSpec spec, const fs::path& folder, gpu::Device& device) {
-    // A second moment behind the end: what goes along up to the last moment does so here.
+    // A second moment after the end, so that work done up to the last moment is included.
     constexpr std::int64_t moment = 1, stretch = 2, end = 4;
     spec.warmup = 1;
     spec.frames = stretch + PoppingSummary::minimumPairs + 1;

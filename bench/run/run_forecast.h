@@ -1,5 +1,5 @@
-// How long a run will take, found out by beginning it: its start and its preroll as they are, then a few of its frames
-// and one of each kind that its metrics need, each counted as often as the whole run does it.
+// Forecasts the duration of a run by starting it: its real start and preroll, then a few frames and one of each kind
+// that its metrics need, each scaled by how often it occurs in the whole run.
 //
 // Units: seconds.
 #pragma once
@@ -17,22 +17,23 @@ struct RunForecast {
     [[nodiscard]] double seconds() const { return measuring + judging; }
 };
 
-/// What a begun pass of frames took.
+/// Timings of a partial pass of frames.
 struct FramesBegun {
     double untilFrames = 0;  ///< start and preroll
     double perFrame = 0;
 };
-/// What a begun pass of metrics took.
+/// Timings of a partial pass of metrics.
 struct MetricsBegun {
     double untilFrames = 0;      ///< start and preroll
-    double perPlainFrame = 0;    ///< one that is only gone through
-    double perMoment = 0;        ///< one that is judged by itself
-    double perStretchFrame = 0;  ///< one of the stretch that popping is found in
+    double perPlainFrame = 0;    ///< a frame that is only replayed
+    double perMoment = 0;        ///< a frame that is judged individually
+    double perStretchFrame = 0;  ///< a frame of the stretch for popping
 };
 /// The whole run's time.
 [[nodiscard]] RunForecast extrapolate(const RunSpec& spec, const FramesBegun& frames, const MetricsBegun& metrics);
 
-/// Begins the run, in a process that is its own; what it leaves in `folder` is of no use. Throws as measureRun does.
+/// Starts the run in this process, which must not be used for anything else; the files in `folder` are to be discarded.
+/// Throws as measureRun does.
 [[nodiscard]] RunForecast forecastRun(const RunSpec& spec, const std::filesystem::path& folder);
 
 }  // namespace dustbench::bench

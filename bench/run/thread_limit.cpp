@@ -13,7 +13,7 @@ void withThreads(int threads, const std::function<void()>& work) {
         work();
         return;
     }
-    // A software rasteriser counts as well: the run shall use so many threads, not so many and some more.
+    // The software rasteriser is included in the limit, not added to it.
     setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
     const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                             static_cast<std::size_t>(threads));

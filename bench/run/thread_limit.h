@@ -1,12 +1,12 @@
-// How many threads a run may use: oneTBB's and a software rasteriser's.
+// Limits the threads of a run: oneTBB's and a software rasteriser's.
 #pragma once
 
 #include <functional>
 
 namespace dustbench::bench {
 
-/// Calls `work` with at most so many threads; 0: as many as there are cores. The rasteriser's number holds only where
-/// OpenGL is not yet in use.
+/// Calls `work` with at most `threads` threads; 0: one per core. The limit affects the rasteriser only if OpenGL is not
+/// yet in use.
 void withThreads(int threads, const std::function<void()>& work);
 
 }  // namespace dustbench::bench
