@@ -40,7 +40,7 @@ std::string withoutQuick(std::string id) {
     return id;
 }
 
-/// The one id that is `wanted` or ends in it, its `-quick` left out where it has one.
+/// The only id that equals `wanted` or ends in it, ignoring `-quick`.
 std::string resolved(const ReportData& data, const std::string& wanted) {
     const std::vector<std::string> ids = chartIds(data);
     if (std::ranges::find(ids, wanted) != ids.end()) return wanted;

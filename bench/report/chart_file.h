@@ -1,6 +1,6 @@
-// One chart of the report as a file: by the page's own specification, without a browser.
+// Writes one chart of the report as a file, using the page's specification, without a browser.
 //
-// Node runs Vega and gives SVG; rsvg-convert makes PNG and PDF of it.
+// Node runs Vega to produce SVG; rsvg-convert converts it to PNG and PDF.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,11 @@
 
 namespace dustbench::bench {
 
-/// `carr2006-fig7`, `carr2006-fig7-stages` …: what `writeChart` knows for this data.
+/// `carr2006-fig7`, `carr2006-fig7-stages` …: the charts that `writeChart` offers for this data.
 [[nodiscard]] std::vector<std::string> chartIds(const ReportData& data);
 
-/// `format` is svg, png or pdf; `id` may be the end of an id that only one has, without its `-quick` (`fig7`). Gives
-/// the file, `folder`/charts/ID.FORMAT. Throws InputError for an unknown id, and where node or rsvg-convert is missing
-/// or fails.
+/// `format` is svg, png or pdf; `id` may be a unique suffix of an id, without its `-quick` (`fig7`). Returns the file,
+/// `folder`/charts/ID.FORMAT. Throws InputError for an unknown id, and if node or rsvg-convert is missing or fails.
 std::filesystem::path writeChart(const std::filesystem::path& folder, const ReportData& data, const std::string& id,
                                  const std::string& format);
 

@@ -18,7 +18,7 @@ FrameTimes condense(const std::vector<double>& frameMs) {
     if (frameMs.empty()) return times;
     const auto [minimum, maximum] = std::ranges::minmax(frameMs);
     times.minimumMs = minimum;
-    // 2·∛n bins, Rice's rule: enough to see two speeds, few enough not to see each frame.
+    // 2·∛n bins, Rice's rule: enough to reveal two speeds, few enough to smooth single frames.
     const auto wanted = static_cast<std::size_t>(std::lround(2 * std::cbrt(static_cast<double>(frameMs.size()))));
     const std::size_t bins = std::clamp(wanted, minimumBins, maximumBins);
     times.binMs = (maximum - minimum) / static_cast<double>(bins);

@@ -1,4 +1,4 @@
-// Frame times of a bounded number of runs, small enough for a page.
+// Condenses the frame times of a bounded number of runs for the page.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +11,11 @@ inline constexpr std::size_t maximumRunsWithFrameTimes = 64;
 inline constexpr std::size_t maximumTracePoints = 400;
 inline constexpr std::size_t minimumBins = 8, maximumBins = 40;  // of a histogram
 
-/// Of all frames, `label` and ids left to the caller. Bins are equally wide from the minimum to the maximum.
+/// Condenses all frames; the caller sets `label` and ids. Bins have equal width from the minimum to the maximum.
 [[nodiscard]] FrameTimes condense(const std::vector<double>& frameMs);
 
-/// Of the first repetition of each cell, spread evenly over the cells where there are too many. What cannot be read
-/// gives a sentence in the data's problems.
+/// Reads the first repetition of each cell, an even selection if there are too many. Unreadable files are reported in
+/// the data's problems.
 void readFrameTimes(const std::filesystem::path& folder, ReportData& data);
 
 }  // namespace dustbench::bench

@@ -1,8 +1,8 @@
-// The median of a few repetitions and how far it is known.
+// The median of a few repetitions with a confidence interval.
 //
-// Each value lies below the true median with probability 1/2, whatever the distribution, so between the order
-// statistics x(j) and x(n+1−j) it lies with probability 1 − 2·Σ_{i<j} C(n, i)/2ⁿ. The maximum j that has 95 % is
-// taken; below 6 values even the whole range has less, and is given all the same, with its probability. Threads: pure.
+// Each value lies below the true median with probability 1/2, whatever the distribution, so the median lies between the
+// order statistics x(j) and x(n+1−j) with probability 1 − 2·Σ_{i<j} C(n, i)/2ⁿ. The maximum j that reaches 95 % is
+// used; below 6 values even the whole range has less, and is returned with its probability. Threads: pure.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ struct MedianInterval {
     double low = std::numeric_limits<double>::quiet_NaN();
     double high = std::numeric_limits<double>::quiet_NaN();
     std::size_t values = 0;
-    double probability = 0;  ///< that the true median lies in it; 0 for one value
+    double probability = 0;  ///< that the true median lies in the interval; 0 for one value
 };
 
 /// NaN for no values.

@@ -14,7 +14,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// By which a page of ours is known; the template has it.
+/// Identifies our pages; part of the template.
 constexpr std::string_view mark = "<meta name=\"generator\" content=\"dustbench\">";
 
 std::string escaped(std::string_view text) {
@@ -30,7 +30,7 @@ std::string escaped(std::string_view text) {
     return safe;
 }
 
-/// Puts parts in place of `{{name}}`, once through, so that what is put in is never looked at again.
+/// Replaces `{{name}}` in a single pass, so that inserted text is not expanded.
 std::string filled(std::string_view text, const std::map<std::string, std::string, std::less<>>& parts) {
     std::string result;
     for (std::size_t at = 0;;) {

@@ -1,4 +1,4 @@
-// The report as one HTML file that needs nothing else: no network, no second file.
+// Writes the report as one self-contained HTML file: no network, no second file.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@ namespace dustbench::bench {
 
 [[nodiscard]] std::string pageOf(const ReportData& data);
 
-/// Writes `folder`/index.html, and claims.csv where there are claims, and gives the page's path. Throws InputError
-/// where that is a page of somebody else.
+/// Writes `folder`/index.html, and claims.csv if there are claims, and returns the page's path. Throws InputError if
+/// there is already a page not written by this program.
 std::filesystem::path writePage(const std::filesystem::path& folder, const ReportData& data);
 
 }  // namespace dustbench::bench

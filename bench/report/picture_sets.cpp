@@ -58,7 +58,7 @@ class Collector {
             PictureSet& set = setOf(group.id, worldLabel(group, cell), frame);
             const std::string start = fmt::format("{}f{:06}", relative, frame);
             if (has.reference) {
-                // The exact picture is the same for all methods, a finer setting of the method is its own.
+                // The exact picture is common to all methods; a finer setting is specific to its method.
                 const std::string name = isExact ? "exact" : "reference of " + label;
                 if (std::ranges::find(set.pictures, name, &ReportPicture::label) == set.pictures.end())
                     place(set, {name, isExact ? "" : cell.method, false, start + "_reference.png"});
@@ -94,7 +94,7 @@ class Collector {
                     set.pictures.push_back(std::move(picture));
                     return;
                 }
-                bytesLeft_ = 0;  // small ones later would make holes that nobody understands
+                bytesLeft_ = 0;  // embedding smaller pictures later would leave confusing gaps
             }
             ++data_.linkedPictures;
             set.pictures.push_back(std::move(picture));

@@ -1,4 +1,4 @@
-// The pictures of a folder's judged and pictured runs, side by side for each world and frame.
+// Collects the pictures of a folder's judged and pictured runs, side by side for each world and frame.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace dustbench::bench {
 
-/// Pictures go into the page as they are or as JPEG, whichever is smaller, up to `maximumBytes` in all; those beyond
-/// are linked by their path in the folder. What cannot be read gives a sentence in the data's problems.
+/// Pictures are embedded as they are or as JPEG, whichever is smaller, up to `maximumBytes` in total; the rest are
+/// linked by their path in the folder. Unreadable files are reported in the data's problems.
 void collectPictures(const std::filesystem::path& folder, std::int64_t maximumBytes, ReportData& data);
 
 /// `data:image/png;base64,…`

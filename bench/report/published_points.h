@@ -1,10 +1,10 @@
-// The numbers that a paper's text gives, from `data/papers/<id>/published.csv`.
+// The numbers given in a paper's text, from `data/papers/<id>/published.csv`.
 //
 //     suite,axis,x,column,minimum,maximum,what
 //
-// One row a number: of which suite's chart, at which x of which axis (both empty: everywhere), in which column of
-// summary.csv, between which values, and of what it was measured. A paper without the file gives none, and its charts
-// can be compared in their shape only.
+// One row per number: the suite of the chart, the axis and x on it (both empty: everywhere), the column of summary.csv,
+// the range of values, and what was measured. A paper without the file has none; its charts can be compared by shape
+// only.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// All that the report of a results folder shows, as it is handed from those who read to those who write.
+// The data shown by the report of a results folder, passed from the readers to the writers.
 //
 // Units: as the columns of summary.csv. Threads: plain data.
 #pragma once
@@ -15,27 +15,27 @@
 
 namespace dustbench::bench {
 
-/// Something that differs between the cells of an experiment.
+/// A parameter or setting that varies between the cells of an experiment.
 struct ReportAxis {
     std::string name;  ///< `particles`, `scene`, `size`
     std::string unit;
     std::string help;
-    bool world = false;               ///< what all methods are shown, not a method's own setting
+    bool world = false;               ///< part of the world, not a method's own setting
     bool numeric = false;             ///< every value is a number
-    std::vector<std::string> values;  ///< in rising order
+    std::vector<std::string> values;  ///< ascending
 };
 
-/// All runs that are equal in everything but the repetition, on one machine.
+/// All runs that are equal in everything except the repetition, on one machine.
 struct ReportCell {
     std::string method;
-    std::map<std::string, std::string, std::less<>> settings;  ///< by axis, where the method has it
+    std::map<std::string, std::string, std::less<>> settings;  ///< by axis, if the method has it
     std::size_t machine = 0;
     std::vector<const StoredRun*> done;  ///< by repetition
     std::size_t failed = 0;
     std::map<std::string, MedianInterval, std::less<>> values;  ///< by column of summary.csv
 };
 
-/// ms = a + b·N^k through the runs of cells that are equal but for the load N.
+/// ms = a + b·N^k through the runs of cells that differ only in the load N.
 struct ReportFit {
     std::string axis, column, method;
     std::map<std::string, std::string, std::less<>> settings;  ///< without that of `axis`
@@ -43,17 +43,17 @@ struct ReportFit {
     CostFit fit;
 };
 
-/// A number that a paper's text gives.
+/// A number given in a paper's text.
 struct PublishedPoint {
-    std::string axis;  ///< with x; empty: holds along the whole chart
+    std::string axis;  ///< with x; empty: applies to the whole chart
     double x = 0;
     std::string column;
     double minimum = 0, maximum = 0;
-    std::string what;  ///< on which machine, of what
+    std::string what;  ///< what was measured, and on which machine
 };
 
 struct RunGroup {
-    std::string id;  ///< of its suite, `-quick` behind it where it is the short form; `other`
+    std::string id;  ///< id of its suite, with `-quick` for the short form; or `other`
     std::string suite, title, summary, paper;
     std::vector<ReportAxis> axes;
     std::vector<ReportCell> cells;
@@ -61,17 +61,17 @@ struct RunGroup {
     std::vector<PublishedPoint> published;
 };
 
-/// Frame times of one run: all of them as a histogram, few of them as a trace.
+/// Frame times of one run: all as a histogram, a selection as a trace.
 struct FrameTimes {
     std::string runId, group, label;
     std::size_t frames = 0;
     double minimumMs = 0, binMs = 0;
     std::vector<int> bins;
-    /// Of each stretch of frames the shortest and the longest, in their order, so that no spike is lost.
+    /// The minimum and the maximum of each stretch of frames, in order, so that no spike is lost.
     std::vector<std::pair<std::size_t, double>> trace;
 };
 
-/// One picture of a run, as it goes into the page.
+/// One picture of a run, as shown on the page.
 struct ReportPicture {
     std::string label;   ///< `billboard soft=on`, `exact`
     std::string method;  ///< empty for the exact one
@@ -91,27 +91,27 @@ struct NotDone {
     std::string runId, status, reason;
 };
 
-/// Of one kind: they differ in their numbers at most.
+/// Warnings of one kind, which differ only in their numbers.
 struct RunWarnings {
-    std::string warning;  ///< the first
+    std::string warning;  ///< the first one
     std::vector<std::string> runs;
 };
 
-/// To be moved, not copied: experiments point into `runs`.
+/// Move, do not copy: experiments point into `runs`.
 struct ReportData {
     std::string folder;      ///< its name, for the title
     std::string writtenUtc;  ///< ISO 8601
     StoredRuns runs;
-    std::vector<std::string> problems;  ///< what is missing or in doubt, a sentence each
-    /// Fields of the provenance of each machine that took part.
+    std::vector<std::string> problems;  ///< missing or doubtful data, one sentence each
+    /// Provenance fields of each machine involved.
     std::vector<std::map<std::string, std::string, std::less<>>> machines;
     std::vector<Paper> papers;
     std::vector<RunGroup> groups;
     std::vector<JudgedClaim> claims;
     std::vector<FrameTimes> frameTimes;
-    std::size_t runsWithoutFrameTimes = 0;  ///< left out, so that the page stays small
+    std::size_t runsWithoutFrameTimes = 0;  ///< omitted, to keep the page small
     std::vector<PictureSet> pictureSets;
-    std::size_t linkedPictures = 0;  ///< not in the page itself, but beside it
+    std::size_t linkedPictures = 0;  ///< linked instead of embedded
     std::vector<NotDone> notDone;
     std::vector<RunWarnings> warnings;
 };

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 struct VegaModule {
     const char *name, *file;  // what others require it by, and the file that Debian has it in
 };
-/// Debian ships Vega in its parts, which require each other by name. What maps and text clouds need is left out.
+/// Debian ships Vega in modules that require each other by name. Those for maps and text clouds are omitted.
 constexpr std::array<VegaModule, 20> vegaModules{{{"util", "util"},
                                                   {"statistics", "statistics"},
                                                   {"time", "time"},
@@ -63,7 +63,7 @@ std::string schemaText() {
 
 std::string vegaLicence() {
     const fs::path file = "/usr/share/doc/libjs-vega/copyright";
-    // A system that was stripped of its documentation has the name at least.
+    // A system without installed documentation gets at least the licence's name.
     return fs::exists(file) ? textOf(file) : "Vega: copyright 2015-2021 UW Interactive Data Lab, BSD-3-Clause licence.";
 }
 

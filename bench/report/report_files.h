@@ -1,4 +1,4 @@
-// The files that a page is made of: our own template, style, scripts and chart specifications, and Debian's Vega.
+// The files that make up a page: our template, style, scripts and chart specifications, and Debian's Vega.
 #pragma once
 
 #include <filesystem>
@@ -13,20 +13,20 @@ namespace dustbench::bench {
 /// The content of reports/SCHEMA.md.
 [[nodiscard]] std::string schemaText();
 
-/// Under which Vega may be handed on with a page, as the package says it.
+/// The licence under which Vega may be redistributed with a page, from the package.
 [[nodiscard]] std::string vegaLicence();
 
 /// `{"cost": {…}, …}`: every specification of `reports/report/charts`, by its name without extension.
 [[nodiscard]] std::string chartSpecifications();
 
-/// What turns the data into specifications, for browsers and for node.
+/// Converts the data to chart specifications; for browsers and for node.
 [[nodiscard]] std::string chartScript();
 
-/// What builds the page; behind chartScript().
+/// Builds the page; runs after chartScript().
 [[nodiscard]] std::string pageScript();
 
-/// Vega as one script, which leaves it behind as `vega`; for browsers and for node. Throws InputError where the package
-/// libjs-vega is not installed.
+/// Vega as one script, which defines `vega`; for browsers and for node. Throws InputError if the package libjs-vega is
+/// not installed.
 [[nodiscard]] std::string vegaScript();
 
 }  // namespace dustbench::bench

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Six digits are more than any chart shows, and keep the page small; null where it is no number.
+/// Six digits are more than any chart shows, and keep the page small; null if not finite.
 json number(double value) {
     if (!std::isfinite(value)) return nullptr;
     return std::stod(fmt::format("{:.6g}", value));
@@ -158,7 +158,7 @@ std::string reportJson(const ReportData& data) {
               {"runs", std::move(runs)},
               {"framesLeftOut", data.runsWithoutFrameTimes},
               {"linkedPictures", data.linkedPictures}};
-    // All that this build has, so that a method has the same colour in every report.
+    // All methods of this build, so that a method has the same colour in every report.
     root["methods"] = each(catalogue("methods"), [](const CatalogueItem& item) {
         return json{{"id", item.id}, {"title", item.title}};
     });
@@ -185,7 +185,7 @@ std::string reportJson(const ReportData& data) {
     safe.reserve(text.size());
     for (const char letter : text) {
         if (letter == '<')
-            safe += "\\u003c";  // only ever within a JSON string
+            safe += "\\u003c";  // occurs only within JSON strings
         else
             safe += letter;
     }

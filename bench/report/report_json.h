@@ -1,4 +1,4 @@
-// The report's data as JSON, for the page and for charts by themselves.
+// The report's data as JSON, for the page and for single charts.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace dustbench::bench {
 
-/// Safe within a script element: no `<` in it. Texts that are no UTF-8 are mended. The fields are listed at the top of
+/// Safe inside a script element: contains no `<`. Invalid UTF-8 is replaced. The fields are documented at the top of
 /// reports/report/page.js.
 [[nodiscard]] std::string reportJson(const ReportData& data);
 

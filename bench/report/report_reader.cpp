@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As readStoredRuns, but what is damaged is named and left out.
+/// As readStoredRuns, but damaged runs are reported and skipped.
 void readRuns(const fs::path& folder, ReportData& data) {
     std::error_code error;
     fs::directory_iterator entry(folder / "runs", error);
@@ -72,7 +72,7 @@ MachineOfRun findMachines(ReportData& data) {
     return machineOf;
 }
 
-/// Another build may well be what is compared, but should be known.
+/// Comparing builds may be intended, but should be visible.
 void noteBuilds(ReportData& data) {
     for (const std::string_view field : {"git_commit", "compiler", "gl_version"}) {
         std::set<std::string> values;
@@ -83,7 +83,7 @@ void noteBuilds(ReportData& data) {
 }
 
 void noteWhatIsNotDone(ReportData& data) {
-    // Those that differ in their numbers alone are of one kind.
+    // Warnings that differ only in their numbers are of one kind.
     static const std::regex number("[0-9]+(\\.[0-9]+)?");
     std::map<std::string, RunWarnings> byKind;
     for (const auto& [id, run] : data.runs) {
@@ -113,7 +113,7 @@ void noteUnknownColumns(ReportData& data) {
             fmt::format("columns that this version does not know, and leaves out: {}", fmt::join(unknown, ", ")));
 }
 
-/// A paper's experiments as the paper lists them, the quick form behind the whole one.
+/// Sorts a paper's experiments in the paper's order, the quick form after the whole one.
 void inOrderOf(const Paper& paper, std::vector<RunGroup>& groups) {
     const auto place = [&paper](const RunGroup& group) {
         return std::pair(std::ranges::find(paper.suites, group.suite) - paper.suites.begin(), group.id);

@@ -1,4 +1,4 @@
-// Reads a results folder for its report, and goes on where something in it is missing or damaged.
+// Reads a results folder for its report, tolerating missing and damaged files.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace dustbench::bench {
 
-/// Bytes of pictures that the page itself holds, unless told.
+/// Default limit of embedded pictures, in bytes.
 inline constexpr std::int64_t defaultPictureBytes = 12'000'000;
 
-/// Everything that the page shows, with a sentence for each thing that it cannot. Throws InputError where `folder` is
-/// no folder.
+/// Reads everything that the page shows, with a sentence for each thing that cannot be read. Throws InputError if
+/// `folder` is not a folder.
 [[nodiscard]] ReportData readReport(const std::filesystem::path& folder, std::int64_t maximumPictureBytes);
 
 }  // namespace dustbench::bench

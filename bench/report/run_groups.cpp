@@ -20,9 +20,9 @@ namespace {
 
 using Settings = std::map<std::string, std::string, std::less<>>;
 
-/// Cells of summary.csv that say what a run was, `size` in place of width and height.
+/// Cells of summary.csv that describe the world and the run; `size` replaces width and height.
 constexpr std::array<std::string_view, 6> worldCells{"scene", "drive", "seed", "sync", "threads", "frames"};
-/// Whose growth with a load is worth a curve.
+/// Columns whose growth with a load is fitted.
 constexpr std::array<std::string_view, 3> fittedColumns{"frame_ms_median", "build_ms_median", "sort_ms_median"};
 
 std::optional<double> numberOf(std::string_view text) {
@@ -38,10 +38,10 @@ const std::string& cellOf(const StoredRun& run, std::string_view column) {
     return found == run.cells.end() ? none : found->second;
 }
 
-/// Everything about a run that can tell two cells apart, but its method and machine.
+/// Everything that can distinguish two cells, except method and machine.
 Settings settingsOf(const StoredRun& run) {
     Settings settings(run.parameters.begin(), run.parameters.end());
-    // A run that did not get there has no frames of its own; it belongs to the same cell all the same.
+    // A run that failed early has no frames; it still belongs to the same cell.
     for (const std::string_view column : worldCells)
         if (column != "frames" || run.status == RunStatus::done) settings.emplace(column, cellOf(run, column));
     if (!cellOf(run, "width").empty()) settings["size"] = cellOf(run, "width") + "x" + cellOf(run, "height");
@@ -62,7 +62,7 @@ void describe(ReportAxis& axis, const std::set<std::string>& methods) {
     axis.help = found->help;
 }
 
-/// By number where all are numbers, else by name.
+/// Numerically if all values are numbers, else by name.
 void sortValues(ReportAxis& axis) {
     axis.numeric =
         std::ranges::all_of(axis.values, [](const std::string& value) { return numberOf(value).has_value(); });
@@ -71,8 +71,8 @@ void sortValues(ReportAxis& axis) {
     });
 }
 
-/// Of the world what differs anywhere; of a method's own settings what differs among its own runs. What merely differs
-/// from method to method is how they were set up.
+/// World settings that vary at all, and method settings that vary among the runs of one method. Settings that only
+/// differ between methods are part of the setup.
 std::vector<ReportAxis> axesOf(const std::vector<const StoredRun*>& runs) {
     std::map<std::string, std::map<std::string, std::set<std::string>>> valuesByMethod;  // by name, then method
     std::set<std::string> methods;
@@ -130,7 +130,7 @@ std::string labelOf(const RunGroup& group, const ReportCell& cell, bool world) {
     return label;
 }
 
-/// The runs of this form of the suite that are there.
+/// The existing runs of this form of the suite.
 std::vector<const StoredRun*> runsOf(const Suite& suite, int repetitions, const StoredRuns& runs) {
     std::vector<const StoredRun*> found;
     for (const PlannedRun& cell : suite.cells)
@@ -208,7 +208,7 @@ std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun&
             try {
                 const Suite suite = loadSuite(file.id, quick);
                 const std::vector<const StoredRun*> found = runsOf(suite, repetitions, runs);
-                // What both forms have is shown once.
+                // Runs common to both forms are shown once.
                 if (std::ranges::all_of(found, [&](const StoredRun* run) { return placed.contains(run); })) continue;
                 placed.insert(found.begin(), found.end());
                 RunGroup group = makeGroup(found, machines);
@@ -227,7 +227,7 @@ std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun&
     for (const auto& [id, run] : runs)
         if (!placed.contains(&run)) others.push_back(&run);
     if (!others.empty()) {
-        // Their suite may be among those.
+        // One of the unreadable suites may be theirs.
         std::ranges::move(faults, std::back_inserter(problems));
         RunGroup group = makeGroup(others, machines);
         group.id = "other";

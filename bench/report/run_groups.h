@@ -1,4 +1,4 @@
-// Sorts the runs of a folder into experiments: those of each suite that is known, and all others.
+// Groups the runs of a folder into experiments: one per known suite, and one for the rest.
 #pragma once
 
 #include <vector>
@@ -10,19 +10,19 @@ namespace dustbench::bench {
 /// Which machine each run was measured on, by run id, as an index into ReportData::machines.
 using MachineOfRun = std::map<std::string, std::size_t, std::less<>>;
 
-/// Points into `runs`. Suites that cannot be read are left out, with a sentence in `problems` where runs are left over.
+/// Points into `runs`. Unreadable suites are skipped and reported in `problems` if runs remain without a suite.
 [[nodiscard]] std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun& machines,
                                                    std::vector<std::string>& problems);
 
 /// Axes, cells and fits of these runs.
 [[nodiscard]] RunGroup makeGroup(const std::vector<const StoredRun*>& runs, const MachineOfRun& machines);
 
-/// Columns of summary.csv that are numbers, as charts can show them, in its order.
+/// The numeric columns of summary.csv that charts can show, in its order.
 [[nodiscard]] const std::vector<std::string>& numericColumns();
 
-/// `billboard soft=on`: the method and its settings that are axes, world's left out.
+/// `billboard soft=on`: the method and its settings that are axes, without the world's.
 [[nodiscard]] std::string variantLabel(const RunGroup& group, const ReportCell& cell);
-/// `speed=20 particles=500`: the world's.
+/// `speed=20 particles=500`: the world's settings.
 [[nodiscard]] std::string worldLabel(const RunGroup& group, const ReportCell& cell);
 
 }  // namespace dustbench::bench

@@ -17,14 +17,14 @@ namespace {
 
 struct ShownPicture {
     pictures::Image picture;
-    std::optional<Plane> difference;  ///< from the exact picture; none: there is none for this run
+    std::optional<Plane> difference;  ///< from the exact picture; empty if this run has none
     std::string caption;
 };
 
 struct Moment {
     std::string frame, timeSeconds;
     pictures::Image reference;
-    std::vector<ShownPicture> pictures;  ///< one a run
+    std::vector<ShownPicture> pictures;  ///< one per run
 };
 
 std::string captionOf(const files::CsvTable& metrics, std::size_t row) {
@@ -43,7 +43,7 @@ files::CsvTable metricsOf(const ResultsFolder& results, const SheetRun& run) {
     return files::CsvTable::parseFile(results.runFolder(run.runId) / "metrics.csv");
 }
 
-/// The rows of metrics.csv that stand for pictures; others are of the popping stretch alone.
+/// The rows of metrics.csv for frames with pictures; the others belong only to the popping stretch.
 std::vector<std::size_t> rowsWithPicture(const files::CsvTable& metrics) {
     std::vector<std::size_t> rows;
     for (std::size_t row = 0; row < metrics.rows(); ++row)

@@ -1,6 +1,7 @@
-// The contact sheet of runs: rows are moments; columns the exact picture, each method's, and where they differ from it.
+// The contact sheet of runs: rows are moments; columns are the exact picture, each method's picture, and its
+// difference.
 //
-// A method with a simulation of its own has no exact picture: it is shown as it is.
+// A method with its own simulation has no exact picture: only its picture is shown.
 #pragma once
 
 #include <span>
@@ -14,12 +15,12 @@ namespace dustbench::bench {
 
 struct SheetRun {
     std::string runId;
-    std::string label;   ///< heads its column
+    std::string label;   ///< heading of its column
     bool judged = true;  ///< against the exact pictures
 };
 
-/// Reads what the runs left in `results`; all are of one world and the same moments, and one of them at least is
-/// judged. Throws InputError where a picture is missing or cannot be read.
+/// Reads the pictures of the runs in `results`. All runs are of one world and the same moments, and at least one is
+/// judged. Throws InputError if a picture is missing or cannot be read.
 [[nodiscard]] ContactSheet sideBySideSheet(const ResultsFolder& results, std::span<const SheetRun> runs,
                                            const std::string& title);
 

@@ -11,7 +11,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Traces of compression stay below what a screen shows; numbers come from the EXR files.
+/// Compression artefacts stay below visibility; metrics use the EXR files.
 constexpr int jpegQuality = 80;
 
 /// Red, green and blue of each pixel, as the file has them.
@@ -36,7 +36,7 @@ SmallPicture makeSmall(const std::filesystem::path& png) {
     std::ifstream stream(png, std::ios::binary);
     SmallPicture small{"image/png", {std::istreambuf_iterator<char>(stream), {}}, picture.width, picture.height};
     std::vector<std::uint8_t> jpeg;
-    // Where there is no JPEG, there is the file itself.
+    // If JPEG encoding fails, the original file is used.
     if (library.encodeJpeg(picture.width, picture.height, colourBytes(picture), jpegQuality, jpeg).empty() &&
         jpeg.size() < small.bytes.size()) {
         small.mediaType = "image/jpeg";

@@ -1,4 +1,4 @@
-// A picture file made small for a page.
+// Compresses a picture file for the page.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ struct SmallPicture {
     int width = 0, height = 0;
 };
 
-/// The file as it is, or as JPEG where that is smaller. Throws InputError where it cannot be read.
+/// The file as it is, or as JPEG if that is smaller. Throws InputError if it cannot be read.
 [[nodiscard]] SmallPicture makeSmall(const std::filesystem::path& png);
 
 }  // namespace dustbench::bench

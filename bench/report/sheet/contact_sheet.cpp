@@ -32,7 +32,7 @@ class SheetImage {
     }
 
     void drawPicture(const pictures::Image& picture, const SheetBox& box) {
-        // Before, so that what is far above white does not spill; after, for what rounding leaves beyond 0 and 1.
+        // Before resampling, so that values far above white do not spread; after, to clamp rounding errors.
         const pictures::Image shown = asShown(resampled(asShown(picture), box.width, box.height));
         for (int y = 0; y < box.height; ++y) std::copy_n(&shown.at(0, y), box.width, &at(box.x, box.y + y));
     }
@@ -63,7 +63,7 @@ class SheetImage {
     [[nodiscard]] pictures::Image take() { return std::move(image_); }
 
  private:
-    /// Mixed as the display has them, not in linear light, in which dark letters on white come out thin.
+    /// Blended in display-encoded values; in linear light dark letters on white look thin.
     void drawInk(const Plane& coverage, int left, int top) {
         for (int y = 0; y < coverage.height; ++y)
             for (int x = 0; x < coverage.width; ++x) {

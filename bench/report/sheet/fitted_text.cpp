@@ -9,7 +9,7 @@
 namespace dustbench::bench {
 namespace {
 
-/// Longer text is cut before anything is measured: no sheet has room for it.
+/// Longer text is cut before measuring: no sheet has room for it.
 constexpr std::size_t maximumLetters = 500;
 constexpr std::string_view cutMark = "...";
 
@@ -30,7 +30,7 @@ bool isContinuation(char byte) {
     return (static_cast<unsigned char>(byte) & 0xC0u) == 0x80u;
 }
 
-/// The spelling of the letter beyond ASCII that `text` begins with, and how many bytes it takes.
+/// The transliteration of the non-ASCII character at the start of `text`, and its length in bytes.
 std::pair<std::string_view, std::size_t> spelled(std::string_view text) {
     for (const auto& [letter, spelling] : spellings)
         if (text.starts_with(letter)) return {spelling, letter.size()};
@@ -49,7 +49,7 @@ int widestOf(const std::vector<std::string>& lines, const Font& font) {
     return widest;
 }
 
-/// Two lines, and how wide the space is that they were broken at.
+/// Two lines, and the width of the space at which they were broken.
 struct Break {
     std::vector<std::string> lines;
     std::size_t spaces = 0;
@@ -79,7 +79,7 @@ std::string cutLine(const std::string& line, int widthPixels, const Font& font) 
     return line.substr(0, kept) + std::string(cutMark);
 }
 
-/// In smaller letters, until they fit or cannot become smaller.
+/// Shrinks the letters until the lines fit or the minimum size is reached.
 FittedText shrunk(std::vector<std::string> lines, int widthPixels, Font font) {
     const int minimum = std::min(font.pixels, minimumFontPixels);
     int widest = widestOf(lines, font);

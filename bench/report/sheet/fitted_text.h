@@ -1,7 +1,7 @@
-// Text made to fit a width: in one line, else in two, else in two of smaller letters, else cut.
+// Fits text to a width: in one line, else in two, else in two with smaller letters, else truncated.
 //
-// Letters are ASCII's. A few others that captions are likely to have are spelled with them (`×` is `x`, `–` is `-`,
-// `…` is `...`), all further ones become `?`.
+// Characters are ASCII. A few others that are likely in captions are transliterated (`×` to `x`, `–` to `-`, `…` to
+// `...`); all others become `?`.
 // Units: pixels. Threads: pure.
 #pragma once
 
@@ -13,30 +13,30 @@
 
 namespace dustbench::bench {
 
-/// Letters shrink to this, and not further.
+/// Minimum size to which letters shrink.
 inline constexpr int minimumFontPixels = 8;
 
 struct FittedText {
-    std::vector<std::string> lines;  ///< none for text without letters, two at most
+    std::vector<std::string> lines;  ///< at most two; none for empty text
     Font font;
 
     [[nodiscard]] int width() const;   ///< of the widest line's ink
-    [[nodiscard]] int height() const;  ///< of the lines with what is between them, whatever their letters
+    [[nodiscard]] int height() const;  ///< of the lines with the space between them, independent of their letters
 };
 
-/// From the top of a line to that of the next.
+/// Distance between the tops of consecutive lines.
 [[nodiscard]] int linePitch(const Font& font);
 
-/// `font` has the size that is wanted. Lines are broken between words, where there is more than one space if that fits,
-/// then so that they are as even as can be. A line that does not fit at the minimum size ends in `...`.
+/// `font` has the preferred size. Lines are broken between words, preferably at more than one space, then as evenly as
+/// possible. A line that does not fit at the minimum size ends in `...`.
 [[nodiscard]] FittedText fitText(std::string_view text, int widthPixels, const Font& font);
 
-/// Texts that stand for the same kind of thing, in letters of one size. One that needs less than two thirds of the size
-/// wanted does not take the others along.
+/// Fits texts of the same kind in letters of one size. A text that needs less than two thirds of the preferred size
+/// does not shrink the others.
 [[nodiscard]] std::vector<FittedText> fitAlike(const std::vector<std::string>& texts, int widthPixels,
                                                const Font& font);
 
-/// The text as it will be drawn: in ASCII, without spaces at its ends; tabs and ends of lines are spaces.
+/// The text as drawn: ASCII, trimmed; tabs and line ends become spaces.
 [[nodiscard]] std::string drawableText(std::string_view text);
 
 }  // namespace dustbench::bench

@@ -1,6 +1,6 @@
-// Lettering and resampling, by OpenImageIO.
+// Draws text and resamples images, with OpenImageIO.
 //
-// Text is ASCII. (OpenImageIO 2.4 takes other letters of UTF-8 for wrong ones: `…` comes out as `&`.)
+// Text is ASCII. (OpenImageIO 2.4 decodes other UTF-8 characters wrongly: `…` becomes `&`.)
 // Units: pixels. Threads: pure.
 #pragma once
 
@@ -12,25 +12,25 @@
 
 namespace dustbench::bench {
 
-/// A font's name, or its file, and the height that it is designed on.
+/// A font's name or file, and its nominal height.
 struct Font {
     std::string name;
     int pixels = 0;
 };
 
-/// What a line's ink lies within, seen from the pen's start on the baseline; y runs down.
+/// Bounding box of a line's ink, relative to the pen's start on the baseline; y runs down.
 using InkExtent = pictures::InkBox;
 
-/// All zero for text without ink. Throws InputError where there is no such font.
+/// All zero for text without ink. Throws InputError if the font does not exist.
 [[nodiscard]] InkExtent inkExtent(const std::string& line, const Font& font);
-/// The same for any line of ASCII, above and below the baseline alone.
+/// Vertical extent of any line of ASCII text.
 [[nodiscard]] InkExtent lineExtent(const Font& font);
 
-/// Which share of each pixel is covered: 0..1. The plane is as large as inkExtent() says.
+/// Covered share of each pixel: 0..1. The plane has the size given by inkExtent().
 [[nodiscard]] Plane inkCoverage(const std::string& line, const Font& font);
 
-/// The image at another size, filtered in linear light by a Blackman-Harris window: it has no negative lobes, so that
-/// edges get no halos and no value leaves the image's own range. At its own size the image is returned as it is.
+/// The image at another size, filtered in linear light with a Blackman–Harris window. It has no negative lobes, so
+/// edges get no halos and values stay within the image's range. At its own size the image is returned unchanged.
 [[nodiscard]] pictures::Image resampled(const pictures::Image& image, int width, int height);
 
 }  // namespace dustbench::bench

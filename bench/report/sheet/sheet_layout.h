@@ -1,4 +1,4 @@
-// Where everything of a contact sheet goes.
+// Computes the layout of a contact sheet.
 //
 // Units: pixels. Frame: boxes from their upper left corner, y down. Boxes do not overlap and lie within the sheet.
 // Threads: pure.
@@ -24,7 +24,7 @@ struct SheetBox {
 enum class TextAlign { left, centre };
 
 struct PlacedText {
-    SheetBox box;  ///< as wide as the text may be; all of its ink is inside
+    SheetBox box;  ///< maximum width of the text; all its ink is inside
     FittedText text;
     TextAlign align = TextAlign::left;
 };
@@ -41,7 +41,7 @@ struct SheetLayout {
     std::optional<SheetBox> bar;  ///< of the scale
 };
 
-/// Throws as drawSheet() does. Looks at the pictures' sizes, not at their pixels.
+/// Throws as drawSheet() does. Uses the sizes of the pictures, not their pixels.
 [[nodiscard]] SheetLayout layOut(const ContactSheet& sheet, const SheetStyle& style);
 
 /// `contact sheet, row 2 ("frame 48"), column 3 ("billboard")`: for messages.
