@@ -131,7 +131,7 @@ TEST_F(Merge, RefusesTwoResultsOfOneRun) {
                                        HasSubstr("a/runs"), HasSubstr("b/runs")));
     (void)mergeInto(folder_ / "out", {a});
     EXPECT_THAT(refusal({b}), HasSubstr("two different results"));
-    // Cut on its way here.
+    // Truncated during copying.
     const fs::path c = results("c", {1});
     write(runFolder(c, 1) / "frames.csv", "fra");
     EXPECT_THAT(refusal({c}), HasSubstr("two different results"));

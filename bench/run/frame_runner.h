@@ -39,7 +39,7 @@ class FrameRunner {
     void verifiedStep(std::int64_t index);
     /// One step of the world and of the method, as in a frame but without drawing. For exports.
     void updateOnly(std::int64_t index);
-    /// One frame as it is measured; recorded where `index` is 0 or more.
+    /// One measured frame; recorded if `index` is 0 or more.
     void frame(std::int64_t index);
     /// Waits for all frames in flight and completes their records.
     void drain();

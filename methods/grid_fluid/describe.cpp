@@ -1,4 +1,4 @@
-// What the method declares, and how its parameters change what a fluid's file says.
+// Declares the method, and applies its parameters to the setup from a fluid's file.
 #include <algorithm>
 
 #include "methods/contract/errors.h"
@@ -27,7 +27,7 @@ std::vector<std::string> fluidNames() {
 
 void override(const ParameterValues& values, const char* name, float& value) {
     if (const double given = values.real(name); given >= 0) value = static_cast<float>(given);
-    // Between "as the file says" and 0 there is nothing to mean.
+    // Values between "as in the file" and 0 have no meaning.
     else if (given != asTheFileSays)
         throw InputError(std::string("parameter ") + name + ": got " + std::to_string(given) +
                          ", allowed: 0 or more, or -1: as the fluid's file says");

@@ -8,7 +8,7 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-/// Mean of `value(i)` over particles as many as matter.
+/// Mean of `value(i)` over a sufficient sample of the particles.
 template <typename Value>
 double sampledMean(const Puffs& dust, const Value& value) {
     constexpr std::size_t enough = 4096;

@@ -1,19 +1,20 @@
-// How much dust the wheels raise: as much optical mass as the shared dust gains, on average, by its births.
+// Rate at which the wheels raise dust: the optical mass that the shared dust gains, on average, by its births.
 //
-// Each puff that was born in a step brings the mean mass of a puff of the shared cloud at that moment; the fluid's
-// density decays by 1/mean lifetime a second. Both clouds then hold the same: births·lifetime·mean mass, as far as the
-// fluid's box reaches. Units: m² (∫ extinction dV). Threads: pure.
+// Each puff born in a step adds the mean mass of a puff of the shared cloud at that moment; the fluid's density decays
+// at 1/mean lifetime per second. Both clouds then hold the same mass, births·lifetime·mean mass, within the fluid's
+// box.
+// Units: m² (∫ extinction dV). Threads: pure.
 #pragma once
 
 #include "methods/contract/volume.h"
 
 namespace dustbench::grid_fluid {
 
-/// Of a cloud's puffs: a seeded sample would do, every n-th is taken where there are many.
+/// Mean mass of a cloud's puffs. In large clouds only every n-th puff is used.
 [[nodiscard]] double meanPuffMassSquareMetres(const Puffs& dust);
-/// Mean time that a puff lives; 0 of an empty cloud.
+/// Mean lifetime of a puff; 0 for an empty cloud.
 [[nodiscard]] double meanLifetimeSeconds(const Puffs& dust);
-/// How many were born within the last step.
+/// Number of puffs born within the last step.
 [[nodiscard]] std::size_t bornWithin(const Puffs& dust, double stepSeconds);
 
 }  // namespace dustbench::grid_fluid

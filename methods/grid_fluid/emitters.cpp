@@ -37,7 +37,7 @@ Emitters::Emitters(const std::vector<SourceSetup>& setups, const scene::Scene& s
     }
 }
 
-/// Evenly by area: a share of it picks the triangle, two more numbers the place in it.
+/// Uniform by area: one number picks the triangle, two more the position in it.
 void Emitters::scatterOver(const SourceSetup& setup, const scene::Scene& scene) {
     std::vector<std::string> known;
     known.reserve(scene.solids.size());

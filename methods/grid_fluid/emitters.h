@@ -1,7 +1,7 @@
-// Turns what a fluid's file says of its sources into balls in the world, moment by moment.
+// Converts the sources of a fluid's file into balls in the world, step by step.
 //
-// Units: SI. Frame: world. Threads: one at a time. Source: Senger2009, 4.3: a sinusoid in time, and chance.
-// Departs: chance is drawn for each ball and step from Philox, and each ball swings in a phase of its own.
+// Units: SI. Frame: world. Threads: one at a time. Source: Senger2009, 4.3: a sinusoid in time with a random factor.
+// Departs: the random factor is drawn for each ball and step from Philox, and each ball has its own phase.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,19 @@ namespace dustbench::grid_fluid {
 
 class Emitters {
  public:
-    /// Throws InputError where the scene lacks what a source sits on.
+    /// Throws InputError if the scene lacks the object that a source is attached to.
     Emitters(const std::vector<SourceSetup>& setups, const scene::Scene& scene, std::uint64_t seed);
 
-    /// Of this moment; `dustM2` is the optical mass that all wheels together raise in `stepSeconds`.
+    /// The sources at this step; `dustM2` is the optical mass that all wheels together raise in `stepSeconds`.
     [[nodiscard]] std::span<const flow::FluidSource> at(const scene::SceneState& state, std::int64_t step,
                                                         double stepSeconds, double dustM2);
 
  private:
-    /// A ball that stays where it is.
+    /// A stationary ball.
     struct Ball {
         glm::dvec3 centre;
         const SourceSetup* setup;
-        float phase;  ///< of its swing, in turns
+        float phase;  ///< of its oscillation, in turns
     };
     void scatterOver(const SourceSetup& setup, const scene::Scene& scene);
     void addWheels(const SourceSetup& setup, const scene::SceneState& state, double stepSeconds, double dustM2);

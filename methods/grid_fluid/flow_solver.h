@@ -1,4 +1,4 @@
-// Where the method has its fluid solved: on the CPU or on the GPU.
+// Creates the method's fluid solver, on the CPU or on the GPU.
 #pragma once
 
 #include <memory>
@@ -9,12 +9,12 @@
 namespace dustbench::grid_fluid {
 
 enum class SolverBackend {
-    automatic,  ///< the GPU where OpenGL has one, and the picture is made there as well
+    automatic,  ///< the GPU if OpenGL uses one and the picture is drawn there as well
     cpu,
     openGl,
 };
 
-/// `device` and `ledger` must outlive it. Throws InputError where the box or the settings make no sense.
+/// `device` and `ledger` must outlive it. Throws InputError for an invalid box or settings.
 [[nodiscard]] std::unique_ptr<flow::Solver> makeFlowSolver(const flow::FluidSettings& settings, bool onGpu,
                                                            gpu::Device& device, MemoryLedger& ledger);
 

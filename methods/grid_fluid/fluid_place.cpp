@@ -6,7 +6,7 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-/// A scroll moves all of the box; it waits until it is worth that.
+/// A scroll moves the whole box, so it waits until it is worthwhile.
 constexpr int minimumCells = 4;
 
 }  // namespace
@@ -25,7 +25,7 @@ glm::dvec3 wantedOrigin(const FluidSetup& setup, const flow::FluidBox& box, cons
 glm::ivec3 dueScroll(const flow::FluidBox& box, const glm::dvec3& wantedOrigin) {
     const glm::dvec3 cells = glm::round((wantedOrigin - box.originMetres) / box.spacingMetres);
     if (std::max({std::abs(cells.x), std::abs(cells.y), std::abs(cells.z)}) < minimumCells) return glm::ivec3(0);
-    // A jump of the vehicle beyond all of the box empties it, however far.
+    // A jump of the vehicle beyond the whole box empties it, however far it is.
     const glm::dvec3 maximum(1e6);
     return {glm::clamp(cells, -maximum, maximum)};
 }

@@ -1,5 +1,5 @@
-// Where a fluid's box stands: still, or along with the vehicle by whole cells, so that its lattice stays fixed in the
-// world.
+// Position of a fluid's box: stationary, or following the vehicle by whole cells, so that its lattice stays fixed in
+// the world.
 //
 // Units: metres. Frame: world. Threads: pure.
 #pragma once
@@ -12,12 +12,12 @@
 
 namespace dustbench::grid_fluid {
 
-/// The minimum corner where it is wanted, on the lattice of the box. A box that follows keeps its vehicle near the end
-/// that it drives towards; its floor is the ground where that is level.
+/// The desired minimum corner, on the lattice of the box. A following box keeps its vehicle near the end towards which
+/// it drives; its floor is the ground if the ground is level.
 [[nodiscard]] glm::dvec3 wantedOrigin(const FluidSetup& setup, const flow::FluidBox& box, const scene::Terrain& terrain,
                                       const scene::VehicleState& vehicle);
 
-/// By how many cells the box must move: not before some are due along an axis, then by all of them.
+/// Number of cells to move the box: zero until a minimum distance along an axis is reached, then the whole distance.
 [[nodiscard]] glm::ivec3 dueScroll(const flow::FluidBox& box, const glm::dvec3& wantedOrigin);
 
 }  // namespace dustbench::grid_fluid

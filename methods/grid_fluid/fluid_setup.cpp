@@ -10,7 +10,7 @@ namespace {
 
 using files::TomlReader;
 
-constexpr double far = 1e5;  ///< metres: the largest coordinate that a file may give
+constexpr double far = 1e5;  ///< metres: the maximum coordinate in a file
 
 float number(TomlReader& table, const char* key, double minimum, double maximum, float initial) {
     return static_cast<float>(table.number(key, minimum, maximum, static_cast<double>(initial)));

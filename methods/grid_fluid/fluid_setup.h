@@ -1,4 +1,4 @@
-// What a fluid is: its box, what drives it, where it comes from and how it looks. Plain data, from data/fluids.
+// The setup of a fluid: box, forces, sources and appearance. Plain data, from data/fluids.
 //
 // Units: SI, radians. Colours: linear RGB.
 #pragma once
@@ -17,13 +17,13 @@ namespace dustbench::grid_fluid {
 
 enum class SourceAt {
     point,   ///< a ball in the world
-    solid,   ///< balls all over the surface of one of the scene's solids
-    wheels,  ///< where each of the vehicle's wheels touches the ground
+    solid,   ///< balls distributed over the surface of one of the scene's solids
+    wheels,  ///< at the contact point of each of the vehicle's wheels
 };
 inline constexpr Choices<SourceAt> sourcePlaces{
     {"point", SourceAt::point}, {"solid", SourceAt::solid}, {"wheels", SourceAt::wheels}};
 
-/// Strength at the centre; it swings with time: (1 − swing) + swing·(½ + ½ sin), times 1 ± chance.
+/// Strength at the centre; it oscillates in time: (1 − swing) + swing·(½ + ½ sin), times a random factor 1 ± chance.
 struct SourceSetup {
     SourceAt at = SourceAt::point;
     glm::dvec3 centreMetres{0};
@@ -36,25 +36,25 @@ struct SourceSetup {
     glm::vec3 velocity{0};  ///< m/s; of wheels: ahead, up, right
     float velocityPerSecond = 0;
     float swing = 0, swingSeconds = 1, chance = 0;
-    // Of wheels: their dust is that of the shared cloud, see dust_mass.h.
-    float speedShare = 0;  ///< of the vehicle's, on top of |velocity| along it
+    // For wheels only; the amount of dust follows the shared cloud, see dust_mass.h.
+    float speedShare = 0;  ///< share of the vehicle's speed, added to |velocity| along it
     float inherit = 0;     ///< share of the wheel's own velocity
 };
 
 struct FluidLook {
-    double extinctionPerMetre = 1;    ///< of a density of 1
-    std::optional<glm::vec3> albedo;  ///< none: the scene's dust
-    int shadowCells = 0;              ///< blocks of the light volume; 0: the sun shines through
-    std::filesystem::path fire;       ///< transfer function of the reaction; empty: nothing burns
+    double extinctionPerMetre = 1;    ///< at a density of 1
+    std::optional<glm::vec3> albedo;  ///< empty: the scene's dust
+    int shadowCells = 0;              ///< blocks of the light volume; 0: no shadows
+    std::filesystem::path fire;       ///< transfer function of the reaction; empty: no fire
 };
 
 struct FluidSetup {
     std::string name, description;
     bool followsVehicle = false;
-    glm::dvec3 middleMetres{0};  ///< of the floor, where the box stands still
+    glm::dvec3 middleMetres{0};  ///< centre of the floor, for a stationary box
     double lengthMetres = 12.8;  ///< of the box along x; the cells are cubes
-    double aheadMetres = 5;      ///< of the vehicle's rear axle, of a box that follows it
-    double belowMetres = 0;      ///< how far the box reaches below the vehicle on ground that is not level
+    double aheadMetres = 5;      ///< distance ahead of the vehicle's rear axle, for a following box
+    double belowMetres = 0;      ///< depth of the box below the vehicle on uneven ground
     flow::ForceSettings forces;
     bool noSlip = false;
     bool keepsDensity = false;

@@ -36,7 +36,7 @@ void FluidSolids::addGround(const flow::FluidBox& box) {
             const glm::dvec3 place = box.originMetres + glm::dvec3(i + 0.5, 0, k + 0.5) * box.spacingMetres;
             const auto height =
                 static_cast<double>(scene_.terrain.heightAt(static_cast<float>(place.x), static_cast<float>(place.z)));
-            // Cells whose middle is below the ground.
+            // Cells whose centre is below the ground.
             const double below = std::round((height - place.y) / box.spacingMetres);
             const int end = static_cast<int>(std::clamp(below, 0.0, static_cast<double>(box.cells.y)));
             for (int j = 0; j < end; ++j) cells_.set(i, j, k, still);

@@ -1,4 +1,4 @@
-// The solids that the air flows around: the scene's, the vehicle with its wheels, and the ground.
+// The solids that the air flows around: the scene's solids, the vehicle with its wheels, and the ground.
 //
 // Units: SI. Frame: world. Owns: a byte for each cell. Threads: one at a time.
 #pragma once
@@ -17,7 +17,7 @@ class FluidSolids {
     /// `scene` must outlive it.
     FluidSolids(const scene::Scene& scene, glm::ivec3 cells, MemoryAccount& account);
 
-    /// As they stand at this moment, for a box that stands where it does. Valid until the next call.
+    /// Voxelises the solids at their current poses into the box at its current position. Valid until the next call.
     [[nodiscard]] flow::SolidMask voxelise(const flow::FluidBox& box, const scene::SceneState& state);
     [[nodiscard]] std::span<const std::uint8_t> bodies() const { return cells_.bodies(); }
 

@@ -15,9 +15,9 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-/// Beyond this the flow is no longer one: a step carries the air across most of a box.
+/// Above this the result is no longer a flow: a step carries the air across most of a box.
 constexpr float maximumCellsPerStep = 100;
-/// A vehicle this far from the box moves none of its cells.
+/// A vehicle this far from the box affects none of its cells.
 constexpr double vehicleReachMetres = 8;
 
 bool vehicleIsNear(const flow::FluidBox& box, const scene::SceneState& state) {
@@ -27,7 +27,7 @@ bool vehicleIsNear(const flow::FluidBox& box, const scene::SceneState& state) {
     return glm::distance(place, nearest) < vehicleReachMetres;
 }
 
-/// Whether the fluid is solved on the GPU, for a picture that is made where it says.
+/// Whether the fluid is solved on the GPU, given where the picture is drawn.
 bool isSolvedOnGpu(SolverBackend wanted, raycast::Backend picture, const gpu::Device& device) {
     if (wanted != SolverBackend::automatic) return wanted == SolverBackend::openGl;
     return picture != raycast::Backend::cpu && !device.isSoftware();

@@ -1,7 +1,7 @@
-// Smoke, fire and dust that flow: an Eulerian solver in a box, whose density is ray cast into the scene.
+// Smoke, fire and dust as a fluid: an Eulerian solver in a box, whose density is rendered by ray casting.
 //
-// The box may follow the vehicle; solids, the vehicle and the ground are voxelised each step. Its wheels raise as much
-// dust as the shared cloud has (dust_mass.h).
+// The box may follow the vehicle; solids, the vehicle and the ground are voxelised each step. The wheels raise as much
+// dust as the shared cloud gains (dust_mass.h).
 //
 // Source: Senger2009, 4 (after Crane2007). Departs: reports/decisions/0006-fluid-grid.md.
 #pragma once
@@ -21,17 +21,17 @@ namespace dustbench::grid_fluid {
 
 struct GridFluidSettings {
     FluidSetup setup;
-    flow::FluidSettings solver;  ///< its box without a place
+    flow::FluidSettings solver;  ///< its box has no position yet
     SolverBackend solverBackend = SolverBackend::cpu;
     int framesPerStep = 1;
     raycast::RaycastSettings picture;
 };
 
-/// How wild the flow has been: the maximum of all steps so far.
+/// Maxima over all steps so far.
 struct FlowExtremes {
     double speedMetresPerSecond = 0;
     double cellsPerStep = 0;       ///< the Courant number
-    double divergencePerStep = 0;  ///< the share of its volume that a cell gained in a step
+    double divergencePerStep = 0;  ///< maximum relative volume gain of a cell in a step
 };
 
 class GridFluid final : public Method {
@@ -53,7 +53,7 @@ class GridFluid final : public Method {
 
  private:
     void simulate(const Frame& frame);
-    /// Of the shared dust's optical mass; empty where the box does not follow it.
+    /// Optical mass of the fluid relative to that of the shared dust; empty if the box does not follow the vehicle.
     [[nodiscard]] std::optional<double> massKept(const Puffs& dust) const;
     void placeSolids(const scene::SceneState& state);
     void requireSourcesInside(const scene::SceneState& state);
@@ -62,13 +62,13 @@ class GridFluid final : public Method {
     GridFluidSettings settings_;
     const scene::Scene* scene_ = nullptr;
     MemoryLedger ledger_;
-    LedgerVector<float> density_, reaction_;         ///< as the picture wants them
-    gpu::Texture densityTexture_, reactionTexture_;  ///< the same where they stay on the GPU
+    LedgerVector<float> density_, reaction_;         ///< for the ray caster
+    gpu::Texture densityTexture_, reactionTexture_;  ///< the same if they stay on the GPU
     std::unique_ptr<flow::Solver> solver_;
     std::optional<FluidSolids> solids_;
     std::optional<Emitters> emitters_;
     std::optional<raycast::GridRaycast> picture_;
-    bool solidsStandStill_ = false;  ///< and are known to the solver
+    bool solidsStandStill_ = false;  ///< and the solver already has them
     int framesDue_ = 0;
     double secondsDue_ = 0, dustDueM2_ = 0;
     std::int64_t steps_ = 0;

@@ -1,7 +1,7 @@
-// Which cells of a grid lie inside closed meshes, by rays along x through the middles of each row of cells.
+// Finds the cells of a grid inside closed meshes, by rays along x through the centres of each row of cells.
 //
-// A ray counts the surfaces that it goes in and out through, from both of its ends; inside is what both counts say, so
-// that meshes may overlap, and panels that lie open on a surface do no harm.
+// A ray counts the surfaces that it enters and leaves, from both of its ends; a cell is inside if both counts agree, so
+// meshes may overlap, and open panels on a surface do no harm.
 // Units: cells. Owns: a byte for each cell, booked. Threads: one writer.
 // Source: Crane2007, 30.2.4. Departs: rays by row instead of slices by the GPU's stencil.
 #pragma once
@@ -21,22 +21,22 @@ class MeshCells {
     MeshCells(glm::ivec3 cells, MemoryAccount& account);
 
     void clear();
-    /// Cells whose middle is inside the mesh get `body`, over what was there. `toCells` brings the mesh's positions
-    /// into cells from the minimum corner of the grid.
+    /// Sets cells whose centre is inside the mesh to `body`, overwriting previous values. `toCells` transforms the
+    /// mesh's positions to cell units from the minimum corner of the grid.
     void add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uint8_t body);
-    /// Cell by cell, for what is no mesh.
+    /// Sets one cell, for shapes that are not meshes.
     void set(int i, int j, int k, std::uint8_t body) { bodies_[index(i, j, k)] = body; }
 
-    /// A number for each cell, x fastest; 0 where nothing is.
+    /// A number for each cell, x fastest; 0: no body.
     [[nodiscard]] std::span<const std::uint8_t> bodies() const { return bodies_; }
     [[nodiscard]] glm::ivec3 cells() const { return cells_; }
 
  private:
-    /// Where a row's ray meets a surface.
+    /// Intersection of a row's ray with a surface.
     struct Crossing {
         std::uint32_t row;
         float x;
-        int inwards;  ///< 1 in, −1 out
+        int inwards;  ///< 1 entering, −1 leaving
     };
     [[nodiscard]] std::size_t index(int i, int j, int k) const {
         return (static_cast<std::size_t>(k) * static_cast<std::size_t>(cells_.y) + static_cast<std::size_t>(j)) *

@@ -34,7 +34,7 @@ flow::FluidSettings settingsOf(const ObstacleSettings& settings) {
     return solver;
 }
 
-/// 1 in the cells whose middles lie in the ball.
+/// 1 in the cells whose centres lie in the ball.
 std::vector<std::uint8_t> ballAt(const glm::dvec3& centre, double ballRadius) {
     std::vector<std::uint8_t> inside;
     for (int k = 0; k < cells.z; ++k)
@@ -46,7 +46,8 @@ std::vector<std::uint8_t> ballAt(const glm::dvec3& centre, double ballRadius) {
     return inside;
 }
 
-/// Of what the undisturbed stream, as the ball sees it, carries into the cells up to two edges from the ball.
+/// Swallowed share of what the undisturbed stream, as seen from the ball, carries into the cells up to two edges from
+/// the ball.
 double shareSwallowed(const flow::FluidSolver& solver, const glm::dvec3& centre, const glm::vec3& ballVelocity) {
     const std::vector<std::uint8_t> near = ballAt(centre, radius + 2 * edge);
     const auto isNear = [&](const glm::ivec3& cell) {

@@ -1,4 +1,4 @@
-// How much of a stream an obstacle swallows, and what of its smoke gets inside (claim R29).
+// Measures how much of a stream an obstacle swallows, and how much of its smoke gets inside (claim R29).
 //
 // Units: metres, seconds. Threads: the current oneTBB arena; the same at any number of them. Source: Senger2009, 4.1.3.
 #pragma once
@@ -8,20 +8,19 @@
 
 namespace dustbench::grid_fluid::obstacles {
 
-/// A ball in a stream of 1 m/s with smoke in it, for a second.
+/// A ball in a stream of 1 m/s with smoke, for one second.
 struct ObstacleSettings {
     flow::PressureMethod pressure = flow::PressureMethod::multigrid;
-    int jacobiSweeps = 6;           ///< as many as the demo takes that the paper goes back to
+    int jacobiSweeps = 6;           ///< as in the demo on which the paper is based
     float ballMetresPerSecond = 0;  ///< against the stream
-    bool isSolid = true;            ///< false: there is nothing where it is
+    bool isSolid = true;            ///< false: no obstacle
 };
 
-/// The worst of all steps.
+/// Maxima over all steps.
 struct ObstacleReport {
-    /// What flows into a surface two cells around the obstacle and not out of it, as a share of what the undisturbed
-    /// stream would carry into it.
+    /// Net inflow through a surface two cells around the obstacle, relative to the inflow of the undisturbed stream.
     double swallowed = 0;
-    /// The maximum density within the obstacle, as a share of the maximum around it.
+    /// The maximum density within the obstacle, relative to the maximum around it.
     double smokeInside = 0;
 };
 
@@ -29,7 +28,7 @@ struct ObstacleReport {
 
 /// The experiment `obstacles`, with the pressure solved to its tolerance (`_multigrid`) and by the paper's sweeps
 /// (`_jacobi`):
-///     swallowed_rest_…, swallowed_moving_…    of a ball at rest, and of one that comes towards the stream at half its
+///     swallowed_rest_…, swallowed_moving_…    of a ball at rest, and of one that moves against the stream at half its
 ///                                             speed
 ///     smoke_inside                            the maximum of all four
 [[nodiscard]] ExperimentInfo describe();

@@ -32,7 +32,7 @@ scene::View viewOf(const Sight& sight) {
     return view;
 }
 
-/// Along a ray of length 1 from the eye to the ball; infinite where it misses.
+/// Distance along a ray of length 1 from the eye to the ball; infinite if it misses.
 double distanceToBall(const Sight& sight, const glm::dvec3& ray) {
     constexpr double never = std::numeric_limits<double>::infinity();
     if (!sight.ball) return never;
@@ -42,7 +42,7 @@ double distanceToBall(const Sight& sight, const glm::dvec3& ray) {
     return root >= 0 && -b > std::sqrt(root) ? -b - std::sqrt(root) : never;
 }
 
-/// What of the ray lies within the box, up to a distance.
+/// Length of the ray within the box, up to a distance.
 double lengthWithin(const glm::dvec3& eye, const glm::dvec3& ray, double end) {
     double start = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -53,7 +53,7 @@ double lengthWithin(const glm::dvec3& eye, const glm::dvec3& ray, double end) {
     return std::max(end - start, 0.0);
 }
 
-/// What the ball leaves in the depth buffer: reversed depths, rows from the bottom.
+/// The depth buffer of the ball: reversed depths, rows from the bottom.
 std::vector<float> depthsOf(const Sight& sight, const scene::View& view) {
     const glm::dvec3 forward = glm::normalize(sight.along);
     std::vector<float> depths;

@@ -1,5 +1,5 @@
-// Whether solids hide a volume and a camera within it sees it as they should: the ray caster against the exact picture
-// of a homogeneous box (claim R32).
+// Checks that solids hide a volume correctly and that a camera inside it sees it correctly: the ray caster against the
+// exact picture of a homogeneous box (claim R32).
 //
 // Units: metres. Threads: that of the device. Source: Senger2009, 4.2.2 and 4.3.1.
 #pragma once
@@ -24,8 +24,8 @@ struct Sight {
     std::optional<Ball> ball;
 };
 
-/// The maximum |α − (1 − e^(−σl))| of all pixels; l: what of a pixel's ray lies within the box, from the eye to the
-/// ball.
+/// The maximum |α − (1 − e^(−σl))| over all pixels; l is the length of a pixel's ray within the box, from the eye to
+/// the ball.
 [[nodiscard]] double maximumSightError(gpu::Device& device, const raycast::RaycastSettings& settings,
                                        const std::vector<Sight>& sights);
 

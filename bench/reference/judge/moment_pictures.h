@@ -26,8 +26,8 @@ struct DrawnMoment {
 
 /// The exact pictures.
 struct ExactMoment {
-    pictures::Image layer;              ///< empty if not requested
-    pictures::Image layerWithoutScene;  ///< empty where it was not asked for
+    pictures::Image layer;              ///< of the particles themselves
+    pictures::Image layerWithoutScene;  ///< empty if not requested
     pictures::Image continuum;          ///< of 64 times as many particles; empty if not requested
 };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr int slabsAtATime = 4;
 constexpr std::size_t rowsInABlock = 8;
 
-/// Writes two lanes too many, which the next record of the row, or its ghost, will overwrite.
+/// Writes two extra lanes, which the next record of the row, or its ghost, will overwrite.
 [[gnu::always_inline]] inline void storeRecord(float* record, const Float8& value) {
     store(record, value);
 }
@@ -28,11 +28,11 @@ struct Advection::Pass {
     const std::uint8_t* fluid;
     AdvectionRule rule;
     float cellsPerSpeed;
-    int reach;  ///< slabs that a look-up along z may touch, on either side
+    int reach;  ///< slabs that a sample along z may touch, on either side
     RecordView field, window;
 };
 
-/// Where the air of a row's cells comes from.
+/// Departure points of a row's cells.
 struct Advection::KeptRow {
     float* x = nullptr;
     std::size_t pitch = 0;
@@ -53,14 +53,14 @@ Advection::KeptRow Advection::keptRow(int j, int k) {
     return {places_.data() + row * 3 * keptPitch_, keptPitch_};
 }
 
-/// The paths of a row's cells, by the midpoint rule: x₋ = x − Δt·u(x − ½Δt·u(x)), and what lies at their ends.
+/// The paths of a row's cells, by the midpoint rule: x₋ = x − Δt·u(x − ½Δt·u(x)), and the samples at their ends.
 void Advection::predict(const Pass& pass, int firstSlab, int lastSlab) {
     const bool corrected = pass.rule.scheme == AdvectionScheme::macCormack;
     const auto nx = static_cast<std::size_t>(layout_.nx), ny = static_cast<std::size_t>(layout_.ny);
     const float step = pass.cellsPerSpeed;
     struct Strip {
         CornerStrip<false> corners;
-        /// What is found halfway; only the velocities are wanted.
+        /// Samples at the midpoint; only the velocities are used.
         alignas(64) std::array<float, (stripCells + 1) * lanes> halfway{};
     };
     const auto predictStrip = [&](std::size_t first, std::size_t count, int j, int k, Strip& strip) {
@@ -68,7 +68,7 @@ void Advection::predict(const Pass& pass, int firstSlab, int lastSlab) {
         const std::size_t at = layout_.at(0, j, k) + first, there = corrected ? inWindow(at) : at;
         const float* own = pass.from.cell(at);
         const std::uint8_t* fluid = pass.fluid + at;
-        // Back from the centres of sixteen cells, no farther than to the outermost ghost cells.
+        // Back from the centres of sixteen cells, clamped to the outermost ghost cells.
         const auto back = [&](std::size_t i, float steps, const Triples& velocities) {
             const auto from = [&](const Float16& centres, const Float16& velocity, int cells) {
                 const Float16 place = fused(everywhere<Float16>(-steps), velocity, centres);
@@ -100,7 +100,7 @@ void Advection::predict(const Pass& pass, int firstSlab, int lastSlab) {
         });
 }
 
-/// φ = φ̂ + ½(φⁿ − φ̃), where φ̃ is the first guess looked up along the path ahead.
+/// φ = φ̂ + ½(φⁿ − φ̃), where φ̃ is the first guess sampled along the forward path.
 void Advection::correct(const Pass& pass, int firstSlab, int lastSlab) {
     const auto nx = static_cast<std::size_t>(layout_.nx), ny = static_cast<std::size_t>(layout_.ny);
     const auto twoSteps = everywhere<Float16>(2 * pass.cellsPerSpeed);
@@ -114,7 +114,7 @@ void Advection::correct(const Pass& pass, int firstSlab, int lastSlab) {
         const std::size_t at = layout_.at(0, j, k) + firstCell, there = inWindow(at);
         const float* own = pass.from.cell(at);
         const float* guess = window_.data() + there * lanes;
-        // There is no first guess beyond the outermost centres, nor farther along z than the flow is fast.
+        // The first guess is undefined beyond the outermost centres, and farther along z than the maximum speed.
         const int slabs = pass.reach - 1, lowest = std::max(1, k + 1 - slabs);
         const std::array<int, 3> low{1, 1, lowest}, high{layout_.nx, layout_.ny, std::min(layout_.nz, k + 1 + slabs)};
         const KeptRow kept = keptRow(j, k);
@@ -187,7 +187,7 @@ void Advection::advect(const CellField& from, CellField& to, const std::uint8_t*
                     {from.data(), static_cast<int>(slabs)},
                     {window_.data(), static_cast<int>(held)}};
     if (!corrected) return predict(pass, 0, nz);
-    // A slab is corrected as soon as all that its paths can reach is there.
+    // A slab is corrected as soon as all slabs that its paths can reach are available.
     int done = 0;
     for (int first = 0; first < nz; first += slabsAtATime) {
         const int last = std::min(first + slabsAtATime, nz);

@@ -1,4 +1,4 @@
-// Fills the ghost cells: what lies beyond the six sides of the box.
+// Fills the ghost cells, which represent the outside of the six sides of the box.
 //
 // Units: metres per second. Threads: rows in blocks.
 #pragma once
@@ -14,13 +14,13 @@ struct GhostRule {
     bool noSlip = false;
 };
 
-/// What the ghosts of a wall are for.
+/// Purpose of the ghosts of a wall.
 enum class GhostUse {
-    lookUp,  ///< the flow mirrored, so that it vanishes halfway, at the wall
-    faces,   ///< the speed of the wall itself, like that of a solid
+    lookUp,  ///< mirrored flow, which vanishes halfway, at the wall
+    faces,   ///< the speed of the wall itself, as for a solid
 };
 
-/// Beyond an open side the flow goes on, in clear air; beyond an inflow there is the wind, in clear air.
+/// Beyond an open side the flow is extended, in clear air; beyond an inflow there is the wind, in clear air.
 void fillGhosts(CellField& cells, const CellLayout& layout, const GhostRule& rule, GhostUse use);
 
 }  // namespace dustbench::grid_fluid::flow

@@ -1,6 +1,6 @@
-// The state of a fluid: one record of six floats for each cell, so that one look-up brings all that is transported.
+// The state of a fluid: one record of six floats per cell, so that one sample reads all transported quantities.
 //
-// A layer of ghost cells lies around the box and holds what is beyond its sides. Cells count from −1 to n.
+// A layer of ghost cells around the box represents the outside of its sides. Cell indices run from −1 to n.
 // Units: metres per second, kelvin above the air. Owns its memory, booked on a ledger.
 #pragma once
 
@@ -12,11 +12,11 @@
 
 namespace dustbench::grid_fluid::flow {
 
-/// What a cell holds, by place in its record.
+/// The quantities of a cell, by index in its record.
 enum Lane : std::uint8_t { velocityX, velocityY, velocityZ, density, temperature, reaction };
 inline constexpr std::size_t lanes = 6;
 
-/// Where cells lie in memory: x runs fastest, with one ghost cell at either end of each axis.
+/// Memory layout of cells: x runs fastest, with one ghost cell at either end of each axis.
 struct CellLayout {
     explicit CellLayout(glm::ivec3 cells)
         : nx(cells.x),
@@ -35,10 +35,10 @@ struct CellLayout {
     [[nodiscard]] int rowK(std::size_t r) const { return static_cast<int>(r / static_cast<std::size_t>(ny)); }
 
     int nx, ny, nz;
-    std::size_t row, slab;  ///< cells from one row, or slab, to the next
+    std::size_t row, slab;  ///< stride of a row and of a slab, in cells
 };
 
-/// Records of all cells. Sixteen are read at once: the memory goes on that far behind the last.
+/// Records of all cells. Kernels read sixteen at once, so the memory is padded behind the last.
 class CellField {
  public:
     static constexpr std::size_t floatsBehind = 16 * lanes;

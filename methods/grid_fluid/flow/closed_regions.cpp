@@ -8,7 +8,7 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-/// Sets that are merged; each is named by its minimum member.
+/// Disjoint sets (union-find); each is identified by its minimum member.
 class Sets {
  public:
     explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }

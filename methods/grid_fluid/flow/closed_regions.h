@@ -1,5 +1,5 @@
-// Finds regions of fluid from which nothing can flow out: their pressure is known but for a constant, and their net
-// inflow cannot be made to vanish.
+// Finds closed regions of fluid, which have no outflow: their pressure is determined only up to a constant, and their
+// net inflow cannot be removed.
 //
 // Threads: pure.
 #pragma once
@@ -11,12 +11,12 @@
 
 namespace dustbench::grid_fluid::flow {
 
-/// Cells of fluid side by side along x.
+/// Adjacent cells of fluid along x.
 struct Run {
     int i, end, j, k;
 };
 
-/// The runs of each closed region, in the order of cells. Empty: all fluid is connected to an open side.
+/// The runs of each closed region, in the order of cells. Empty if all fluid is connected to an open side.
 [[nodiscard]] std::vector<std::vector<Run>> closedRegions(const CellLayout& layout, const std::uint8_t* conductance);
 
 }  // namespace dustbench::grid_fluid::flow

@@ -1,6 +1,6 @@
-// Exact solution of a small symmetric system that may be singular: the bottom of the pressure's hierarchy.
+// Solves a small symmetric, possibly singular system exactly: the coarsest level of the pressure's hierarchy.
 //
-// Source: GolubVanLoan2013, 4.1.2 (LDLᵀ). Departs: a pivot that vanishes fixes its unknown at 0.
+// Source: GolubVanLoan2013, 4.1.2 (LDLᵀ). Departs: a vanishing pivot fixes its unknown at 0.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace dustbench::grid_fluid::flow {
 
 class DenseSolver {
  public:
-    /// `matrix` of n×n, row after row, symmetric and not negative.
+    /// `matrix` is n×n, row by row, symmetric and positive semidefinite.
     void factor(std::vector<double> matrix, std::size_t n);
     /// In place.
     void solve(std::vector<double>& x) const;

@@ -9,7 +9,7 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-/// A wrong balance, as where all of a cloud leaves at once, must not show.
+/// Limits the effect of a wrong balance, for example if the whole cloud leaves at once.
 constexpr double maximumChange = 0.1;
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Keeps the density of a cloud as a whole: no advection by look-up conserves it, and thin clouds gain most.
+// Conserves the total density of a cloud: semi-Lagrangian advection does not, and thin clouds gain most.
 //
-// Units: sums over cells of fluid. Threads: slabs by themselves, added up in order.
+// Units: sums over cells of fluid. Threads: slabs independently, summed in order.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 namespace dustbench::grid_fluid::flow {
 
 [[nodiscard]] double densityTotal(const CellField& cells, const CellLayout& layout);
-/// What flows out through open sides within a step, by the speeds of the outermost cells. `cellsPerSpeed` = Δt/h.
+/// Density that leaves through open sides within a step, by the speeds of the outermost cells. `cellsPerSpeed` = Δt/h.
 [[nodiscard]] double densityLeaving(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
                                     float cellsPerSpeed);
-/// Scales all densities so that they add up to `total`, by a tenth at most.
+/// Scales all densities so that they sum to `total`, by at most a tenth.
 void scaleDensity(CellField& cells, const CellLayout& layout, double total);
 
 }  // namespace dustbench::grid_fluid::flow

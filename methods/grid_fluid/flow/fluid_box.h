@@ -1,6 +1,6 @@
-// The box that a fluid fills: its cells, and what lies beyond each of its six sides.
+// The box of a fluid: its cells and the boundary condition of each of its six sides.
 //
-// Units: metres. Frame: world; cell (0, 0, 0) is the one at the minimum corner.
+// Units: metres. Frame: world; cell (0, 0, 0) is at the minimum corner.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 namespace dustbench::grid_fluid::flow {
 
 enum class Side {
-    open,    ///< pressure 0; what flows in is clear air
-    wall,    ///< nothing passes
-    inflow,  ///< the wind blows through, at its own speed
+    open,    ///< pressure 0; inflow is clear air
+    wall,    ///< impermeable
+    inflow,  ///< the wind blows through at its own speed
 };
 
 /// In the order −x, +x, −y, +y, −z, +z.
@@ -21,7 +21,7 @@ using Sides = std::array<Side, 6>;
 inline constexpr Sides openOverFloor{Side::open, Side::open, Side::wall, Side::open, Side::open, Side::open};
 inline constexpr Sides closed{Side::wall, Side::wall, Side::wall, Side::wall, Side::wall, Side::wall};
 
-/// Sides through which a wind enters become inflows; walls stay walls.
+/// Changes sides through which the wind enters to inflows; walls stay walls.
 [[nodiscard]] Sides withWind(Sides sides, const glm::vec3& windMetresPerSecond);
 
 struct FluidBox {
@@ -35,7 +35,7 @@ struct FluidBox {
     }
 };
 
-/// Throws InputError where a box has too few or too many cells, no spacing, or no place.
+/// Throws InputError for a box with too few or too many cells, or an invalid spacing or position.
 void check(const FluidBox& box);
 
 }  // namespace dustbench::grid_fluid::flow

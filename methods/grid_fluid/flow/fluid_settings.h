@@ -1,4 +1,4 @@
-// How a fluid behaves, and what one step of it came to; the same for every backend.
+// The settings of a fluid, and the report of one step; the same for every backend.
 //
 // Units: SI. Frame: world.
 #pragma once
@@ -13,37 +13,37 @@ namespace dustbench::grid_fluid::flow {
 struct FluidSettings {
     FluidBox box;
     Sides sides = openOverFloor;
-    glm::vec3 windMetresPerSecond{0};  ///< blows in where a side is an inflow, and everywhere at first
-    bool noSlip = false;               ///< solids and walls hold the air; else it glides along them
+    glm::vec3 windMetresPerSecond{0};  ///< enters at inflow sides, and is the initial velocity everywhere
+    bool noSlip = false;               ///< solids and walls hold the air; otherwise it slides along them
     AdvectionRule advection;
-    /// Takes off, everywhere in proportion, what advection makes of nothing, and gives back what it loses and what
-    /// solids cover.
+    /// Removes density created by advection, in proportion everywhere, and restores density lost by advection or
+    /// covered by solids.
     bool keepsDensity = false;
     ForceSettings forces;
     PressureMethod pressure = PressureMethod::multigrid;
     int jacobiSweeps = 20;
     int maximumCycles = 30;
-    /// Multigrid stops where |∇·u|·Δt, the share of its volume that a cell gains in a step, is nowhere greater.
+    /// Multigrid stops when |∇·u|·Δt, the relative volume gain of a cell in a step, is at most this everywhere.
     float divergencePerStep = 0.001f;
 };
 
-/// What a step came to.
+/// The results of a step.
 struct StepReport {
     PressureResult pressure;      ///< in metres per second
-    float divergencePerStep = 0;  ///< |∇·u|·Δt, the maximum of all cells, as the pressure solver leaves it
-    float cellsPerStep = 0;       ///< the maximum speed along an axis, in cells: the CFL number
+    float divergencePerStep = 0;  ///< maximum of |∇·u|·Δt over all cells, after the pressure solver
+    float cellsPerStep = 0;       ///< maximum speed along an axis, in cells per step: the CFL number
 };
 
-/// Throws InputError where the box or the settings make no sense.
+/// Throws InputError for an invalid box or invalid settings.
 void check(const FluidSettings& settings);
-/// The same for a step: it must be longer than 0.
+/// The same for a step, which must be longer than 0.
 void checkStep(double stepSeconds);
-/// Into how many explicit steps viscosity divides one. Throws InputError where they are too many.
+/// The number of explicit steps into which viscosity divides one step. Throws InputError if there are too many.
 [[nodiscard]] int diffusionParts(const FluidSettings& settings, float stepSeconds);
 
-/// Of all records of a state, ghosts aside.
+/// Hash of all records of a state, without ghosts.
 [[nodiscard]] std::uint64_t hashOf(const CellField& cells, const CellLayout& layout);
-/// Says which number of a state got lost, after how many steps, and where.
+/// Throws with the quantity that is no longer finite, the number of steps and the cell.
 [[noreturn]] void throwLostNumber(const CellField& cells, const CellLayout& layout, std::int64_t steps);
 
 }  // namespace dustbench::grid_fluid::flow

@@ -22,10 +22,10 @@ namespace {
 
 const FluidSettings& checked(const FluidSettings& settings) {
     check(settings);
-    // All of it at once, so that nothing is half allocated.
+    // Checked for all memory at once, so that nothing is half allocated.
     const CellLayout layout(settings.box.cells);
     requireAvailable("grid of the fluid", layout.padded() * (2 * lanes * sizeof(float) + 1));
-    // Look-ups (sampling.h) count floats in 32 bits.
+    // Sampling (sampling.h) uses 32-bit indices of floats.
     constexpr std::size_t maximumCells = std::numeric_limits<std::int32_t>::max() / lanes;
     if (layout.padded() > maximumCells)
         throw InputError("grid: got " + std::to_string(layout.padded()) +
@@ -172,7 +172,7 @@ void FluidSolver::findMaximumSpeeds() {
             for (std::size_t v = 0; v < vectors; ++v) {
                 const auto value = load<Float16>(values + v * 16);
                 ofBlock[v] = atLeast(ofBlock[v], value < 0 ? -value : value);
-                zero[v] += value * 0.0f;  // not 0 where a number is lost
+                zero[v] += value * 0.0f;  // not 0 if a value is not finite
             }
         };
         const std::size_t floats = static_cast<std::size_t>(layout_.nx) * lanes;
@@ -219,7 +219,7 @@ void FluidSolver::scroll(glm::ivec3 by) {
     });
     cells_.swap(spare_);
     settings_.box.originMetres += glm::dvec3(by) * settings_.box.spacingMetres;
-    lastStepSeconds_ = 0;  // where its pressure was, the cells are now
+    lastStepSeconds_ = 0;  // the memory of its pressure now holds the cells
     setSolids({});
 }
 

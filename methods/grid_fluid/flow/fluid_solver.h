@@ -1,6 +1,6 @@
-// Smoke, fire and dust as a flow in a box: one step of the whole system.
+// Solves smoke, fire and dust as a flow in a box, step by step.
 //
-// A step carries everything along, adds sources and forces, and makes the flow free of divergence.
+// A step advects all quantities, adds sources and forces, and makes the flow divergence-free.
 // Units: SI. Frame: world. Owns all fields; memory is on the ledger. Threads: one caller; its loops use the current
 // arena, and no result depends on how many threads there are. Source: Crane2007, 30.2; Senger2009, 4.1. Departs: see
 // reports/decisions/0006-fluid-grid.md.
@@ -20,7 +20,7 @@ namespace dustbench::grid_fluid::flow {
 
 class FluidSolver final : public Solver {
  public:
-    /// Throws InputError where the box or the settings make no sense, or the machine has not enough memory.
+    /// Throws InputError for an invalid box or settings, or if there is not enough memory.
     FluidSolver(const FluidSettings& settings, MemoryLedger& ledger);
 
     void setSolids(const SolidMask& mask) override;
@@ -39,7 +39,7 @@ class FluidSolver final : public Solver {
 
     [[nodiscard]] const CellLayout& layout() const { return layout_; }
     [[nodiscard]] const CellField& cells() const { return cells_; }
-    /// To set the state by hand.
+    /// For setting the state directly.
     [[nodiscard]] CellField& changeCells() {
         speedsKnown_ = false;
         return cells_;
@@ -59,13 +59,13 @@ class FluidSolver final : public Solver {
     FluidSettings settings_;
     CellLayout layout_;
     PressureSolver pressure_;
-    CellField cells_, spare_;  ///< `spare_`: the state before; between, memory for forces and pressure
+    CellField cells_, spare_;  ///< `spare_`: the previous state; between steps, memory for forces and pressure
     SolidCells solids_;
     Advection advection_;
     Projection projection_;
     glm::vec3 maximumSpeeds_{0};
     bool speedsKnown_ = false;
-    double covered_ = 0;  ///< density that solids covered since the last step
+    double covered_ = 0;  ///< density covered by solids since the last step
     std::int64_t steps_ = 0;
     double lastStepSeconds_ = 0;
 };

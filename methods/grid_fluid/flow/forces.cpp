@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t rowsInABlock = 32;
 constexpr std::size_t maximumCells = 4096;
-/// Less is nothing: without this, fading smoke ends in numbers that the processor is slow with.
+/// Smaller values are set to 0: otherwise fading smoke becomes denormal numbers, which are slow.
 constexpr float nothing = 1e-18f;
 
 struct Curl {
@@ -33,7 +33,7 @@ struct ForceRows {
     std::array<float, maximumCells> x, y, z;
 };
 
-/// f = ε·h·(N × ω), N = ∇|ω| / |∇|ω||. Beyond the box |ω| goes on.
+/// f = ε·h·(N × ω), N = ∇|ω| / |∇|ω||. Beyond the box |ω| is extended.
 void confinementRow(const Curl& curl, const CellLayout& layout, int j, int k, float strength, ForceRows& force) {
     const auto nx = static_cast<std::size_t>(layout.nx), slab = nx * static_cast<std::size_t>(layout.ny);
     const std::size_t at = static_cast<std::size_t>(k) * slab + static_cast<std::size_t>(j) * nx;

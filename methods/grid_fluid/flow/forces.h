@@ -1,6 +1,6 @@
-// What acts on the flow within a step besides the pressure: buoyancy, vorticity confinement, decay, viscosity.
+// Forces and sinks within a step other than pressure: buoyancy, vorticity confinement, decay, viscosity.
 //
-// Units: SI; the temperature is that above the air, density and reaction have none of their own.
+// Units: SI; temperature is relative to the air; density and reaction are dimensionless.
 // Threads: rows in blocks.
 // Source: Fedkiw2001, Eq. 8 (buoyancy), Eq. 11 (confinement); Senger2009, Eq. 7 (reaction).
 // Departs: rates are per second, not per step; confinement is given per second, f = ε·h·(N × ω).
@@ -14,16 +14,16 @@
 namespace dustbench::grid_fluid::flow {
 
 struct ForceSettings {
-    float buoyancyPerKelvin = 0.1f;  ///< upward acceleration in m/s² for each kelvin
-    float weightPerDensity = 0;      ///< downward acceleration in m/s² for each unit of density
+    float buoyancyPerKelvin = 0.1f;  ///< upward acceleration in m/s² per kelvin
+    float weightPerDensity = 0;      ///< downward acceleration in m/s² per unit of density
     float confinementPerSecond = 0;  ///< ε
     float densityDecayPerSecond = 0;
     float coolingPerSecond = 0;
-    float reactionLossPerSecond = 0;  ///< k: taken off, not a share
+    float reactionLossPerSecond = 0;  ///< k: subtracted, not proportional
     float viscosityM2PerSecond = 0;   ///< ν
 };
 
-/// Applies all forces but viscosity over a step; `cells` with ghosts. `borrowed` holds `forceFloats` at least.
+/// Applies all forces except viscosity over a step; `cells` with ghosts. `borrowed` has at least `forceFloats` floats.
 void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
                  const ForceSettings& settings, float spacingMetres, float stepSeconds, std::span<float> borrowed);
 [[nodiscard]] std::size_t forceFloats(const CellLayout& layout);

@@ -1,4 +1,4 @@
-// What the kernels of the fluid do with all lanes at once, beside lanes/lanes.h. Private to them.
+// Vector operations of the fluid kernels in addition to lanes/lanes.h. Internal.
 #pragma once
 
 #ifdef __FMA__
@@ -24,14 +24,14 @@ using lanes::Int16;
 using lanes::load;
 using lanes::store;
 
-/// Whether one instruction works on a Float16.
+/// Whether one instruction processes a whole Float16.
 #ifdef __AVX512F__
 inline constexpr bool sixteenAtOnce = true;
 #else
 inline constexpr bool sixteenAtOnce = false;
 #endif
 
-/// Sixteen bytes as whole numbers.
+/// Sixteen bytes converted to integers.
 [[gnu::always_inline]] inline Int16 widened(const std::uint8_t* bytes) {
     Int16 numbers;
 #ifdef __AVX512F__
@@ -43,8 +43,8 @@ inline constexpr bool sixteenAtOnce = false;
     return numbers;
 }
 
-/// a·b + c, lane by lane, rounded once: where there is no instruction for it the same comes more slowly, so that no
-/// build has other results.
+/// a·b + c per lane, rounded once. Without a hardware instruction it is computed by a slower equivalent, so that all
+/// builds give the same results.
 template <typename Vector>
 [[gnu::always_inline]] inline Vector fused(const Vector& a, const Vector& b, const Vector& c) {
 #ifdef __AVX512F__

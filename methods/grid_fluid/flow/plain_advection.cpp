@@ -7,12 +7,12 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-/// φ, whose places count in cells from the centre of the first ghost cell.
+/// φ at positions in cells from the centre of the first ghost cell.
 struct Field {
     const CellLayout& layout;
     std::vector<PlainRecord> values;
 
-    /// `take(φ of a cell, weight)` for the eight cells around a place.
+    /// Calls `take(φ of a cell, weight)` for the eight cells around a position.
     template <typename Take>
     void around(glm::dvec3 x, const Take& take) const {
         const glm::ivec3 cell = glm::min(glm::ivec3(glm::floor(x)), glm::ivec3(layout.nx, layout.ny, layout.nz));
@@ -65,7 +65,7 @@ std::vector<PlainRecord> plainAdvection(const CellField& from, const CellLayout&
     if (rule.scheme == AdvectionScheme::semiLagrangian) return guess.values;
 
     std::vector<PlainRecord> result = guess.values;
-    // The first guess stays where a path leaves the box, or goes farther along z than the flow is fast.
+    // The first guess is kept if a path leaves the box, or goes farther along z than the maximum speed.
     const double maximumSlabs = std::ceil(dt * maximumSpeedZ) + 1;
     const auto leaves = [&](glm::dvec3 x) {
         return glm::any(glm::lessThan(x, glm::dvec3(1))) || glm::any(glm::greaterThan(x, last - 1.0));

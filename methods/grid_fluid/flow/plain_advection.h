@@ -1,6 +1,6 @@
-// Advection as its equations say it, in whole fields and double precision: what Advection is held against.
+// Plain advection in whole fields and double precision, the reference for Advection.
 //
-//     x₋ = x − Δt·u(x − ½Δt·u(x))        where the air of a cell comes from
+//     x₋ = x − Δt·u(x − ½Δt·u(x))        departure point of a cell
 //     φ̂(x) = φ(x₋)                        the first guess, all there is to the semi-Lagrangian scheme
 //     x₊ = x₋ + 2Δt·u(x)                  the path ahead, mirrored
 //     φ(x) ← φ̂(x) + ½(φ(x) − φ̂(x₊))      corrected, within the extrema of the eight cells around x₋
@@ -18,8 +18,8 @@ namespace dustbench::grid_fluid::flow {
 
 using PlainRecord = std::array<double, lanes>;
 
-/// The records of all padded cells after `cellsPerSpeed` = Δt/h, those that are no fluid as they were. Parameters as in
-/// Advection::advect.
+/// The records of all padded cells after `cellsPerSpeed` = Δt/h; cells that are not fluid are unchanged. Parameters as
+/// in Advection::advect.
 [[nodiscard]] std::vector<PlainRecord> plainAdvection(const CellField& from, const CellLayout& layout,
                                                       const std::uint8_t* fluid, AdvectionRule rule,
                                                       double cellsPerSpeed, double maximumSpeedZ);

@@ -1,9 +1,9 @@
-// The pressure's equation and the sweeps that solve it, cell by cell: what PressureSolver is held against.
+// The pressure equation and its sweeps, cell by cell: the reference for PressureSolver.
 //
 //     Σ w·(qₙ − q) = f        over the six faces of each cell of fluid
-//     q ← (Σ w·qₙ − f) / Σ w  what a sweep makes of it
+//     q ← (Σ w·qₙ − f) / Σ w  one sweep
 //
-// w is what the neighbour conducts; q is 0 in what is no fluid. In double precision.
+// w is the conductance of the neighbour; q is 0 outside the fluid. In double precision.
 // Units: see projection.h. Source: Trottenberg2001, 2.1 (the five-point star's Jacobi and red-black Gauss-Seidel, here
 // with seven points); Crane2007, 30.2.3.
 #pragma once
@@ -21,15 +21,15 @@ class PlainPressure {
     PlainPressure(const CellLayout& layout, const std::uint8_t* conductance, std::vector<double> f)
         : q(layout.padded(), 0.0), layout_(layout), conductance_(conductance), f_(std::move(f)) {}
 
-    /// Red cells and then black ones, which step so many times as far.
+    /// Red cells, then black cells; the step of black cells is scaled by `relaxation`.
     void sweepGaussSeidel(double relaxation = 1);
-    /// All cells from what their neighbours were.
+    /// Updates all cells from their neighbours' previous values.
     void sweepJacobi();
-    /// f − Σ w·(qₙ − q), 0 in what is no fluid.
+    /// f − Σ w·(qₙ − q), 0 outside the fluid.
     [[nodiscard]] double residual(std::size_t at) const;
     [[nodiscard]] double maximumResidual() const;
 
-    std::vector<double> q;  ///< of all padded cells, 0 at first
+    std::vector<double> q;  ///< of all padded cells, initially 0
 
  private:
     [[nodiscard]] double solved(std::size_t at) const;

@@ -38,7 +38,7 @@ void split(const std::uint8_t* __restrict row, std::size_t half, std::uint8_t* _
 
 constexpr std::size_t fewCells = 4096;  ///< not worth a second thread
 
-/// One over the sum of a cell's weights, 0 where it is no fluid.
+/// Inverse of the sum of a cell's weights, 0 outside the fluid.
 class Reciprocals {
  public:
     [[gnu::always_inline]] Reciprocals() {
@@ -81,11 +81,11 @@ void PoissonLevel::build(const CellLayout& cells, const std::uint8_t* conductanc
         const auto nx = static_cast<std::size_t>(layout.nx);
         std::array<std::uint8_t, 4098> sums;
         sumsOfWeights(conductance + cells.at(0, j, k), cells, sums.data());
-        sums[nx] = 0;  // where the number of cells is odd
+        sums[nx] = 0;  // if the number of cells is odd
         const int first = (j + k) & 1;
         const std::size_t at = layout.at(j, k);
         split(sums.data(), layout.half, bytes_[first] + at, bytes_[1 - first] + at);
-        // The last sixteen cells may reach beyond the row's end, where nothing is solved.
+        // The last sixteen cells may extend beyond the row's end, where nothing is solved.
         const std::size_t beyond = (16 - layout.half % 16) % 16;
         for (int colour = 0; colour < 2; ++colour) {
             std::fill_n(bytes_[colour] + at + layout.half, beyond, std::uint8_t{0});
@@ -201,7 +201,7 @@ float PoissonLevel::rowResidual(int colour, int j, int k, float* out) const {
     const Around p = aroundRow(layout, pressure.colour[1 - colour], colour, j, k);
     const float* own = pressure.colour[colour] + at;
     const float* f = rightSide.colour[colour] + at;
-    // As integers, the magnitudes of floats have the same order, and what is not a number is the maximum.
+    // As integers, the magnitudes of floats have the same order, and NaN is above all.
     std::int32_t maximum = 0;
     const auto magnitude = [](float r) { return std::bit_cast<std::int32_t>(r) & 0x7fffffff; };
     if (finest) {

@@ -1,4 +1,4 @@
-// Loops over the rows of a split grid, and a row's neighbours and faces. Private to the pressure's kernels.
+// Loops over the rows of a split grid, and access to a row's neighbours and faces. Internal to the pressure kernels.
 //
 // Threads: rows in blocks.
 #pragma once
@@ -19,11 +19,11 @@ void forRows(const SplitLayout& layout, const Row& row) {
     });
 }
 
-/// Rows around that of one colour: x from the other colour of its own row, y and z from the rows beside it.
+/// Neighbours of a row of one colour: x from the other colour in the same row, y and z from the adjacent rows.
 struct Around {
     const float *here, *beside, *below, *above, *near, *far;
 
-    /// Of sixteen cells, each the sum over its six.
+    /// For sixteen cells, the sum over the six neighbours of each.
     [[gnu::always_inline]] [[nodiscard]] Float16 sixteen(std::size_t m) const {
         const auto at = [m](const float* row) { return load<Float16>(row + m); };
         return (at(here) + at(beside)) + (at(below) + at(above)) + (at(near) + at(far));
@@ -32,13 +32,13 @@ struct Around {
 
 [[nodiscard]] inline Around aroundRow(const SplitLayout& layout, const float* other, int colour, int j, int k) {
     const float* here = other + layout.at(j, k);
-    // Cells of this colour begin at i = 0 or at i = 1: their neighbours in x are numbers m − 1 and m, or m and m + 1.
+    // Cells of this colour begin at i = 0 or i = 1: their neighbours in x have indices m − 1 and m, or m and m + 1.
     const bool odd = ((colour + j + k) & 1) != 0;
     return {
         here, odd ? here + 1 : here - 1, here - layout.row, here + layout.row, here - layout.slab, here + layout.slab};
 }
 
-/// Weights of the six faces of a row's cells, in the order of what lies beyond them.
+/// Weights of the six faces of a row's cells, in the order of the neighbours.
 [[nodiscard]] inline Around facesOfRow(const SplitLayout& layout, const SplitField (&faces)[3], int colour, int j,
                                        int k) {
     const std::size_t at = layout.at(j, k);
@@ -49,7 +49,7 @@ struct Around {
     const float* otherY = faces[1].colour[1 - colour] + at;
     const float* ownZ = faces[2].colour[colour] + at;
     const float* otherZ = faces[2].colour[1 - colour] + at;
-    // An even cell's next is number m and its last m − 1; an odd cell's last is number m and its next m + 1.
+    // An even cell's next neighbour is m and its previous m − 1; an odd cell's previous is m and its next m + 1.
     return {odd ? other : own, odd ? own : other - 1, otherY - layout.row, ownY, otherZ - layout.slab, ownZ};
 }
 
@@ -59,7 +59,7 @@ template <typename Body>
     for (std::size_t m = 0; m < count; ++m) body(m);
 }
 
-/// `maximum` becomes at least `value`.
+/// Raises `maximum` to at least `value`.
 inline void raiseTo(std::atomic<float>& maximum, float value) {
     float seen = maximum.load(std::memory_order_relaxed);
     while (value > seen && !maximum.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {

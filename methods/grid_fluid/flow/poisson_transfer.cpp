@@ -1,4 +1,4 @@
-// Between one grid of the pressure's hierarchy and the next coarser one.
+// Transfer between a grid of the pressure's hierarchy and the next coarser one.
 #include <algorithm>
 #include <cstring>
 
@@ -137,7 +137,7 @@ void PoissonLevel::fillNatural(const std::uint8_t (&openSides)[6]) {
             minimum = std::min(minimum, evenSum[nx / 2]);
         }
         if (minimum <= 0) {
-            // What is solid all through goes along with the fluid beside it.
+            // Wholly solid cells take values from the adjacent fluid.
             for (int i = 0; i < nx; ++i) {
                 if (sum_.cell(layout, i, j, k) > 0) continue;
                 float sum = 0, found = 0;
@@ -180,7 +180,7 @@ void PoissonLevel::addToBlack(const PoissonLevel& coarse, int k) {
         float column[2050];
         loop(static_cast<std::size_t>(from.nx) + 2,
              [&](std::size_t m) { column[m] = nearest * a[m] + near * (b[m] + c[m]) + far * d[m]; });
-        // Black cells of columns 2m or 2m + 1: nearer to the coarse cell before, or to that behind.
+        // Black cells of columns 2m or 2m + 1: closer to the previous or to the next coarse cell.
         const bool odd = ((1 + j + k) & 1) != 0;
         const float* own = column + 1;
         const float* beside = odd ? column + 2 : column;

@@ -10,7 +10,7 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-constexpr std::size_t fewCells = 64;  ///< so many are solved exactly
+constexpr std::size_t fewCells = 64;  ///< systems up to this size are solved exactly
 
 /// The sweeps after one cycle, and those before the next.
 constexpr std::array relaxationsBetween = [] {
@@ -62,7 +62,7 @@ void PressureSolver::factorCoarsest() {
         for (int j = 0; j < at.ny; ++j)
             for (int i = 0; i < at.nx; ++i) {
                 const std::size_t own = number(i, j, k);
-                // In double, so that where nothing flows out it is a sum of the others but for 1e-16 of it.
+                // In double precision, so that in a closed region it is the sum of the other weights to within 1e-16.
                 const auto weight = [&](int axis, int x, int y, int z) {
                     return static_cast<double>(level.face(axis, x, y, z));
                 };
@@ -148,7 +148,7 @@ PressureResult PressureSolver::solve(const PressureRule& rule) {
     if (rule.method == PressureMethod::jacobi) {
         result = sweepJacobi(rule);
     } else {
-        // The sweeps after one cycle are those before the next: the residual that is restricted tells when to end.
+        // The sweeps after one cycle are those before the next: the restricted residual decides when to stop.
         PoissonLevel& coarse = *levels_[1];
         result.residual = level.smooth({.fromZero = true, .relaxations = relaxationsBefore, .restriction = &coarse});
         while (!(result.residual <= rule.tolerance) && result.cycles < rule.maximumCycles) {

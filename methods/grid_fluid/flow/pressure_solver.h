@@ -1,11 +1,10 @@
-// Solves for the pressure, by multigrid to a residual or by the paper's Jacobi sweeps.
+// Solves for the pressure, by multigrid down to a residual or by the paper's Jacobi sweeps.
 //
-// All of it lies in memory that somebody else lends for the time being; the operator is therefore built anew each step,
-// which moving solids ask for anyway.
-// Units: see projection.h. Threads: rows in blocks; the result does not depend on how many.
+// It works in memory borrowed from the caller for each step; the operator is therefore rebuilt each step, which moving
+// solids require anyway.
+// Units: see projection.h. Threads: rows in blocks; the result does not depend on their number.
 // Source: Trottenberg2001, 2.4 and 2.8 (cell-centred, red-black Gauss-Seidel); Crane2007, 30.2.3 (Jacobi).
-// Departs: a coarse face conducts the mean of the finer faces in it, so that solids thinner than a coarse cell still
-// count.
+// Departs: a coarse face conducts the mean of its finer faces, so that solids thinner than a coarse cell still count.
 #pragma once
 
 #include <memory>
@@ -25,24 +24,24 @@ struct PressureRule {
     PressureMethod method = PressureMethod::multigrid;
     int jacobiSweeps = 20;
     int maximumCycles = 30;    ///< of the multigrid
-    float tolerance = 0.001f;  ///< max residual, in the units of the right side
+    float tolerance = 0.001f;  ///< maximum residual, in the units of the right side
 };
 
 struct PressureResult {
     float residual = 0;     ///< max |f − Ap| at the end
     int cycles = 0;         ///< or sweeps
-    float unremovable = 0;  ///< maximum mean of f over a closed region, which no pressure can balance
+    float unremovable = 0;  ///< maximum absolute mean of f over a closed region, which no pressure can balance
 };
 
 class PressureSolver {
  public:
     PressureSolver(const CellLayout& layout, const Sides& sides);
 
-    /// How many floats it borrows.
+    /// Number of floats to borrow.
     [[nodiscard]] std::size_t floatsNeeded() const { return floatsNeeded_; }
     /// Borrows memory and builds the operator for these solids (SolidCells::conductance).
     void build(std::span<float> memory, const std::uint8_t* conductance);
-    /// To be filled in before `solve`: its right side. Afterwards it holds the pressure.
+    /// Fill in its right side before `solve`. Afterwards it holds the pressure.
     [[nodiscard]] PoissonLevel& finest() { return *levels_.front(); }
     [[nodiscard]] const PoissonLevel& finest() const { return *levels_.front(); }
     PressureResult solve(const PressureRule& rule);

@@ -105,7 +105,7 @@ struct Gradient {
           conductance(conducts),
           steps{1, static_cast<std::ptrdiff_t>(layout.row), static_cast<std::ptrdiff_t>(layout.slab)} {}
 
-    /// −h·∇q along an axis: the mean of what the cell's two faces change by.
+    /// −h·∇q along an axis: the mean of the changes of the cell's two faces.
     [[nodiscard]] float change(const Cell& cell, std::size_t axis) const {
         const auto q = [&](int offset) {
             return level.pressure.cell(level.layout, cell.i + (axis == 0 ? offset : 0),
@@ -117,7 +117,7 @@ struct Gradient {
         const float before = weight(-steps[axis]) * (q(-1) - q(0)), behind = weight(steps[axis]) * (q(0) - q(1));
         return 0.5f * (before + behind);
     }
-    /// Where a face across an axis is blocked, the mean of the two faces' speeds takes the place of the cell's own.
+    /// If a face across an axis is blocked, the mean of the two face speeds replaces the cell's own.
     [[nodiscard]] float speed(const CellField& cells, std::size_t at, std::size_t axis) const {
         const std::ptrdiff_t own = static_cast<std::ptrdiff_t>(at), step = steps[axis];
         if (conductance[own - step] != 0 && conductance[own + step] != 0) return cells.cell(at)[axis];
@@ -263,7 +263,7 @@ void Projection::findBesideBlocked(const CellField& cells, const CellLayout& lay
 
 void Projection::subtractGradient(CellField& cells, const CellLayout& layout, const SolidCells& solids,
                                   const PoissonLevel& finest) {
-    // First, while their neighbours still have the speeds of before.
+    // First, while the neighbours still have their previous velocities.
     findBesideBlocked(cells, layout, solids, finest);
     const Gradient gradient(layout, solids.conductance(), finest);
     forRowsInTiles<RowChanges>(layout, [&](int j, int k, RowChanges& changes) {

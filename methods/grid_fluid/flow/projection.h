@@ -1,10 +1,11 @@
-// Makes the flow free of divergence: gathers ∇·u over each cell's faces, and takes off the gradient of the pressure.
+// Makes the flow divergence-free: gathers ∇·u over each cell's faces and subtracts the gradient of the pressure.
 //
-// The speed of a face is the mean of its two cells', that of the solid where one is solid, the wind's at an inflow. It
-// is the speeds of faces that balance exactly; a cell takes the mean of what its two faces change by, and beside a face
-// that is blocked the mean of the speeds themselves. Units: the pressure is q = p·Δt/(ρ·h), in metres per second, so
-// that h·∇·u = Σ w·(qₙ − q) and u −= h·∇q. Threads: rows in blocks. Source: Crane2007, 30.2.4 (solids); Almgren1996, 2
-// (cells take the mean of their faces).
+// The speed of a face is the mean of its two cells', that of the solid if one is solid, or the wind's at an inflow.
+// Only the face speeds balance exactly; a cell changes by the mean of the changes of its two faces, and beside a
+// blocked face it takes the mean of the face speeds themselves. Units: the pressure is q = p·Δt/(ρ·h), in metres per
+// second, so that h·∇·u = Σ w·(qₙ − q) and u −= h·∇q.
+// Threads: rows in blocks.
+// Source: Crane2007, 30.2.4 (solids); Almgren1996, 2 (cells take the mean of their faces).
 #pragma once
 
 #include <span>
@@ -27,7 +28,7 @@ class Projection {
                           const PoissonLevel& finest);
 
  private:
-    /// What cells of fluid beside a face that conducts nothing will have.
+    /// Finds the new velocities of fluid cells beside a face that conducts nothing.
     void findBesideBlocked(const CellField& cells, const CellLayout& layout, const SolidCells& solids,
                            const PoissonLevel& finest);
 

@@ -1,5 +1,5 @@
-// Rows in tiles: what lies beside a row in y and in z is still in the cache when its neighbours come to it. Private to
-// the kernels.
+// Iterates over rows in tiles, so that adjacent rows in y and z are still cached when their neighbours are processed.
+// Internal to the kernels.
 //
 // Threads: tiles in parallel.
 #pragma once
@@ -12,10 +12,10 @@
 
 namespace dustbench::grid_fluid::flow {
 
-/// `row(j, k, scratch)` for every row of a box; a tile's rows share one `Scratch`, which begins as `Scratch{}`.
+/// Calls `row(j, k, scratch)` for every row of a box; the rows of a tile share one `Scratch`, initially `Scratch{}`.
 template <typename Scratch, typename Row>
 void forRowsInTiles(const CellLayout& layout, const Row& row) {
-    constexpr int side = 16;  // of rows 256 cells long, three slabs of a tile are a third of a megabyte
+    constexpr int side = 16;  // for rows of 256 cells, three slabs of a tile are a third of a megabyte
     const int tilesJ = (layout.ny + side - 1) / side, tilesK = (layout.nz + side - 1) / side;
     const auto tiles = static_cast<std::size_t>(tilesJ) * static_cast<std::size_t>(tilesK);
     parallel::forEachBlock(tiles, 1, [&](std::size_t tile, std::size_t) {

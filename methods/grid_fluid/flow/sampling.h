@@ -1,7 +1,7 @@
-// Trilinear look-up of whole records, for a strip of cells at a time. Private to the kernels.
+// Trilinear sampling of whole records, for a strip of cells at a time. Internal to the kernels.
 //
-// Where the look-ups of all cells begin comes first, sixteen cells in a vector; then cell by cell what is found there,
-// six quantities in a vector, so that many reads are in flight at once.
+// First the positions of all samples are computed, sixteen cells per vector; then the samples are read cell by cell,
+// six quantities per vector, so that many reads are in flight at once.
 // Frame: cells from the first ghost cell's centre, so that the centre of cell (i, j, k) is at (i + 1, j + 1, k + 1).
 #pragma once
 
@@ -15,15 +15,15 @@
 
 namespace dustbench::grid_fluid::flow {
 
-/// So many cells of a row are taken together.
+/// Number of cells of a row processed together.
 inline constexpr std::size_t stripCells = 64;
 
-/// The places of sixteen cells, or their velocities.
+/// Positions or velocities of sixteen cells.
 struct Triples {
     Float16 x, y, z;
 };
 
-/// What each of sixteen records begins with.
+/// The velocities at the beginning of each of sixteen records.
 [[gnu::always_inline]] inline Triples velocitiesOf(const float* records) {
     if constexpr (sixteenAtOnce) {
         const SixteenRecords all(records);
@@ -39,24 +39,24 @@ struct Triples {
     }
 }
 
-/// A field in memory: whole, or as a ring of slabs, in which slab k is number k mod `slabs`.
+/// A field in memory: whole, or as a ring of slabs, in which slab k has index k mod `slabs`.
 struct RecordView {
     const float* base;
     int slabs;
 };
 
-/// The eight cells around each place of a strip.
+/// The eight cells around each position of a strip.
 template <bool ring>
 class CornerStrip {
  public:
     CornerStrip(const RecordView& view, const CellLayout& layout)
         : view_(view), last_{layout.nx, layout.ny, layout.nz}, row_(layout.row * lanes), slab_(layout.slab * lanes) {}
 
-    /// Of a ring: slabs from here on will be looked at, no more than there are.
+    /// For a ring: samples will use slabs from here on, at most as many as the ring holds.
     void lookFrom(int slab) { shift_ = slab % view_.slabs - slab; }
 
-    /// `placesOf(i)`: the Triples of cells i to i + 15, up to the next multiple of sixteen. All that will be looked up
-    /// must lie within `0…last`, the centres of the outermost ghost cells.
+    /// `placesOf(i)`: the Triples of cells i to i + 15, up to the next multiple of sixteen. All sampled positions must
+    /// lie within `0…last`, the centres of the outermost ghost cells.
     template <typename PlacesOf>
     [[gnu::always_inline]] void find(std::size_t count, const PlacesOf& placesOf) {
         const int row = static_cast<int>(row_), slab = static_cast<int>(slab_);
@@ -73,7 +73,7 @@ class CornerStrip {
         }
     }
 
-    /// Looks up what was found, cell by cell. A copy of what it needs, so that it may stay in registers.
+    /// Reads the samples found, cell by cell. Copies what it needs, so that it can stay in registers.
     class Reader {
      public:
         explicit Reader(const CornerStrip& strip)
@@ -84,7 +84,7 @@ class CornerStrip {
               low_(strip.low_.data()),
               high_(strip.high_.data()) {}
 
-        /// Six quantities at place `i`, and two numbers that mean nothing.
+        /// Six quantities at position `i`, and two meaningless numbers.
         [[gnu::always_inline]] Float8 sample(std::size_t i) const {
             const float fx = fractions_[i], fy = fractions_[stripCells + i], fz = fractions_[2 * stripCells + i];
             const auto along = [&](const auto& c) { return mix(mix(c.a, c.b, fy), mix(c.c, c.d, fy), fz); };
@@ -95,7 +95,7 @@ class CornerStrip {
                 return mix(along(column<Float8>(i, 0)), along(column<Float8>(i, lanes)), fx);
             }
         }
-        /// Least and maximum value of the eight cells, quantity by quantity.
+        /// Minimum and maximum of the eight cells, per quantity.
         [[gnu::always_inline]] void extrema(std::size_t i, Float8& minimum, Float8& maximum) const {
             const auto minimumOf = [](const auto& c) { return atMost(atMost(c.a, c.b), atMost(c.c, c.d)); };
             const auto maximumOf = [](const auto& c) { return atLeast(atLeast(c.a, c.b), atLeast(c.c, c.d)); };
@@ -112,8 +112,8 @@ class CornerStrip {
         }
 
      private:
-        /// Four records of equal x, those of larger y second, of larger z last; in a Float16 each with its neighbour in
-        /// x, which lies beside it.
+        /// Four records of equal x: those of larger y second, of larger z last. In a Float16 each is together with its
+        /// neighbour in x, which is adjacent in memory.
         template <typename Vector>
         struct Column {
             Vector a, b, c, d;
@@ -138,7 +138,7 @@ class CornerStrip {
     };
 
  private:
-    /// Number of the cell before each place; how far beyond it the place lies is kept.
+    /// Index of the cell before each position; stores the fraction beyond it.
     template <std::size_t axis>
     [[gnu::always_inline]] Int16 cellAlong(const Float16& place, std::size_t i) {
         const Int16 cell = atMost(__builtin_convertvector(place, Int16), Int16{} + last_[axis]);

@@ -1,7 +1,8 @@
-// Sixteen records that lie one behind the other, and each of their quantities as a vector. Private to the kernels.
+// Transposes sixteen consecutive records into one vector per quantity. Internal to the kernels.
 //
-// Eight records are three vectors, in which every place belongs to a pair of quantities (0 and 1, 2 and 3, 4 and 5) in
-// just one of the three. So a pair of eight records is one blend of them, and a quantity one shuffle of two pairs.
+// Eight records are three vectors, in which every position belongs to a pair of quantities (0 and 1, 2 and 3, 4 and 5)
+// in exactly one of the three. So a pair of eight records is one blend of them, and a quantity one shuffle of two
+// pairs.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +50,7 @@ class SixteenRecords {
     }
 
  private:
-    /// Place by place, number `which(place)` of the 32 places of both.
+    /// Position `place` of the result is element `which(place)` of the 32 elements of both.
     template <typename Which>
     [[gnu::always_inline]] static Float16 shuffled(const Float16& a, const Float16& b, Which which) {
         return [&]<int... place>(std::integer_sequence<int, place...>) __attribute__((always_inline)) {
@@ -57,13 +58,13 @@ class SixteenRecords {
         }
         (std::make_integer_sequence<int, 16>{});
     }
-    /// From three vectors of which every place is wanted in one only: in the second where `inSecond(place)`, and so on.
+    /// Selects each position from one of three vectors: the second if `inSecond(place)`, and so on.
     template <typename Second, typename Third>
     [[gnu::always_inline]] static Float16 blended(const Float16& a, const Float16& b, const Float16& c, Second, Third) {
         const Float16 two = shuffled(a, b, [](int place) { return Second{}(place) ? 16 + place : place; });
         return shuffled(two, c, [](int place) { return Third{}(place) ? 16 + place : place; });
     }
-    /// The pair to which a place of vector 0, 1 or 2 of eight records belongs.
+    /// The pair to which a position of vector 0, 1 or 2 of eight records belongs.
     static constexpr int pairAt(int vector, int place) { return (16 * vector + place) % 6 / 2; }
 
     template <int number>
@@ -73,8 +74,8 @@ class SixteenRecords {
             v[0], v[1], v[2], [](int place) { return pairAt(1, place) == number; },
             [](int place) { return pairAt(2, place) == number; });
     }
-    /// The two quantities of a pair, of eight records, each at its place in one of three vectors. 3 is its own inverse
-    /// among eight.
+    /// The two quantities of a pair for eight records, each at its position in one of three vectors. 3 is its own
+    /// inverse modulo eight.
     template <int number, int half>
     [[gnu::always_inline]] static Float16 paired(const Quantities& q) {
         constexpr std::size_t first = 2 * std::size_t{number};
@@ -98,7 +99,7 @@ class SixteenRecords {
     std::array<Float16, lanes> vectors_;
 };
 
-/// Over a row's cells: `sixteenCells(first)` where so many of fluid follow each other, else `cell(i)` one by one.
+/// Iterates over a row's cells: `sixteenCells(first)` for sixteen consecutive fluid cells, else `cell(i)` one by one.
 template <typename SixteenCells, typename Cell>
 [[gnu::always_inline]] inline void forCells(const std::uint8_t* conductance, std::size_t cells,
                                             const SixteenCells& sixteenCells, const Cell& cell) {

@@ -1,4 +1,4 @@
-// Which cells are solid, how fast their surface moves, and what that means for the faces between cells.
+// The solid cells, the velocity of their surfaces, and the resulting conductance of faces between cells.
 //
 // Units: metres per second. Owns copies of what it is given. Threads: one writer.
 // Source: Crane2007, 30.2.4. Departs: inside or outside by cell; the solid's speed is kept in its cells.
@@ -19,21 +19,21 @@ class SolidCells {
  public:
     SolidCells(const CellLayout& layout, const Sides& sides, MemoryAccount& account);
 
-    /// Replaces all solids. The air that they leave has their speed, `cells` is told. Returns the density that they
-    /// cover and that is lost so, summed over cells. Throws InputError where sizes do not fit, a velocity is not
-    /// finite, or no fluid is left.
+    /// Replaces all solids. Uncovered air gets the solids' velocity, written to `cells`. Returns the density that is
+    /// lost because solids cover it, summed over cells. Throws InputError if sizes do not fit, a velocity is not
+    /// finite, or no fluid remains.
     double set(const SolidMask& mask, CellField& cells);
 
-    /// For each padded cell what a face between it and a cell of fluid conducts: 1 fluid, 2 air beyond an open side,
-    /// whose pressure is known half a cell away, 0 solids, walls and inflows.
+    /// For each padded cell, the conductance of a face between it and a fluid cell: 1 for fluid, 2 for air beyond an
+    /// open side, whose pressure is known half a cell away, 0 for solids, walls and inflows.
     [[nodiscard]] const std::uint8_t* conductance() const { return conductance_.data(); }
     /// Cells of fluid beside a face that conducts nothing.
     [[nodiscard]] std::span<const std::uint32_t> besideBlocked() const { return besideBlocked_; }
 
-    /// Gives the outermost cells of solids the mean of what flows beside them, so that a look-up near the surface does
-    /// not mix in the inside; velocity too where the surface is without friction.
+    /// Sets the outermost solid cells to the mean of the adjacent fluid, so that samples near the surface do not mix in
+    /// the inside; includes the velocity if the surface is frictionless.
     void extendInto(CellField& cells, bool slip) const;
-    /// Makes solid cells solid again: their own speed, nothing carried.
+    /// Restores solid cells: the solid's own velocity, no transported quantities.
     void restore(CellField& cells) const;
 
  private:

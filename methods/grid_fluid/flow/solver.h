@@ -1,4 +1,4 @@
-// What solves a fluid, step by step: the same for the CPU and for the GPU.
+// Interface of the fluid solvers on the CPU and on the GPU.
 //
 // Units: SI. Frame: world.
 #pragma once
@@ -25,28 +25,28 @@ class Solver {
  public:
     virtual ~Solver() = default;
 
-    /// From the next step on. The mask covers the box where it stands now.
+    /// Takes effect in the next step. The mask covers the box at its current position.
     virtual void setSolids(const SolidMask& mask) = 0;
-    /// Advances by a step. Throws SimulationError with step, field and cell where a number gets lost.
+    /// Advances by one step. Throws SimulationError with step, field and cell if a value is no longer finite.
     virtual StepReport step(double stepSeconds, std::span<const FluidSource> sources, const StageClock& clock) = 0;
-    /// Moves the box by whole cells; what is in them stays where it is in the world. The solids must be set anew.
+    /// Moves the box by whole cells; cell contents stay in place in the world. The solids must be set again.
     virtual void scroll(glm::ivec3 cells) = 0;
 
     [[nodiscard]] virtual const FluidBox& box() const = 0;
     [[nodiscard]] virtual std::int64_t steps() const = 0;
-    /// Of all records, ghosts aside (hashOf).
+    /// Hash of all records, without ghosts (hashOf).
     [[nodiscard]] virtual std::uint64_t stateHash() const = 0;
 
-    /// One of the numbers that cells hold, x fastest, without ghosts.
+    /// Copies one quantity of all cells, x fastest, without ghosts.
     virtual void gather(Lane lane, std::span<float> to) const = 0;
     /// Kinematic pressure p/ρ of the last step in m²/s², 0 in solids, in the same order.
     [[nodiscard]] virtual std::vector<float> pressuresM2PerS2() const = 0;
 
-    /// Whether the state lies on the GPU.
+    /// Whether the state is on the GPU.
     [[nodiscard]] virtual bool onGpu() const = 0;
-    /// One of the numbers that cells hold into an R32F texture of the box's cells; only `onGpu()`.
+    /// Copies one quantity of all cells into an R32F texture of the box's size; only if `onGpu()`.
     virtual void gather(Lane lane, const gpu::Texture& to) const = 0;
-    /// What lies on the GPU; the rest is on the ledger.
+    /// Memory on the GPU; the rest is on the ledger.
     [[nodiscard]] virtual MemoryReport gpuMemory() const = 0;
 };
 

@@ -16,7 +16,7 @@ SourceReach reachOf(const FluidSource& source, const FluidBox& box) {
     // A smaller one could fall between the cells.
     const double radiusCells = std::max(source.radiusMetres / box.spacingMetres, 0.5);
     reach.perRadius = static_cast<float>(1 / radiusCells);
-    // What lies outside the box has no cells; clamped first, so that far away is no overflow.
+    // Outside the box there are no cells; clamped first to avoid overflow for distant sources.
     const auto bound = [&](double cell, int axis) {
         return static_cast<int>(std::clamp(cell, -1.0, static_cast<double>(box.cells[axis])));
     };

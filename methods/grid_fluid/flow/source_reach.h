@@ -1,4 +1,4 @@
-// The cells that a source reaches, and what it adds to them in a step; the same for every backend.
+// The cells affected by a source, and its contribution to them in a step; the same for every backend.
 //
 // Units: cells, seconds. Threads: pure.
 #pragma once
@@ -9,8 +9,8 @@
 namespace dustbench::grid_fluid::flow {
 
 struct SourceReach {
-    glm::dvec3 centreCells{0};  ///< of cell (0, 0, 0) the middle is 0
-    float perRadius = 1;        ///< one over the radius, which is half a cell at least
+    glm::dvec3 centreCells{0};  ///< the centre of cell (0, 0, 0) is at 0
+    float perRadius = 1;        ///< inverse radius; the radius is at least half a cell
     glm::ivec3 first{0}, last{-1};
 
     [[nodiscard]] bool empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }

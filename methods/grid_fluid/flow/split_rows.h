@@ -1,7 +1,7 @@
-// How the pressure lies in memory: each row in two halves, the red cells and the black, as on a chess board.
+// Memory layout of the pressure: each row is split into its red and its black cells, as on a chess board.
 //
 // All neighbours of a red cell are black, so a sweep over one colour is a plain loop over whole vectors. Cell i of row
-// (j, k) has colour (i + j + k) mod 2 and is number i/2 of its half.
+// (j, k) has colour (i + j + k) mod 2 and index i/2 in its half.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ struct SplitLayout {
     [[nodiscard]] int rowJ(std::size_t r) const { return static_cast<int>(r % static_cast<std::size_t>(ny)); }
     [[nodiscard]] int rowK(std::size_t r) const { return static_cast<int>(r / static_cast<std::size_t>(ny)); }
     [[nodiscard]] std::size_t cells() const { return rows() * static_cast<std::size_t>(nx); }
-    /// So many rows make a block of work that is worth a thread.
+    /// Number of rows in a block of work that is worth a thread.
     [[nodiscard]] std::size_t rowsInABlock() const { return (std::size_t{4096} + half * 2 - 1) / (half * 2); }
 
     static constexpr std::size_t front = 16;
@@ -40,13 +40,13 @@ struct SplitLayout {
 struct SplitField {
     float* colour[2];
 
-    /// Cell i of row (j, k), ghosts included. For what is not worth a loop of its own.
+    /// Cell i of row (j, k), ghosts included. For code where speed does not matter.
     [[nodiscard]] float& cell(const SplitLayout& layout, int i, int j, int k) const {
         return colour[(i + j + k) & 1][static_cast<std::ptrdiff_t>(layout.at(j, k)) + (i >> 1)];
     }
 };
 
-/// Hands out parts of memory that somebody else owns; without memory it only counts.
+/// Allocates parts of borrowed memory; without memory it only counts.
 class Arena {
  public:
     Arena() = default;

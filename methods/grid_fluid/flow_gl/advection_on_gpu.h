@@ -1,6 +1,6 @@
-// Carries all that cells hold along the flow on the GPU, as flow::Advection does.
+// Advects all quantities of the cells on the GPU, as flow::Advection does.
 //
-// The first guesses have a field of their own; the places that air comes from lie where the result will be.
+// The first guesses have their own field; departure points are stored in the output field.
 // Source: Stam1999, 2.2; Selle2008, Eq. 4 and 3.2. Threads: the OpenGL thread's.
 #pragma once
 
@@ -15,8 +15,8 @@ class AdvectionOnGpu {
  public:
     AdvectionOnGpu(gpu::Device& device, const glm::ivec3& cells, flow::AdvectionRule rule);
 
-    /// `from`, with ghosts filled, after `cellsPerSpeed` = Δt/h, into `to`; `guess` is used in between. The report must
-    /// hold the maximum speeds.
+    /// Advects `from`, with ghosts filled, by `cellsPerSpeed` = Δt/h into `to`; `guess` is temporary. The report must
+    /// contain the maximum speeds.
     void advect(const CellsOnGpu& from, const CellsOnGpu& to, const CellsOnGpu& guess, const gpu::Buffer& kinds,
                 const StepReportOnGpu& report, float cellsPerSpeed);
 

@@ -1,4 +1,4 @@
-// The state of a fluid on the GPU: what flow::CellField holds, in two buffers of the same order.
+// The state of a fluid on the GPU: the contents of flow::CellField, in two buffers of the same order.
 //
 // Units: metres per second, kelvin above the air. Owns the buffers. Threads: the OpenGL thread's.
 #pragma once
@@ -17,7 +17,7 @@ struct CellsOnGpu {
         carried.clear();
     }
 
-    /// To two binding points, one after the other.
+    /// Binds both buffers to consecutive binding points.
     void bind(std::uint32_t first) const {
         moving.bindStorage(first);
         carried.bindStorage(first + 1);

@@ -1,4 +1,4 @@
-// Takes the mean of the right side off a region from which nothing can flow out; a group of threads for each region.
+// Subtracts the mean of the right side in each closed region; one group of threads per region.
 layout(std430, binding = 4) restrict buffer RightSide { float rightSide[]; };
 layout(std430, binding = 5) restrict readonly buffer Runs { ivec4 runs[]; };  // i, end, j, k
 layout(std430, binding = 6) restrict readonly buffer Regions { ivec2 regions[]; };  // first run, behind the last

@@ -1,11 +1,11 @@
-// A coarse face conducts what the finer faces in it do, over a greater distance; see flow::PoissonLevel::buildFrom.
+// A coarse face conducts the sum of its finer faces, over a greater distance; see flow::PoissonLevel::buildFrom.
 #ifndef FINEST
 layout(std430, binding = 1) restrict readonly buffer Finer { vec4 finer[]; };
 #endif
 layout(std430, binding = 3) restrict writeonly buffer Faces { vec4 faces[]; };
 uniform ivec3 fine;  // the finer level's cells
 
-// Of a finer cell to the next along an axis.
+// Weight of the face from a finer cell to the next along an axis.
 float fineFace(ivec3 c, int axis) {
 #ifdef FINEST
     ivec3 next = c;
@@ -16,7 +16,7 @@ float fineFace(ivec3 c, int axis) {
 #endif
 }
 
-// How the distance across the face behind coarse cell c goes down in what it conducts.
+// Factor on the conductance for the distance across the face behind coarse cell c.
 float share(int c, int fineCells) {
     int last = (fineCells + 1) / 2 - 1;
     if (fineCells == 1) return 1.0;
@@ -45,7 +45,7 @@ void main() {
     for (int axis = 0; axis < 3; ++axis) {
         ivec3 before = c;
         before[axis] -= 1;
-        // Ghosts have a face towards the box alone.
+        // Ghosts have only the face towards the box.
         ivec3 across = c;
         across[axis] = 0;
         if (all(greaterThanEqual(across, ivec3(0)))) own[axis] = face(c, axis);

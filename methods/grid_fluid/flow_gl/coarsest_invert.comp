@@ -1,5 +1,5 @@
-// The inverse of the coarsest level's equations, by the sweep operator in double; one group of threads does it all. A
-// pivot that vanishes fixes its unknown at 0.
+// The inverse of the coarsest level's equations, by the sweep operator in double precision, in one group of threads. A
+// vanishing pivot fixes its unknown at 0.
 layout(std430, binding = 3) restrict readonly buffer Faces { vec4 faces[]; };
 layout(std430, binding = 5) restrict writeonly buffer Inverse { float inverse[]; };
 
@@ -13,7 +13,7 @@ void main() {
     if (own < n) {
         ivec3 c = ivec3(own % cells.x, own / cells.x % cells.y, own / cells.x / cells.y);
         vec4 face = faces[place(c)];
-        // In double, so that where nothing flows out it is a sum of the others but for 1e-16 of it.
+        // In double precision, so that in a closed region it is the sum of the other weights to within 1e-16 of it.
         double sum = 0.0lf;
         for (int axis = 0; axis < 3; ++axis) {
             ivec3 before = c;

@@ -1,4 +1,4 @@
-// The coarsest level's pressure, exactly: what coarsest_invert.comp leaves is the inverse of sum of w (pn - p).
+// The coarsest level's pressure, exactly: coarsest_invert.comp provides the inverse of sum of w (pn - p).
 layout(std430, binding = 1) restrict writeonly buffer Pressure { float pressure[]; };
 layout(std430, binding = 4) restrict readonly buffer RightSide { float rightSide[]; };
 layout(std430, binding = 5) restrict readonly buffer Inverse { float inverse[]; };

@@ -1,4 +1,4 @@
-// Half of what the first guess misses when it is carried back again is added to it, within limits.
+// Adds half of the error of the first guess when it is advected back, within limits.
 // Source: Selle2008, Eq. 4 and 3.2. Departs: as flow::Advection does.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };
@@ -9,7 +9,7 @@ layout(std430, binding = 6) restrict writeonly buffer CarriedThen { vec2 carried
 layout(std430, binding = 7) restrict readonly buffer Report { uint maximum[]; };
 uniform float cellsPerSpeed;
 
-// The eight cells around, one after the other.
+// The eight surrounding cells, one after the other.
 int corner(int low, int n) {
     return low + (n & 1) + (n >> 1 & 1) * stepAlong(1) + (n >> 2) * stepAlong(2);
 }
@@ -33,7 +33,7 @@ void main() {
     vec3 behind = movingThen[cell].xyz;
     vec4 own = moving[cell];
     vec3 ahead = behind + 2.0 * cellsPerSpeed * own.xyz;
-    // No guess lies beyond the outermost middles, nor is one used farther along z than the flow is fast.
+    // The first guess is undefined beyond the outermost centres, and not used farther along z than the maximum speed.
     float reach = min(ceil(uintBitsToFloat(maximum[2]) * cellsPerSpeed), float(cells.z)) + 1.0;
     vec3 low = vec3(1, 1, max(1.0, float(c.z + 1) - reach));
     vec3 high = vec3(cells.xy, min(float(cells.z), float(c.z + 1) + reach));

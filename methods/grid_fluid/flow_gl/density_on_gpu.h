@@ -1,4 +1,4 @@
-// Keeps the density of a cloud as a whole on the GPU, as density_balance.h does; nothing of it comes to the host.
+// Conserves the total density of a cloud on the GPU, as density_balance.h does, without reading back to the host.
 //
 // Threads: the OpenGL thread's.
 #pragma once
@@ -12,13 +12,13 @@ class DensityOnGpu {
  public:
     DensityOnGpu(gpu::Device& device, const glm::ivec3& cells);
 
-    /// Notes what solids cover, before their cells are emptied.
+    /// Records the density covered by solids, before their cells are emptied.
     void noteCovered(const CellsOnGpu& state, const gpu::Buffer& kinds) { sum(state, kinds, 2, 0); }
-    /// Notes what there should be after a step, before it. `cellsPerSpeed` = Δt/h.
+    /// Records, before a step, the total due after it. `cellsPerSpeed` = Δt/h.
     void noteDue(const CellsOnGpu& state, const gpu::Buffer& kinds, float cellsPerSpeed) {
         sum(state, kinds, 1, cellsPerSpeed);
     }
-    /// Scales all densities to that, by a tenth at most.
+    /// Scales all densities to this total, by at most a tenth.
     void restore(const CellsOnGpu& state, const gpu::Buffer& kinds);
     [[nodiscard]] std::size_t bytes() const { return sums_.bytes() + balance_.bytes(); }
 

@@ -1,4 +1,4 @@
-// Adds up the groups' sums, and keeps account of the density that there should be.
+// Sums the groups' sums and tracks the density that there should be.
 layout(local_size_x = GROUP) in;
 layout(std430, binding = 2) restrict readonly buffer Sums { double sums[]; };
 layout(std430, binding = 3) restrict buffer Balance {
@@ -8,7 +8,7 @@ layout(std430, binding = 3) restrict buffer Balance {
 uniform int what;  // as in density_sum.comp
 uniform int count;
 
-// A wrong balance, as where all of a cloud leaves at once, must not show.
+// Limits the effect of a wrong balance, for example if the whole cloud leaves at once.
 const double maximumChange = 0.1lf;
 
 shared double parts[GROUP];

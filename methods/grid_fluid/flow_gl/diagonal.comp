@@ -1,4 +1,4 @@
-// What the six faces of each cell of fluid conduct together, on the finest level.
+// The sum of the conductances of the six faces of each fluid cell, on the finest level.
 layout(std430, binding = 3) restrict writeonly buffer Diagonal { float diagonals[]; };
 
 void main() {

@@ -1,4 +1,4 @@
-// h times the divergence of each cell of fluid, over its faces, as flow::gatherDivergence has it.
+// h times the divergence of each fluid cell, over its faces, as in flow::gatherDivergence.
 layout(std430, binding = 4) restrict writeonly buffer RightSide { float rightSide[]; };
 
 void main() {

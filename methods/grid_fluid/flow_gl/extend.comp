@@ -1,4 +1,4 @@
-// The outermost cells of solids take the mean of what flows beside them; their velocity too where they are smooth.
+// Sets the outermost solid cells to the mean of the adjacent fluid; includes the velocity if solids are frictionless.
 layout(std430, binding = 1) restrict buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict buffer Carried { vec2 carried[]; };
 uniform int slip;

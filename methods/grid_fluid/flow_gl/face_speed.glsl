@@ -1,4 +1,4 @@
-// The speed of the face between a cell of fluid and the next one, as flow::faceSpeed has it.
+// The speed of the face between a fluid cell and the next one, as in flow::faceSpeed.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 
 float faceSpeed(int cell, int to, int axis) {

@@ -1,4 +1,4 @@
-// Confinement, buoyancy, weight and what fades, as flow::applyForces has them.
+// Confinement, buoyancy, weight and decay, as in flow::applyForces.
 // Source: Fedkiw2001, Eq. 8 and 11; Senger2009, Eq. 7.
 layout(std430, binding = 1) restrict buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict buffer Carried { vec2 carried[]; };
@@ -8,10 +8,10 @@ uniform float strength;  // confinement times spacing and step
 #endif
 uniform float lift, weight, keptDensity, keptHeat, lost;
 
-const float nothing = 1e-18;  // less is cut off
+const float nothing = 1e-18;  // smaller values are set to 0
 
 #ifdef CONFINED
-// Beyond the box |w| goes on.
+// Beyond the box |w| is extended.
 float curlAt(ivec3 c) {
     return curl[at(clamp(c, ivec3(0), cells - 1))].w;
 }

@@ -1,4 +1,4 @@
-// What acts on the flow besides the pressure, on the GPU, as flow::applyForces and flow::diffuse have it.
+// Forces other than pressure on the GPU, as in flow::applyForces and flow::diffuse.
 //
 // Units: SI. Threads: the OpenGL thread's. Source: Fedkiw2001, Eq. 8 and 11; Senger2009, Eq. 7.
 #pragma once
@@ -13,7 +13,7 @@ class ForcesOnGpu {
  public:
     ForcesOnGpu(gpu::Device& device, const glm::ivec3& cells, const flow::ForceSettings& settings, float spacingMetres);
 
-    /// All but viscosity; `cells` with ghosts where there is confinement. `spare` is overwritten.
+    /// Applies all forces except viscosity; `state` needs ghosts if there is confinement. `spare` is overwritten.
     void apply(const CellsOnGpu& state, const CellsOnGpu& spare, const gpu::Buffer& kinds, float stepSeconds);
     /// One explicit step of viscosity, from one field to another; `diffusion` = ν·Δt/h².
     void diffuse(const CellsOnGpu& from, const CellsOnGpu& to, const gpu::Buffer& kinds, float diffusion);

@@ -1,4 +1,4 @@
-// One of the numbers that cells hold, without ghosts: into a 3D texture, or one after the other.
+// Copies one quantity of all cells, without ghosts, to a 3D texture or to an array.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };
 #ifdef TEXTURE

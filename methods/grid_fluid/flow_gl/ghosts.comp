@@ -1,4 +1,4 @@
-// Fills the ghosts: one side of the box for each z of the grid of threads, as flow::fillGhosts does it.
+// Fills the ghosts as flow::fillGhosts does: one side of the box for each z of the grid of threads.
 layout(std430, binding = 1) restrict buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict buffer Carried { vec2 carried[]; };
 uniform vec3 wind;
@@ -24,7 +24,7 @@ void goBeyond(int side, inout vec4 inner, inout vec2 innerCarried) {
 void main() {
     ivec2 place = ivec2(gl_GlobalInvocationID.xy);
     int side = int(gl_GlobalInvocationID.z), axis = side / 2;
-    // Edges and corners belong to the last axis that they lie beyond.
+    // Edges and corners belong to the last axis along which they lie outside.
     ivec3 c = axis == 0 ? ivec3(0, place) : axis == 1 ? ivec3(place.x - 1, 0, place.y) : ivec3(place - 1, 0);
     c[axis] = side % 2 == 0 ? -1 : cells[axis];
     ivec3 low = ivec3(-1, axis == 0 ? 0 : -1, axis == 2 ? -1 : 0);

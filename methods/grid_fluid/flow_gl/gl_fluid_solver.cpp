@@ -22,7 +22,7 @@ const flow::FluidSettings& checked(const flow::FluidSettings& settings, const gp
                ", allowed: " + std::to_string(allowed);
     };
     if (bytes > maximum) throw InputError(text("in one buffer of OpenGL", bytes, maximum));
-    // Three fields, what cells are, and the pressure: 16 bytes of each cell and a quarter more for its coarser levels.
+    // Per cell three fields, its kind, and the pressure: 16 bytes and a quarter more for the coarser levels.
     const std::size_t all = padded * (3 * (CellsOnGpu::bytesMoving + CellsOnGpu::bytesCarried) + 4 + 20);
     if (const auto free = device.driverFreeBytes(); free && static_cast<std::int64_t>(all) > *free)
         throw InputError(text("in all", all, static_cast<std::size_t>(*free)));
@@ -55,7 +55,7 @@ GlFluidSolver::GlFluidSolver(const flow::FluidSettings& settings, gpu::Device& d
         kernel->set("cells", settings.box.cells);
     scroll_.set("wind", settings.windMetresPerSecond);
     if (settings.keepsDensity) density_.emplace(device, settings.box.cells);
-    move(settings.box.cells);  // by all that the box has: nothing is left but the wind
+    move(settings.box.cells);  // move by the whole box: only the wind remains
 }
 
 void GlFluidSolver::setSolids(const flow::SolidMask& mask) {
@@ -132,7 +132,7 @@ void GlFluidSolver::project(float seconds) {
     pressure_.start({settings_.pressure, settings_.jacobiSweeps, settings_.maximumCycles,
                      settings_.divergencePerStep * static_cast<float>(settings_.box.spacingMetres) / seconds},
                     report_);
-    // The gradient goes to another field, so that it can be taken again where the pressure was not good enough.
+    // The gradient is written to another field, so that it can be recomputed if the pressure was not accurate enough.
     do {
         kinds.bindStorage(0);
         cells_.moving.bindStorage(1);
@@ -175,7 +175,7 @@ void GlFluidSolver::move(const glm::ivec3& by) {
 void GlFluidSolver::scroll(glm::ivec3 by) {
     move(by);
     settings_.box.originMetres += glm::dvec3(by) * settings_.box.spacingMetres;
-    lastStepSeconds_ = 0;  // where its pressure was, the cells are now
+    lastStepSeconds_ = 0;  // the pressure belongs to the cells before the move
     setSolids({});
 }
 
@@ -207,7 +207,7 @@ void GlFluidSolver::readCells(flow::CellField& state) const {
 }
 
 void GlFluidSolver::gather(flow::Lane lane, std::span<float> to) const {
-    // First guesses are of use within a step alone.
+    // First guesses are used within a step only.
     cells_.bind(1);
     guess_.moving.bindStorage(3);
     gather_.set("lane", static_cast<int>(lane));

@@ -1,8 +1,8 @@
-// Smoke, fire and dust as a flow in a box, on the GPU: the same step as flow::FluidSolver, within what floats differ
-// by.
+// Solves smoke, fire and dust as a flow in a box on the GPU: the same step as flow::FluidSolver, within floating-point
+// differences.
 //
-// The state stays on the GPU; a step reads a few numbers back, once. Results are the same from run to run on one
-// machine: sums go over fixed blocks. Units: SI. Frame: world. Owns all fields. Threads: the OpenGL thread's.
+// The state stays on the GPU; a step reads a few numbers back, once. Results are reproducible on one machine: sums use
+// fixed blocks. Units: SI. Frame: world. Owns all fields. Threads: the OpenGL thread's.
 // Source: Crane2007, 30.2; Senger2009, 4.1. Departs: see reports/decisions/0007-fluid-on-the-gpu.md.
 #pragma once
 
@@ -25,7 +25,7 @@ namespace dustbench::grid_fluid::flow_gl {
 
 class GlFluidSolver final : public flow::Solver {
  public:
-    /// Throws InputError where the box or the settings make no sense, or OpenGL takes no buffers of that size.
+    /// Throws InputError for an invalid box or settings, or if OpenGL does not accept buffers of that size.
     GlFluidSolver(const flow::FluidSettings& settings, gpu::Device& device, MemoryLedger& ledger);
 
     void setSolids(const flow::SolidMask& mask) override;
@@ -35,7 +35,7 @@ class GlFluidSolver final : public flow::Solver {
 
     [[nodiscard]] const flow::FluidBox& box() const override { return settings_.box; }
     [[nodiscard]] std::int64_t steps() const override { return steps_; }
-    /// Waits for the GPU, as all that reads back.
+    /// Waits for the GPU, as all functions that read back do.
     [[nodiscard]] std::uint64_t stateHash() const override;
     void gather(flow::Lane lane, std::span<float> to) const override;
     [[nodiscard]] std::vector<float> pressuresM2PerS2() const override;
@@ -44,9 +44,9 @@ class GlFluidSolver final : public flow::Solver {
     [[nodiscard]] MemoryReport gpuMemory() const override;
 
     [[nodiscard]] const flow::CellLayout& layout() const { return layout_; }
-    /// To set the state by hand.
+    /// For setting the state directly.
     void writeCells(const flow::CellField& cells);
-    /// All that cells hold; ghosts as the last kernel left them (waits for the GPU).
+    /// All quantities of the cells; ghosts as left by the last kernel (waits for the GPU).
     void readCells(flow::CellField& cells) const;
 
  private:
@@ -60,7 +60,7 @@ class GlFluidSolver final : public flow::Solver {
     flow::FluidSettings settings_;
     flow::CellLayout layout_;
     MemoryLedger& ledger_;
-    CellsOnGpu cells_, spare_, guess_;  ///< `spare_`: what comes next; `guess_`: first guesses, and the curl
+    CellsOnGpu cells_, spare_, guess_;  ///< `spare_`: the next state; `guess_`: first guesses, and the curl
     StepReportOnGpu report_;
     SolidsOnGpu solids_;
     GhostsOnGpu ghosts_;
@@ -70,7 +70,7 @@ class GlFluidSolver final : public flow::Solver {
     ForcesOnGpu forces_;
     PressureOnGpu pressure_;
     Kernel divergence_, gradient_, maximum_, scroll_;
-    mutable Kernel gather_, gatherTexture_;  ///< they change nothing here but their own uniforms
+    mutable Kernel gather_, gatherTexture_;  ///< `mutable` because running them sets uniforms
     bool operatorKnown_ = false, speedsKnown_ = false, stateUnseen_ = false;
     std::int64_t steps_ = 0;
     double lastStepSeconds_ = 0;

@@ -1,4 +1,4 @@
-// u -= h grad q in all cells of fluid, as flow::Projection does it: a cell takes the mean of what its faces change by.
+// u -= h grad q in all fluid cells, as in flow::Projection: a cell changes by the mean of the changes of its faces.
 layout(std430, binding = 2) restrict writeonly buffer MovingThen { vec4 movingThen[]; };
 layout(std430, binding = 5) restrict readonly buffer Pressure { float pressure[]; };
 

@@ -1,6 +1,6 @@
-// The grid that a kernel works on, a thread for each cell.
+// The grid that a kernel works on, one thread per cell.
 //
-// Cells of the flow lie as in flow::CellLayout: x runs fastest, with a ghost at either end of each axis.
+// Cells are laid out as in flow::CellLayout: x runs fastest, with a ghost at either end of each axis.
 layout(local_size_x = 32, local_size_y = 4, local_size_z = 1) in;
 #define GROUP 128
 #define COLUMN 16  // cells along z that a thread takes where groups of threads gather something
@@ -19,12 +19,12 @@ int at(ivec3 c) {
     return atIn(c, cells);
 }
 
-// From a cell to the next along an axis, in cells of memory.
+// Stride from a cell to the next along an axis, in cells.
 int stepAlong(int axis) {
     return axis == 0 ? 1 : axis == 1 ? cells.x + 2 : (cells.x + 2) * (cells.y + 2);
 }
 
-// The number of this group of threads, which may be one too many.
+// Index of this group of threads, which may be past the last.
 int groupNumber() {
     return int(gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y);
 }

@@ -1,4 +1,4 @@
-// A compute program with a thread for each item of a grid.
+// A compute program with one thread per item of a grid.
 //
 // Threads: the OpenGL thread's.
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace dustbench::grid_fluid::flow_gl {
 
-/// What lies beyond the six sides, as an array in a shader.
+/// The boundary conditions of the six sides, as a GLSL array.
 [[nodiscard]] inline std::string sidesText(const flow::Sides& sides) {
     std::string text = "int[6](";
     for (std::size_t side = 0; side < sides.size(); ++side)
@@ -25,10 +25,10 @@ namespace dustbench::grid_fluid::flow_gl {
 
 class Kernel {
  public:
-    static constexpr glm::ivec3 group{32, 4, 1};  ///< threads that work together, as grid.glsl says
+    static constexpr glm::ivec3 group{32, 4, 1};  ///< threads of a work group, as in grid.glsl
     static constexpr int column = 16;
 
-    /// The last file is the program's own; its pieces come before.
+    /// The last file is the program itself; the others are included before it.
     Kernel(gpu::Device& device, std::initializer_list<gpu::ShaderFile> files,
            const std::map<std::string, std::string>& definitions = {})
         : program_(device, std::prev(files.end())->name, files, definitions) {}
@@ -37,9 +37,9 @@ class Kernel {
     void set(std::string_view uniform, const Value& value) {
         program_.set(uniform, value);
     }
-    /// How many groups of threads take so many items, along each axis.
+    /// Number of work groups along each axis for this many items.
     [[nodiscard]] static glm::ivec3 groupsFor(const glm::ivec3& items) { return (items + group - 1) / group; }
-    /// Items where each thread takes a short column of cells along z.
+    /// Number of items if each thread processes a short column of cells along z.
     [[nodiscard]] static glm::ivec3 columnsOf(const glm::ivec3& cells) {
         return {cells.x, cells.y, (cells.z + column - 1) / column};
     }
@@ -47,7 +47,7 @@ class Kernel {
         const glm::ivec3 groups = groupsFor(items);
         program_.dispatch(groups.x, groups.y, groups.z);
     }
-    /// In rows of groups: OpenGL takes no more than 65,535 side by side. There may be some too many.
+    /// Arranges groups in rows, since OpenGL guarantees only 65,535 along an axis. May dispatch some extra groups.
     void runGroups(int count) const {
         constexpr int maximum = 32768;
         program_.dispatch(std::min(count, maximum), (count + maximum - 1) / maximum, 1);

@@ -1,5 +1,5 @@
-// What cells are: in the lowest two bits what a face between one and a cell of fluid conducts (1 fluid, 2 beyond an
-// open side, 0 solids, walls and inflows), above them the number of the solid.
+// Kinds of cells: the lowest two bits are the conductance of a face between the cell and a fluid cell (1 fluid, 2
+// beyond an open side, 0 solids, walls and inflows), the bits above are the number of the solid.
 layout(std430, binding = 0) restrict readonly buffer Kinds { uint kinds[]; };
 
 uint conductance(int cell) {

@@ -1,5 +1,5 @@
-// Where a level of the pressure's hierarchy has its cells: red ones and black ones apart, as on a chess board, so that
-// a sweep over one colour reads whole lines of memory. Rows with a ghost at either end; cell i of row (j, k) has colour
+// Memory layout of a level of the pressure's hierarchy: red and black cells are separate, as on a chess board, so that
+// a sweep over one colour reads whole lines of memory. Rows have a ghost at either end; cell i of row (j, k) has colour
 // (i + j + k) mod 2.
 int placeIn(ivec3 c, ivec3 size) {
     int row = (size.x + 3) / 2, slab = row * (size.y + 2);
@@ -10,8 +10,8 @@ int place(ivec3 c) {
     return placeIn(c, cells);
 }
 
-// A cell's own place, and that of its number among the cells of the other colour, which all its neighbours have: along
-// x they are at `twin - before` and one behind, along y a row on, along z a slab on.
+// Index of a cell, and that of the cell with the same number in the other colour (`twin`), to which all its neighbours
+// belong: along x they are at `twin - before` and one behind, along y a row on, along z a slab on.
 struct Star {
     int own, twin, before, row, slab;
 };
@@ -22,7 +22,7 @@ Star starAround(ivec3 c) {
     return Star(number + black * colour, number + (1 - black) * colour, c.x & 1, row, slab);
 }
 
-// The cell of a colour that this thread works on, in threads numbered along x by pairs of cells.
+// The cell of a colour for this thread; threads are numbered along x by pairs of cells.
 ivec3 cellOfColour(int colour) {
     ivec3 c = ivec3(gl_GlobalInvocationID);
     c.x = 2 * c.x + (c.y + c.z + colour & 1);

@@ -1,4 +1,4 @@
-// Says what each cell is, by the numbers of the solids in it.
+// Sets the kind of each cell from the numbers of the solids.
 layout(std430, binding = 0) restrict writeonly buffer Kinds { uint kinds[]; };
 layout(std430, binding = 1) restrict readonly buffer Bodies { uint bodies[]; };  // a byte for each cell, no ghosts
 uniform int anySolid;

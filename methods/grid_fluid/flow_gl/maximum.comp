@@ -1,5 +1,4 @@
-// The maximum magnitude of each number that cells hold, as bits: they have the order of the values, and what is not a
-// number is the maximum.
+// The maximum magnitude of each quantity of the cells, as bits: they order like the values, and NaN is above all.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };
 layout(std430, binding = 7) restrict buffer Report { uint maximum[]; };

@@ -1,4 +1,4 @@
-// The first guess: what is where each cell's air comes from, x - dt u(x - dt/2 u(x)).
+// The first guess: samples the departure point of each cell, x - dt u(x - dt/2 u(x)).
 // Source: Stam1999, 2.2.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };

@@ -12,16 +12,16 @@ namespace {
 
 using namespace grid_fluid_flow_gl_shaders;
 
-constexpr int fewCells = 32;  ///< so many are solved exactly
+constexpr int fewCells = 32;  ///< systems up to this size are solved exactly
 
-/// Bindings, as the shaders have them.
+/// Bindings, as in the shaders.
 enum : std::uint32_t { kindsAt, pressureAt, targetAt, operationAt, rightSideAt, extraAt, regionsAt };
 
 int count(const glm::ivec3& cells) {
     return cells.x * cells.y * cells.z;
 }
 
-/// Places of a level, both colours and ghosts, as level.glsl has them.
+/// Size of a level, both colours and ghosts, as in level.glsl.
 std::size_t places(const glm::ivec3& cells) {
     return 2 * static_cast<std::size_t>((cells.x + 3) / 2) * static_cast<std::size_t>(cells.y + 2) *
            static_cast<std::size_t>(cells.z + 2);
@@ -220,7 +220,7 @@ void PressureOnGpu::start(const flow::PressureRule& rule, StepReportOnGpu& repor
     balanceClosedRegions();
     levels_.front().pressure.clear();
     if (rule.method == flow::PressureMethod::jacobi) return sweepJacobi();
-    // The sweeps after one cycle are those before the next: the residual that is restricted tells when to end.
+    // The sweeps after one cycle are those before the next: the restricted residual decides when to stop.
     smooth(0, flow::relaxationsBefore);
     restrictFrom(0, StepReportOnGpu::firstResidual);
     while (cycles_ < std::min(expectedCycles_, rule.maximumCycles)) queueCycle();

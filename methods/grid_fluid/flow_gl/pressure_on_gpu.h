@@ -1,8 +1,8 @@
-// Solves for the pressure on the GPU as flow::PressureSolver does: multigrid to a residual, or Jacobi sweeps.
+// Solves for the pressure on the GPU as flow::PressureSolver does: multigrid down to a residual, or Jacobi sweeps.
 //
-// The operator is built when solids change. Cycles are queued without asking how far they came; the caller reads the
-// report, and asks for more where that was not enough. Units: see fluid/projection.h. Owns its buffers. Threads: the
-// OpenGL thread's. Source: Trottenberg2001, 2.4 and 2.8; Crane2007, 30.2.3 (Jacobi).
+// The operator is built when solids change. Cycles are queued without checking convergence; the caller reads the report
+// and requests more if necessary. Units: see fluid/projection.h. Owns its buffers. Threads: the OpenGL thread's.
+// Source: Trottenberg2001, 2.4 and 2.8; Crane2007, 30.2.3 (Jacobi).
 // Departs: coarsest levels have at most 32 cells, not 64: their inverse is built by one group of threads.
 #pragma once
 
@@ -23,12 +23,12 @@ class PressureOnGpu {
  public:
     PressureOnGpu(gpu::Device& device, const glm::ivec3& cells, const flow::Sides& sides, flow::PressureMethod method);
 
-    /// `kinds`: what cells are (kinds.glsl). `closed`: of these cells.
+    /// `kinds`: the kinds of cells (kinds.glsl). `closed`: their closed regions.
     void build(const gpu::Buffer& kinds, const std::vector<std::vector<flow::Run>>& closed);
 
-    /// Queues a whole solution, as many cycles as the last one needed. `rightSide()` must be filled in.
+    /// Queues a whole solution, with as many cycles as the last one needed. `rightSide()` must be filled in.
     void start(const flow::PressureRule& rule, StepReportOnGpu& report);
-    /// False where the report, which has been read, shows that the residual is not met; then a cycle more is queued.
+    /// False if the report, which must have been read, shows too large a residual; then one more cycle is queued.
     [[nodiscard]] bool enough(StepReportOnGpu& report);
     [[nodiscard]] const flow::PressureResult& result() const { return result_; }
 
@@ -42,8 +42,8 @@ class PressureOnGpu {
     struct Level {
         glm::ivec3 cells{0};
         gpu::Buffer pressure, rightSide;
-        gpu::Buffer operation;  ///< sums of weights; on coarser levels weights of faces as well
-        gpu::Buffer wide;       ///< coarser levels: the pressure for interpolation
+        gpu::Buffer operation;  ///< sums of weights; on coarser levels also weights of faces
+        gpu::Buffer wide;       ///< coarser levels: the pressure padded for interpolation
     };
     /// Programs for the finest level and for the others.
     struct Pair {

@@ -1,5 +1,5 @@
-// Adds the coarse pressure, interpolated, `times` over (fluid/relaxation.h) to the black cells. The red ones follow with
-// the next sweep.
+// Adds the interpolated coarse pressure, multiplied by `times` (fluid/relaxation.h), to the black cells. The red ones
+// follow with the next sweep.
 layout(std430, binding = 1) restrict buffer Pressure { float pressure[]; };
 layout(std430, binding = 2) restrict readonly buffer Wide { float wide[]; };
 #ifdef FINEST

@@ -1,4 +1,4 @@
-// What a cell's equation is off by, and the maximum of all that as bits, which have the order of the values.
+// The residual of a cell, and the maximum magnitude as bits, which order like the values.
 layout(std430, binding = 4) restrict readonly buffer RightSide { float rightSide[]; };
 
 float residual(ivec3 c) {
@@ -13,7 +13,7 @@ uniform int slot;
 
 shared uint maximum;
 
-// By all threads of a group.
+// Call from all threads of a group.
 void tell(float magnitude) {
     if (gl_LocalInvocationIndex == 0u) maximum = 0u;
     barrier();

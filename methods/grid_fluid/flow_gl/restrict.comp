@@ -1,5 +1,5 @@
-// The residuals of the red cells, summed over each coarse cell, become the coarse right side. After a sweep the black
-// cells have none.
+// Sets the coarse right side to the residuals of the red cells, summed over each coarse cell. After a sweep the
+// residuals of black cells vanish.
 layout(std430, binding = 5) restrict writeonly buffer CoarseRightSide { float coarseRightSide[]; };
 uniform ivec3 coarse;
 
@@ -14,7 +14,7 @@ void main() {
             if (!inside(c)) continue;
             float r = residual(c);
             sum += r;
-            // Not max(), which may pass over what is not a number.
+            // Not max(), which may ignore NaN.
             maximum = abs(r) <= maximum ? maximum : abs(r);
         }
         coarseRightSide[placeIn(to, coarse)] = sum;

@@ -1,7 +1,7 @@
-// Trilinear look-up in float. Places count cells from the first ghost's middle.
+// Trilinear sampling in single precision. Positions count cells from the first ghost's centre.
 struct Corners {
     int low;
-    vec3 share;  // of the way to the next cell
+    vec3 share;  // fraction of the way to the next cell
 };
 
 Corners cornersAround(vec3 place) {

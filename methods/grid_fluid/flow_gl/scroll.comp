@@ -1,4 +1,4 @@
-// Moves all that cells hold by whole cells; where nothing was, the wind blows.
+// Moves all quantities by whole cells; new cells start with the wind.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };
 layout(std430, binding = 3) restrict writeonly buffer MovingThen { vec4 movingThen[]; };

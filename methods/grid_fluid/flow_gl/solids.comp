@@ -1,4 +1,4 @@
-// Cells in solids move as those do, and hold nothing.
+// Sets cells in solids to the solid's velocity and all other quantities to 0.
 layout(std430, binding = 1) restrict writeonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict writeonly buffer Carried { vec2 carried[]; };
 struct Motion {

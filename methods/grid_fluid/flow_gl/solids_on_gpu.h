@@ -1,6 +1,7 @@
-// Which cells are solid and how fast they move, on the GPU: what flow::SolidCells knows.
+// The solid cells and their motion on the GPU, as in flow::SolidCells.
 //
-// The host keeps what each cell conducts as well, to find closed regions. Units: metres per second. Owns its buffers.
+// The host keeps a copy of the conductance of each cell, to find closed regions. Units: metres per second. Owns its
+// buffers.
 // Threads: the OpenGL thread's.
 #pragma once
 
@@ -18,16 +19,16 @@ class SolidsOnGpu {
  public:
     SolidsOnGpu(gpu::Device& device, const flow::CellLayout& layout, const flow::Sides& sides, MemoryAccount& account);
 
-    /// Replaces all solids; the cells do not know yet. False where nothing changes: there are none, as before. Throws
-    /// InputError as flow::check does.
+    /// Replaces all solids, without updating the state. False if nothing changes because there are none, as before.
+    /// Throws InputError as flow::check does.
     [[nodiscard]] bool set(const flow::SolidMask& mask);
-    /// Solid cells move as solids and hold nothing.
+    /// Gives solid cells the velocity of their solid and no other quantities.
     void fill(const CellsOnGpu& cells) const;
-    /// The outermost cells of solids take the mean of what flows beside them; velocity too where `slip`.
+    /// Sets the outermost solid cells to the mean of the adjacent fluid; includes the velocity if `slip`.
     void extendInto(const CellsOnGpu& cells, bool slip);
 
     [[nodiscard]] bool any() const { return any_; }
-    /// As kinds.glsl has them.
+    /// Kinds of cells as in kinds.glsl.
     [[nodiscard]] const gpu::Buffer& kinds() const { return kinds_; }
     [[nodiscard]] std::vector<std::vector<flow::Run>> closedRegions() const;
     [[nodiscard]] std::size_t bytes() const { return kinds_.bytes() + bodies_.bytes() + motions_.bytes(); }

@@ -1,4 +1,5 @@
-// What each source adds at its centre so that all cells together get its amount; a group of threads for each.
+// The strength at each source's centre for which all cells together receive its amount; one group of threads per
+// source.
 layout(std430, binding = 4) restrict writeonly buffer Added { float added[]; };
 uniform int count;
 

@@ -1,4 +1,4 @@
-// What flows in: balls with a soft edge, as flow::SourceReach has them.
+// Sources: balls with a soft edge, as in flow::SourceReach.
 struct Source {
     ivec4 first, last;            // cells that it reaches
     ivec4 middle;                 // a cell near the centre; w: 1 where `amount` says how much in all

@@ -11,7 +11,7 @@ namespace {
 
 using namespace grid_fluid_flow_gl_shaders;
 
-/// As sources.glsl has it.
+/// Layout as in sources.glsl.
 struct Source {
     glm::ivec4 first, last, middle;
     glm::vec4 offset, velocity;
@@ -20,7 +20,7 @@ struct Source {
 
 Source sourceFor(const flow::FluidSource& source, const flow::SourceReach& reach, const flow::FluidBox& box,
                  float seconds) {
-    // From the nearest whole cell within reach: far from 0 a float would not tell cells apart.
+    // Relative to the nearest reachable cell: far from 0 a float could not distinguish cells.
     const glm::dvec3 middle =
         glm::clamp(glm::round(reach.centreCells), glm::dvec3(reach.first), glm::dvec3(reach.last));
     const double cellM3 = box.spacingMetres * box.spacingMetres * box.spacingMetres;

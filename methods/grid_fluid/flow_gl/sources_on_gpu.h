@@ -1,4 +1,4 @@
-// What flows in, on the GPU: all of a step's sources at once, as flow::FluidSolver adds them.
+// Adds all of a step's sources at once on the GPU, as flow::FluidSolver does.
 //
 // Threads: the OpenGL thread's.
 #pragma once

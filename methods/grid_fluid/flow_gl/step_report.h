@@ -1,7 +1,7 @@
-// What the host has to know after a step, in one small buffer: read once, when all that goes before is queued.
+// Results of a step that the host needs, in one small buffer that is read once, after all work is queued.
 //
-// Values are floats that are not negative, as bits: their order is that of the values, so that the maximum is found by
-// atomicMax, the same whoever comes first. Owns the buffer. Threads: the OpenGL thread's.
+// Values are non-negative floats stored as bits: the bits order like the values, so atomicMax finds the maximum
+// independently of the execution order. Owns the buffer. Threads: the OpenGL thread's.
 #pragma once
 
 #include <bit>
@@ -25,13 +25,13 @@ class StepReportOnGpu {
         : values_(static_cast<std::size_t>(firstResidual + residuals)),
           buffer_(device, "fluid report", values_.size() * sizeof(std::uint32_t)) {}
 
-    /// The maximum magnitudes of what cells hold begin with those of the wind.
+    /// Resets the maximum magnitudes of the cells' quantities; those of the velocity start with the wind's.
     void restartMaximum(const glm::vec3& wind) {
         std::uint32_t initial[lanes]{};
         for (int axis = 0; axis < 3; ++axis) initial[axis] = std::bit_cast<std::uint32_t>(std::abs(wind[axis]));
         buffer_.write(std::span<const std::uint32_t>(initial));
     }
-    /// All values: maximum magnitudes are lost too.
+    /// Resets all values, including the maximum magnitudes.
     void restart() { buffer_.clear(); }
     void bind() const { buffer_.bindStorage(binding); }
     /// Waits for the GPU.

@@ -1,5 +1,5 @@
-// The coarse pressure as interpolation wants it: mirrored at walls, reversed at open sides, and what is solid all
-// through goes along with the fluid beside it.
+// The coarse pressure prepared for interpolation: mirrored at walls, negated at open sides; wholly solid cells take
+// values from the adjacent fluid.
 layout(std430, binding = 1) restrict readonly buffer Pressure { float pressure[]; };
 layout(std430, binding = 2) restrict writeonly buffer Wide { float wide[]; };
 layout(std430, binding = 3) restrict readonly buffer Faces { vec4 faces[]; };
