@@ -1,4 +1,4 @@
-// `--adapter` and the adapters that `env` lists, on whatever this machine has.
+// `--adapter` and the adapters listed by `env`, on any machine.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -44,7 +44,7 @@ std::vector<std::string> optionNames(const CLI::App& app) {
     return names;
 }
 
-/// Says what is near an option or subcommand that nobody knows.
+/// Suggests a name close to an unknown option or subcommand.
 InputError unexpected(const CLI::App& app, const CLI::App* command, const std::vector<std::string>& argv,
                       const CLI::ParseError& error) {
     if (!command) {
@@ -140,7 +140,7 @@ int dispatch(const std::vector<Command>& commands, const CommonOptions& common, 
         return 0;
     } catch (const CLI::ParseError& error) {
         const auto* entry = chosen();
-        // By type: a subcommand's ExtrasError carries the subcommand's name instead of its own.
+        // Caught by type: a subcommand's ExtrasError has the subcommand's name instead of its own.
         if (dynamic_cast<const CLI::ExtrasError*>(&error) || !entry)
             throw unexpected(app, entry ? entry->first : nullptr, argv, error);
         throw InputError(error.what());

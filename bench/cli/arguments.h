@@ -1,4 +1,4 @@
-// Declares what a subcommand takes. The command line library behind it stays in one source file.
+// Declares the arguments of a subcommand. The command line library is used in one source file only.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ class Option;
 
 namespace dustbench::cli {
 
-/// Options are named `--frames` (or `-P,--parameter`), positional arguments `id`. Values are checked when parsed: what
-/// is not allowed throws InputError with name, what was got and what is allowed.
+/// Options are named `--frames` (or `-P,--parameter`), positional arguments `id`. Values are checked during parsing: an
+/// invalid one throws InputError with its name, the value and what is allowed.
 class Arguments {
  public:
     explicit Arguments(CLI::App& app) : app_(app) {}
 
     void flag(const std::string& name, const std::string& help, bool& value);
     void text(const std::string& name, const std::string& placeholder, const std::string& help, std::string& value);
-    /// A text that must be given.
+    /// A mandatory text option.
     void required(const std::string& name, const std::string& placeholder, const std::string& help, std::string& value);
     /// Positional, one or more.
     void requiredTexts(const std::string& name, const std::string& placeholder, const std::string& help,
@@ -34,14 +34,14 @@ class Arguments {
     void integer(const std::string& name, const std::string& help, std::int64_t& value, std::int64_t minimum,
                  std::int64_t maximum = std::numeric_limits<std::int64_t>::max());
     void number(const std::string& name, const std::string& help, double& value, double minimum, double maximum);
-    /// When parsed: the names of the options that were given.
+    /// Collects, during parsing, the names of the options that were given.
     void givenOptions(std::vector<std::string>& names);
 
  private:
     CLI::App& app_;
 };
 
-/// One subcommand: what it takes and what it does. `run` gives the exit code.
+/// One subcommand: its arguments and its action. `run` returns the exit code.
 struct Command {
     std::string name;
     std::string summary;
@@ -50,14 +50,14 @@ struct Command {
     std::function<int()> run;
 };
 
-/// Options that every subcommand takes, before or after its name.
+/// Options of every subcommand, accepted before or after its name.
 struct CommonOptions {
     std::function<void(Arguments&)> declare;
     std::function<void()> apply;  ///< before the subcommand runs
 };
 
-/// Parses the command line, runs the command that it names and gives the exit code. `--help` and `--version` print and
-/// give 0. Throws InputError for wrong use.
+/// Parses the command line, runs the command and returns its exit code. `--help` and `--version` print and return 0.
+/// Throws InputError for invalid usage.
 [[nodiscard]] int dispatch(const std::vector<Command>& commands, const CommonOptions& common, std::string_view version,
                            const std::vector<std::string>& argv);
 

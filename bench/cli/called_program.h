@@ -1,4 +1,4 @@
-// For tests: the built program, called as a user calls it.
+// Test fixture: calls the built program as a user would.
 #pragma once
 
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ class Dustbench : public testing::Test {
                 contentOf(folder_ / "stderr")};
     }
     [[nodiscard]] std::string out() const { return (folder_ / "out").string(); }
-    /// A run short enough for a test, drawn by the first method that there is.
+    /// A run short enough for a test, drawn by the first available method.
     [[nodiscard]] Called shortRun(const std::string& more) const {
         return call(fmt::format("run --method {} --size 96x72 --warmup 2 -P preroll=0.2 -P particles=200 {}",
                                 methods().front().id, more));

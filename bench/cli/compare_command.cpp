@@ -32,7 +32,7 @@ struct CompareOptions {
     std::vector<std::string> given;  ///< names of options
 };
 
-/// Throws where an option was given that only the other kind of comparison knows.
+/// Throws if an option was given that applies only to the other kind of comparison.
 void refuseOthers(const CompareOptions& options, bool folders) {
     static const std::set<std::string> both{"--out", "--adapter", "--data"},
         ofFolders{"--columns", "--fail-on-regression", "--across-machines"};
@@ -56,7 +56,7 @@ bench::ParameterTexts singleValues(const std::vector<std::string>& texts) {
     return values;
 }
 
-/// Of all runs that are done; the exact pictures come from those that are judged.
+/// The sheet of all done runs; the exact pictures come from those that are judged.
 void writeSheet(const bench::Suite& suite, const bench::ResultsFolder& results) {
     std::vector<bench::SheetRun> runs;
     for (const bench::PlannedRun& cell : suite.cells) {

@@ -1,4 +1,4 @@
-// `compare` as a user calls it.
+// End-to-end tests of `compare`.
 #include <gmock/gmock.h>
 
 #include "bench/cli/called_program.h"

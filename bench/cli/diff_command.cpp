@@ -1,4 +1,4 @@
-// `dustbench diff`: how far an image file is from a reference, in numbers and as a heat map.
+// `dustbench diff`: the difference of an image file from a reference, in numbers and as a heat map.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ bench::Picture pictureOf(const std::string& file) {
     return bench::preparePicture(pictures::readImage(file), "'" + file + "'");
 }
 
-/// The shortest number that reads back as this one, `null` for none.
+/// The shortest decimal number that parses to the same value; `null` if empty.
 std::string jsonNumber(const std::optional<double>& value) {
     return value ? fmt::format("{}", *value) : "null";
 }

@@ -1,4 +1,4 @@
-// `diff` as a user calls it: what it says of two files, what it refuses.
+// End-to-end tests of `diff`: its output for two files, and invalid input.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 class DiffCommand : public Dustbench {
  protected:
-    /// A gradient, `brighter` by so much in its left half.
+    /// A gradient; its left half is brightened by `brighter`.
     static pictures::Image gradient(int width, int height, float brighter) {
         pictures::Image image{width, height, {}};
         for (int y = 0; y < height; ++y)
@@ -70,7 +70,7 @@ TEST_F(DiffCommand, ReadsAnEncodedPngAndALinearExrAsTheSamePicture) {
     const pictures::Image image = gradient(64, 48, 0);
     const Called called = diff(write("a.exr", image), write("a.png", image), "--json");
     ASSERT_EQ(called.code, 0) << called.err;
-    // What is left is the rounding to 256 steps: RMS of about 1/√12 of a step, 58.9 dB.
+    // Only the rounding to 256 steps remains: an RMS of about 1/√12 of a step, 58.9 dB.
     const auto object = nlohmann::json::parse(called.out);
     EXPECT_NEAR(object["psnr_db"].get<double>(), 20 * std::log10(255 * std::sqrt(12.0)), 1);
     EXPECT_LT(object["flip"].get<double>(), 0.01);
@@ -88,7 +88,7 @@ TEST_F(DiffCommand, WritesAHeatMapThatIsBrightWhereThePicturesDiffer) {
 }
 
 TEST_F(DiffCommand, SeesLessFromFartherAway) {
-    // Stripes one pixel wide: a viewer for whom a degree holds more pixels sees them blurred.
+    // Stripes one pixel wide: with more pixels per degree a viewer sees them blurred.
     pictures::Image stripes = gradient(64, 48, 0), even = stripes;
     for (std::size_t i = 0; i < stripes.pixels.size(); ++i)
         stripes.pixels[i] += glm::vec4(glm::vec3(i % 2 ? 0.1f : -0.1f), 0);

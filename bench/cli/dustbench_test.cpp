@@ -1,4 +1,4 @@
-// The program as a user calls it: exit codes, one line on stderr, files and their agreement.
+// End-to-end tests of the program: exit codes, one line on stderr, files and their consistency.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

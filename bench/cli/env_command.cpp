@@ -1,4 +1,4 @@
-// `dustbench env`: what this machine is, what will disturb a measurement, what is missing.
+// `dustbench env`: describes this machine, disturbances of measurements, and missing software.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -25,7 +25,7 @@ struct Found {
     bool cpuEnergy = false, gpuEnergy = false;
 };
 
-/// OpenGL may be missing: that is what this command is there to say.
+/// OpenGL may be missing: this command must report that.
 void lookAtGpu(Found& found) {
     bench::Provenance& provenance = found.provenance;
     try {
@@ -43,7 +43,7 @@ void lookAtGpu(Found& found) {
 }
 
 Found look() {
-    // Nothing to be said of the machine, but a mistake of the user.
+    // A user error, not a fact about the machine.
     if (const std::string asked = gpu::askedAdapter(); !asked.empty())
         (void)gpu::findAdapter(gpu::listAdapters(), asked);
     Found found;
@@ -59,7 +59,7 @@ Found look() {
     return found;
 }
 
-/// What of the energy columns will be filled in.
+/// Which of the energy columns will have values.
 std::string energyText(const Found& found) {
     if (found.cpuEnergy) return found.gpuEnergy ? "CPU packages and GPU" : "CPU packages";
     return found.gpuEnergy ? "GPU" : "not available on this machine: the energy columns stay empty";

@@ -1,4 +1,4 @@
-// What the command's exit status says.
+// The command's exit codes.
 #pragma once
 
 namespace dustbench::cli {

@@ -1,4 +1,4 @@
-// `export` and `--volumes` as a user calls them: what is written, what is refused, what a kill leaves.
+// End-to-end tests of `export` and `--volumes`: files, invalid input, and interruption.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <vtkCellData.h>
@@ -43,7 +43,7 @@ class ExportCommand : public Dustbench {
     }
 };
 
-/// Time and file of each step, as VTK's XML parser finds them.
+/// Time and file of each step, as found by VTK's XML parser.
 std::map<std::string, double> stepsOf(const fs::path& pvd) {
     std::map<std::string, double> steps;
     vtkXMLDataElement* root = vtkXMLUtilities::ReadElementFromFile(pvd.c_str());
@@ -58,7 +58,7 @@ std::map<std::string, double> stepsOf(const fs::path& pvd) {
     return steps;
 }
 
-/// ∫ extinction dV over the cells, and its like over the particles of the same frame.
+/// ∫ extinction dV over the cells, and the corresponding sum over the particles of the same frame.
 double gridMass(const fs::path& vti) {
     vtkNew<vtkXMLImageDataReader> reader;
     reader->SetFileName(vti.c_str());
@@ -100,7 +100,7 @@ TEST_F(ExportCommand, WritesEveryFrameAndSeriesWithTheSimulationsTimes) {
          {std::pair("extinction.pvd", "vti"), {"particles.pvd", "vtp"}, {"scene.pvd", "vtm"}}) {
         const auto steps = stepsOf(fs::path(out()) / pvd);
         ASSERT_EQ(steps.size(), 3u);
-        for (const int frame : {0, 4, 8})  // two frames of warm-up lie before frame 0; its state is that after its step
+        for (const int frame : {0, 4, 8})  // two warm-up frames precede frame 0; its state is that after its step
             EXPECT_DOUBLE_EQ(steps.at(fmt::format("f{:06}.{}", frame, extension)), (frame + 2 + 1) / 60.0);
     }
     const std::string check = fmt::format(
@@ -224,7 +224,7 @@ TEST_F(ExportCommand, AnOctreeIsNotToBeHadFromPuffs) {
     EXPECT_THAT(called.err,
                 HasSubstr("method billboard hands over no octree; formats it can be written as: vti,vtp,vdb"));
     EXPECT_FALSE(fs::exists(out()));
-    // A suite asks the same of all methods: what one of them cannot give is left out and said.
+    // A suite requests the same formats from all methods: an unsupported one is omitted with a warning.
     const std::string run = fmt::format("run {} --frames 2 --volumes 0 --out '{}' ", shortWorld, out());
     const Called ran = call(run + "--format vtp,htg");
     ASSERT_EQ(ran.code, 0) << ran.err;
@@ -267,7 +267,7 @@ TEST_F(ExportCommand, ASuiteWritesVolumesOfEveryRun) {
     ASSERT_EQ(runs(out()).size(), 2u);
     for (const fs::path& run : runs(out()))
         EXPECT_THAT(names(run / "volumes"), IsSupersetOf({"f000000.vti", "f000002.vti", "f000002.vtp", "scene.pvd"}));
-    // The command line wins; then these are other runs.
+    // The command line takes precedence; these are then different runs.
     ASSERT_EQ(call(suite + "--volumes 1 --format vtp").code, 0);
     EXPECT_EQ(runs(out()).size(), 4u);
     EXPECT_THAT(call(suite + "--volumes 4").err, HasSubstr("allowed: frames 0..3"));
@@ -303,7 +303,7 @@ TEST_F(ExportCommand, AKilledExportLeavesOnlyWholeFiles) {
     }
     EXPECT_GE(grids, 1);
     EXPECT_FALSE(fs::exists(fs::path(out()) / "export.json"));
-    // The next export clears the rest away.
+    // The next export removes the leftovers.
     ASSERT_EQ(shortExport("--frames 0").code, 0);
     for (const std::string& name : names(out())) EXPECT_FALSE(name.starts_with('.')) << name;
 }

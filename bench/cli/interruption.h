@@ -1,9 +1,9 @@
-// Ctrl-C, `kill` and a closed terminal as something to ask for, so that nothing is left half done.
+// Turns Ctrl-C, `kill` and a closed terminal into a flag to poll, so that no work is left half done.
 #pragma once
 
 namespace dustbench::cli {
 
-/// From now on these signals are only noted.
+/// From now on these signals only set the flag.
 void listenForInterruption();
 [[nodiscard]] bool interrupted();
 

@@ -1,4 +1,4 @@
-// `dustbench list`: what this build and its data offer.
+// `dustbench list`: what this build and its data provide.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ void printParameters(const std::vector<Parameter>& parameters) {
     }
 }
 
-/// As a file says them: `direction = [0, 1, 0]`.
+/// In file syntax: `direction = [0, 1, 0]`.
 void printKeys(const std::vector<Parameter>& keys) {
     for (const Parameter& key : keys) {
         const std::string value = key.name + " = " + particles::valueToToml(key, key.initial);

@@ -1,5 +1,5 @@
-// The process of one run: measures and leaves the run's files; tells its parent on stdout how far it is. Or begins it
-// only, and tells how long it would take.
+// The process of one run: measures, writes the run's files and reports progress to its parent on stdout. Or it only
+// starts the run and prints a forecast of its duration.
 #include <unistd.h>
 
 #include <chrono>

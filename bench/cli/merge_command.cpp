@@ -1,4 +1,4 @@
-// `dustbench merge`: the results of several machines in one folder.
+// `dustbench merge`: combines the results of several machines in one folder.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -22,7 +22,7 @@ struct MergeOptions {
     std::vector<std::string> sources;
 };
 
-/// Each way once in which a run's machine is not that of the first one.
+/// Each difference between a run's machine and that of the first run, once.
 void sayWhereMachinesDiffer(const bench::StoredRuns& runs) {
     const bench::StoredRun* first = nullptr;
     std::set<std::string> said;

@@ -1,4 +1,4 @@
-// What `run`, `suite` and `reproduce` share: working through a plan with progress, Ctrl-C and exit codes.
+// Shared by `run`, `suite` and `reproduce`: executes a plan with progress output, Ctrl-C handling and exit codes.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace dustbench::cli {
 
-/// The options of executing that a user may set; the rest is filled in.
+/// The execution options that a user can set; the rest is filled in.
 struct PlanOptions {
     bool force = false;
     bool retryFailed = false;
@@ -20,18 +20,18 @@ struct PlanOptions {
     bench::ForecastByCell forecasts{};
 };
 
-/// How this program runs one process a run, for provenance with the user's command; Ctrl-C ends it.
+/// Options to run each run in a process of this program, with the user's command as provenance; Ctrl-C ends it.
 [[nodiscard]] bench::ExecutionOptions childExecution();
 
-/// Throws InputError where there is no OpenGL to draw with, or not the adapter that is asked for. Called before a
-/// folder for results is made.
+/// Throws InputError if OpenGL is not available, or not with the requested adapter. Call before creating a results
+/// folder.
 void requireOpenGl();
 
-/// Begins each cell of what is left to do and fills in `options.forecasts`. Throws InputError.
+/// Starts a run of each cell still to do and fills in `options.forecasts`. Throws InputError.
 [[nodiscard]] bench::PlanForecast forecastRuns(const std::vector<bench::PlannedRun>& plan,
                                                bench::ResultsFolder& results, PlanOptions& options);
 
-/// Executes and gives the exit code. Throws InputError.
+/// Executes the plan and returns the exit code. Throws InputError.
 [[nodiscard]] int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,
                           const PlanOptions& options);
 

@@ -10,7 +10,7 @@
 namespace dustbench::cli {
 namespace {
 
-/// A plain log need not grow with every frame: a sign of life now and then.
+/// Limits output to plain logs: a line now and then instead of one per frame.
 constexpr std::chrono::seconds plainInterval{30};
 constexpr std::chrono::milliseconds barInterval{100};
 

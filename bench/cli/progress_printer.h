@@ -1,4 +1,4 @@
-// Shows on stderr how a plan goes on: a bar on a terminal, plain lines elsewhere.
+// Shows the progress of a plan on stderr: a bar on a terminal, plain lines elsewhere.
 #pragma once
 
 #include <chrono>
@@ -16,14 +16,14 @@ class ProgressPrinter : public bench::ExecutionListener {
                  double etaSeconds) override;
     void heard(std::string_view line) override;
     void ended(const bench::PlannedRun& run, bench::RunStatus status, const std::string& reason) override;
-    /// Before something else is printed.
+    /// Call before printing anything else.
     void eraseBar();
 
  private:
     [[nodiscard]] int terminalWidth() const;
 
     bool terminal_;
-    std::string last_;  ///< what the run said last
+    std::string last_;  ///< the run's last message
     std::chrono::steady_clock::time_point lastShown_;
 };
 

@@ -40,7 +40,7 @@ void writeCsv(const std::string& folder, const std::string& text) {
     std::cout << file.string() << "\n";
 }
 
-/// Says what is slower by more than `percent`; true where something is, or fails that did not.
+/// Reports what is slower by more than `percent`; true if anything is, or newly fails.
 bool sayRegressions(const bench::FolderComparison& comparison, double percent) {
     std::size_t slower = 0;
     for (const bench::JudgedCell& judged : comparison.judged) {
@@ -78,7 +78,7 @@ int checkRegression(const RegressionOptions& options) {
     if (!options.failPercent) return exitOk;
 
     if (sayRegressions(comparison, *options.failPercent)) return exitRegression;
-    // A gate that cannot close must not look open.
+    // A check that cannot fail must not look as if it passed.
     if (std::ranges::none_of(comparison.judged, [](const auto& judged) { return judged.result.hasEnough(); })) {
         std::cerr << fmt::format("not comparable: no cell has {} runs with times in both, so no regression can show\n",
                                  bench::minimumTimes);

@@ -1,4 +1,4 @@
-// What `dustbench compare DIR_A DIR_B` does: two results folders against each other.
+// Implements `dustbench compare DIR_A DIR_B`, the comparison of two results folders.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ struct RegressionOptions {
     bool acrossMachines = false;
 };
 
-/// The exit code. Throws InputError.
+/// Returns the exit code. Throws InputError.
 [[nodiscard]] int checkRegression(const RegressionOptions& options);
 
 }  // namespace dustbench::cli

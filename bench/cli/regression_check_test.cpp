@@ -1,4 +1,4 @@
-// `compare DIR_A DIR_B` as a user calls it, on folders whose run.json were written here.
+// End-to-end tests of `compare DIR_A DIR_B`, on folders with generated run.json files.
 #include <gmock/gmock.h>
 
 #include "bench/cli/called_program.h"
@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 class CompareFolders : public Dustbench {
  protected:
-    /// Six runs of two cells; `change` sees each record before it is written.
+    /// Six runs of two cells; `change` is applied to each record before it is written.
     template <typename Change>
     void write(const std::string& name, double factor, const Change& change) const {
         for (const int particles : {100, 900})
@@ -82,7 +82,7 @@ TEST_F(CompareFolders, AGateThatCouldNotCloseIsNotPassed) {
     const Called called = compare("few");
     EXPECT_EQ(called.code, 6);
     EXPECT_THAT(called.err, HasSubstr("no cell has 6 runs"));
-    // What fails now is a regression, however few runs there are.
+    // A new failure is a regression, however few runs there are.
     write("fails", 1, [](bench::RunRecord& record) {
         if (record.spec.repetition > 1) return;
         record.status = bench::RunStatus::timeout;

@@ -21,7 +21,7 @@ struct ReportOptions {
     bool text = false;
 };
 
-/// The tables that `suite` and `reproduce` print, of whatever is there.
+/// The tables printed by `suite` and `reproduce`, for all existing runs.
 void printTables(const bench::ReportData& data) {
     for (const bench::RunGroup& group : data.groups) {
         if (group.suite.empty()) continue;

@@ -1,4 +1,4 @@
-// `dustbench reproduce`: runs the suites of a paper, prints what came out, and writes its page.
+// `dustbench reproduce`: runs the suites of a paper, prints the results, and writes its page.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ struct PaperWork {
     std::vector<SuiteWork> suites;
 };
 
-/// Reads everything there is to read, so that what is wrong with the last paper shows before the first run.
+/// Reads all input files, so that an error in the last paper is found before the first run.
 std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
     std::vector<PaperWork> work;
     for (const std::string& id : options.paper.empty() ? bench::listPapers() : std::vector{options.paper}) {
@@ -59,7 +59,7 @@ std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
     }
     requireOpenGl();
     for (PaperWork& paper : work) {
-        // Several papers of one call lie side by side.
+        // Several papers of one call get folders side by side.
         std::filesystem::path out = options.out;
         if (options.out.empty()) out = std::filesystem::path("reports/out") / paper.paper.id;
         if (!options.out.empty() && options.paper.empty()) out /= paper.paper.id;
@@ -68,7 +68,7 @@ std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
     return work;
 }
 
-/// Says how long all that is left to do will take; false where it was interrupted.
+/// Prints how long the remaining runs will take; false if interrupted.
 bool sayHowLong(std::vector<PaperWork>& work) {
     std::cerr << "estimate: starting one run of each kind" << std::endl;
     std::size_t runs = 0;

@@ -1,4 +1,4 @@
-// `dustbench run`: one method in one scene; lists and ranges of -P make it several runs.
+// `dustbench run`: one method in one scene; lists and ranges in -P give several runs.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -36,7 +36,7 @@ bench::RunSpec toSpec(const RunOptions& options) {
     return spec;
 }
 
-/// What each part of a frame costs: the median of every stage and its share of the median frame.
+/// The cost of each part of a frame: the median of every stage and its share of the median frame.
 void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results) {
     const std::string id = bench::runId(run.spec);
     const bench::StoredRun& stored = results.runs().at(id);

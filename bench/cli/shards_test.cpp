@@ -1,4 +1,4 @@
-// A suite in parts, as a user calls it: `suite --shard`, `merge`, and the script of `suite --slurm` without Slurm.
+// End-to-end tests of a suite in parts: `suite --shard`, `merge`, and the script of `suite --slurm` without Slurm.
 #include <gmock/gmock.h>
 
 #include "bench/cli/called_program.h"
@@ -81,10 +81,10 @@ TEST_F(Shards, TheScriptForSlurmRunsAShardAndSubmitsItselfAndTheMerge) {
                               HasSubstr("suite 'its own.toml' --repetitions=1 --timeout 100 \\\n")));
     EXPECT_FALSE(fs::exists(folder_ / "it's"));
     std::ofstream(folder_ / "job.sh") << script;
-    // What Slurm does with a task.
+    // Runs a task as Slurm does.
     for (int task = 1; task <= 2; ++task)
         EXPECT_EQ(bash(fmt::format("SLURM_ARRAY_TASK_ID={} bash job.sh", task)).code, 0);
-    // A stand-in for sbatch: notes what it is given, and runs what it reads.
+    // A stand-in for sbatch: records its arguments, and runs the script it reads.
     fs::create_directories(folder_ / "bin");
     std::ofstream(folder_ / "bin/sbatch") << "#!/bin/bash\necho \"$*\" >> given\n"
                                              "[[ $* == *job.sh ]] && echo '7;cluster' && exit\n"

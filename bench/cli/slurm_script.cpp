@@ -8,11 +8,11 @@
 namespace dustbench::cli {
 namespace {
 
-/// What starting a run takes beside its own time, and a shard beside its runs. Generous: a task that Slurm ends loses a
-/// run, one that ends early loses nothing.
+/// Overhead of starting a run, and of a shard. Generous: a task that Slurm kills loses a run, one that ends early loses
+/// nothing.
 constexpr double secondsAroundRun = 15, secondsAroundShard = 120;
 
-/// Letters, digits and a few signs that mean nothing to Slurm, which reads % in the names of files.
+/// Letters, digits and a few characters without a special meaning for Slurm, which interprets % in file names.
 std::string plainName(const std::string& text) {
     std::string plain = text;
     std::ranges::replace_if(

@@ -1,4 +1,4 @@
-// A suite as an array job of Slurm: a shard a task, then a job that merges.
+// Generates a Slurm array job for a suite: one task per shard, then a job that merges.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace dustbench::cli {
 
 struct SlurmJob {
     std::string name;                    ///< of the suite
-    std::string program, folder, out;    ///< absolute; `folder` is where the command was given
+    std::string program, folder, out;    ///< absolute; `folder` is the working directory of the command
     std::vector<std::string> arguments;  ///< of `dustbench`, without --out, --slurm and --shard
     int shards = 1;
     std::size_t runs = 0, maximumRunsOfShard = 0;
@@ -17,14 +17,14 @@ struct SlurmJob {
     double cooldownSeconds = 0;  ///< between two runs
 };
 
-/// A bash script: `sbatch` takes it as an array job; run as it is, it submits itself and the job that merges.
+/// A bash script. `sbatch` accepts it as an array job; run directly, it submits itself and the merge job.
 [[nodiscard]] std::string slurmScript(const SlurmJob& job);
 
-/// The words of a `dustbench` command but for some options and their values.
+/// The words of a `dustbench` command without some options and their values.
 [[nodiscard]] std::vector<std::string> withoutOptions(const std::vector<std::string>& words,
                                                       const std::vector<std::string>& options);
 
-/// As one word of a POSIX shell.
+/// Quotes the text as one word of a POSIX shell.
 [[nodiscard]] std::string shellQuoted(const std::string& text);
 
 }  // namespace dustbench::cli

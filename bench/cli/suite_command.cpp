@@ -1,4 +1,4 @@
-// `dustbench suite`: works through a suite, or goes on with it.
+// `dustbench suite`: runs a suite, or continues it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct SuiteOptions {
     VolumeOptions volumes{"--volumes"};
 };
 
-/// Prints the script by which Slurm works through the suite; nothing is run or written.
+/// Prints the Slurm script of the suite; nothing is run or written.
 int printSlurmScript(const SuiteOptions& options, const bench::Suite& suite, double timeoutSeconds,
                      double cooldownSeconds) {
     if (!options.shard.empty() || options.dryRun)
@@ -62,7 +62,7 @@ int printSlurmScript(const SuiteOptions& options, const bench::Suite& suite, dou
     return exitOk;
 }
 
-/// What would be run, what is there already, and how much room it may take; nothing is run or written.
+/// Prints the planned runs, existing results and maximum disk space; nothing is run or written.
 int printPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, const std::string& out) {
     bench::StoredRuns stored;
     if (std::filesystem::exists(std::filesystem::path(out) / "runs")) stored = bench::readStoredRuns(out);

@@ -10,7 +10,7 @@
 namespace dustbench::cli {
 namespace {
 
-/// So many rows are better read as columns where there are many numbers.
+/// Tables with many numbers and at most this many rows are transposed, to be more readable.
 constexpr std::size_t maximumColumns = 6;
 
 bench::TextRows transposed(const bench::TextRows& table) {

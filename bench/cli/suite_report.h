@@ -1,5 +1,5 @@
-// What `suite` and `reproduce` print: of a suite the table of FPS and stages and the verdicts that it asks for, of a
-// paper the verdicts on its claims.
+// The output of `suite` and `reproduce`: for a suite the table of FPS and stages and its verdicts, for a paper the
+// verdicts on its claims.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 namespace dustbench::cli {
 
 [[nodiscard]] std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs);
-/// Empty where the table has no rows.
+/// Empty if the table has no rows.
 [[nodiscard]] std::string publishedReport(bench::TextRows table);
 [[nodiscard]] std::string claimsReport(const std::vector<bench::JudgedClaim>& claims);
 

@@ -12,7 +12,7 @@ bool looksNumeric(const std::string& cell) {
     return cell.find_first_not_of("0123456789.+-e%") == std::string::npos;
 }
 
-/// Characters on the screen: UTF-8 bytes that continue one do not count.
+/// Characters on the screen: UTF-8 continuation bytes do not count.
 std::size_t displayWidth(const std::string& cell) {
     return static_cast<std::size_t>(
         std::ranges::count_if(cell, [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0) != 0x80; }));

@@ -1,4 +1,4 @@
-// A table for people: columns lined up, numbers to the right.
+// Formats a console table: aligned columns, numbers to the right.
 #pragma once
 
 #include <string>
@@ -6,8 +6,7 @@
 
 namespace dustbench::cli {
 
-/// The first row is the header. A column whose cells below the header all look like numbers (or are empty) is set
-/// right.
+/// The first row is the header. A column is right-aligned if all cells below the header look like numbers or are empty.
 [[nodiscard]] std::string textTable(const std::vector<std::vector<std::string>>& rows);
 
 /// `digits` after the point; empty for NaN.

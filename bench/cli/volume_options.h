@@ -1,4 +1,4 @@
-// The options by which `export`, `run` and `suite` say which volumes they write.
+// The options of `export`, `run` and `suite` that select volumes.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@ namespace dustbench::cli {
 
 class VolumeOptions {
  public:
-    /// `framesName` is `--frames` where frames must be given, or `--volumes` where none means no volumes.
+    /// `framesName` is `--frames` if frames are mandatory, or `--volumes` if omitting them means no volumes.
     explicit VolumeOptions(std::string framesName) : framesName_(std::move(framesName)) {}
 
     void declareRequired(Arguments& arguments);
     void declareOptional(Arguments& arguments);
-    /// What was given, over `base` where that has something. None: no volumes. Throws InputError, also where a format
-    /// or the like is given without frames.
+    /// The given options, with `base` as default. Empty: no volumes. Throws InputError, also if a format or similar
+    /// option is given without frames.
     [[nodiscard]] std::optional<bench::VolumeSettings> over(const std::optional<bench::VolumeSettings>& base) const;
 
  private:

@@ -1,4 +1,4 @@
-// The options by which commands name one method in one world.
+// The options that select one method in one world.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@ namespace dustbench::cli {
 struct WorldOptions {
     std::string method;
     std::string scene = bench::RunSpec().scene, drive;
-    std::vector<std::string> parameters;  ///< of -P, not yet looked at
+    std::vector<std::string> parameters;  ///< of -P, not yet parsed
     std::int64_t warmup = bench::RunSpec().warmup;
     std::string size = "640x480";
     std::int64_t seed = 1, threads = 0;
 
     void declare(Arguments& arguments);
-    /// All but the method.
+    /// All except the method.
     void declareWorld(Arguments& arguments);
-    /// All but the parameters. Throws InputError where a name is unknown.
+    /// All except the parameters. Throws InputError for an unknown name.
     [[nodiscard]] bench::RunSpec toSpec() const;
-    /// All but the parameters and the method.
+    /// All except the parameters and the method.
     [[nodiscard]] bench::RunSpec toWorldSpec() const;
 };
 
