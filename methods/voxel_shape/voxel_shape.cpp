@@ -181,8 +181,7 @@ MethodInfo describe() {
     info.title = "Voxel-shaped particles";
     info.summary = "A mesh becomes a grid of voxels that say how the particles in them look and move.";
     info.source = "JuckelBeckhaus2007";
-    info.parameters
-        .choice("shape", "car", shapeNames(), "which file of data/shapes: what is made of particles, and how")
+    info.parameters.dataFile("shape", "car", "shapes", ".toml", shapeNames(), "what is made of particles, and how")
         .integer("shape_particles", 0, 0, 10'000'000, "", "particles that the shape holds; 0: as its file says")
         .integer("particles_per_voxel", 0, 0, 100'000, "",
                  "particles that each voxel holds; 0: its share of the shape's, or as the file says")

@@ -263,7 +263,7 @@ TEST(PuffTextures, SayWhatIsWrongWithAFileInOneLine) {
     pictures::writeImage({4, 4, std::vector<glm::vec4>(16, glm::vec4(0))}, empty);
     for (const auto& file : {folder / "dustbench_no_such_puff.png", broken, oblong, empty}) {
         try {
-            PuffTextures(Canvas::device(), file, PuffTextures::Frames::separate);
+            const PuffTextures none(Canvas::device(), file, PuffTextures::Frames::separate);
             FAIL() << file;
         } catch (const InputError& error) {
             const std::string message = error.what();

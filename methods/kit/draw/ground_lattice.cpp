@@ -26,7 +26,8 @@ GroundLattice::GroundLattice(const scene::Terrain& terrain) : terrain_(terrain) 
     } else {
         across_ = flatCellsAcross;
     }
-    while (static_cast<double>(across_ / 2 * stride(levels_ - 1)) * cellMetres_ < reachMetres) ++levels_;
+    const std::int64_t cellsToRim = across_ / 2;
+    while (static_cast<double>(cellsToRim * stride(levels_ - 1)) * cellMetres_ < reachMetres) ++levels_;
 }
 
 std::int64_t GroundLattice::centreOf(int level, double coordinate, double origin) const {

@@ -59,6 +59,7 @@ PuffTextures::PuffTextures(gpu::Device& device, const std::filesystem::path& fil
                          std::to_string(edge) + ", expected square frames side by side");
 
     std::vector<std::vector<glm::vec4>> layers;
+    layers.reserve(static_cast<std::size_t>(image.width / edge));
     for (int frame = 0; frame < image.width / edge; ++frame)
         layers.push_back(normalisedFrame(image, frame, file.string()));
     opticalDepthScale_ = shadeScale_ = 0;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -15,8 +16,8 @@ namespace {
 TEST(ReadBack, HasItsFirstRowAtTheTop) {
     gpu::Device& device = TestCanvas::device();
     gpu::Texture texture = gpu::Texture::make2D(device, "test", gpu::Format::rgba32F, 2, 3);
-    std::vector<float> values;
-    for (int i = 0; i < 24; ++i) values.push_back(static_cast<float>(i));
+    std::vector<float> values(24);
+    std::iota(values.begin(), values.end(), 0.0f);
     texture.write(std::span<const float>(values));
     const pictures::Image image = readBack(texture);
     ASSERT_EQ(image.width, 2);

@@ -71,6 +71,7 @@ std::vector<GroundRectangle> shadowFootprints(const scene::Mesh& mesh, const glm
         }
     }
     std::vector<GroundRectangle> result;
+    result.reserve(bins.size());
     for (const auto& [bin, bounds] : bins)
         result.push_back(shadowFootprint(bounds.minimum, bounds.maximum, toWorld, toSun, terrain, marginMetres));
     joinOverlapping(result);

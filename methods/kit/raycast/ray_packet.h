@@ -21,9 +21,10 @@ struct RayPacket {
     RayPacket(const PixelRays& rays, int x, int y) : eye{rays.eye.x, rays.eye.y, rays.eye.z, 0} {
         Floats column, row;
         for (int lane = 0; lane < laneCount; ++lane) {
-            column[lane] = static_cast<float>(x + lane % 4) + 0.5f;
-            row[lane] = static_cast<float>(y + lane / 4) + 0.5f;
-            jitter[lane] = jitterOf(static_cast<std::uint32_t>(x + lane % 4), static_cast<std::uint32_t>(y + lane / 4));
+            const int pixelX = x + lane % 4, pixelY = y + lane / 4;
+            column[lane] = static_cast<float>(pixelX) + 0.5f;
+            row[lane] = static_cast<float>(pixelY) + 0.5f;
+            jitter[lane] = jitterOf(static_cast<std::uint32_t>(pixelX), static_cast<std::uint32_t>(pixelY));
         }
         Floats squares{};
         for (int axis = 0; axis < 3; ++axis) {

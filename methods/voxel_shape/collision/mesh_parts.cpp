@@ -75,6 +75,7 @@ std::vector<scene::Mesh> partsOf(const scene::Mesh& mesh) {
         }
     }
     std::vector<scene::Mesh> list;
+    list.reserve(parts.size());
     for (auto& [first, part] : parts) list.push_back(std::move(part));
     return list;
 }

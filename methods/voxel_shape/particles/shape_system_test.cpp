@@ -133,7 +133,7 @@ TEST(ShapeSystem, LetsAParticleThatLeavesFadeByItsLastVoxelAndDie) {
     float opacityBefore = store.opacity[0];
     while (store.size() == 1 && outside < 100) {
         system.step({}, withoutBirths(), dt);
-        if (store.size() == 0 || (system.particles().place[0] & ShapeParticles::outside) == 0) continue;
+        if (store.empty() || (system.particles().place[0] & ShapeParticles::outside) == 0) continue;
         if (++outside == 0) continue;
         const float share = static_cast<float>(outside) * dt / 0.5f;
         ASSERT_NEAR(store.opacity[0], 0.5f * (1 - share), 1e-4f);

@@ -48,6 +48,7 @@ TEST(VoxelFile, GivesEveryAttributeBack) {
         Voxel expected = grid.voxels()[i], got = again.voxels()[i];
         ASSERT_NEAR(got.forceNumber, expected.forceNumber, 1e-6f * std::abs(expected.forceNumber));
         got.forceNumber = expected.forceNumber;
+        // Bit by bit. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
         ASSERT_EQ(std::memcmp(&got, &expected, sizeof got), 0) << i;
     }
 }
