@@ -102,7 +102,7 @@ TEST(Shaders, AreGivenWithAndWithoutEachDefinitionThatTheyAskFor) {
     for (const auto& [file, text] : shaderFiles()) {
         const std::set<std::string> sources = sourcesWith(text);
         for (const char* pattern :
-             {R"(#ifn?def\s+(\w+))", R"(defined\s*\(?\s*(\w+))", R"(#(?:el)?if\s+(\w+)\s*[=!<>])"})
+             {R"(#ifn?def\s+(\w+))", R"(\bdefined\s*\(?\s*(\w+))", R"(#(?:el)?if\s+(\w+)\s*[=!<>])"})
             for (const std::string& name : namesIn(text, pattern)) {
                 if (ownNames.contains(name)) continue;
                 std::set<std::string> values;

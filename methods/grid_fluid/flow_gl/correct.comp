@@ -33,7 +33,7 @@ void main() {
     vec3 behind = movingThen[cell].xyz;
     vec4 own = moving[cell];
     vec3 ahead = behind + 2.0 * cellsPerSpeed * own.xyz;
-    // The first guess is undefined beyond the outermost centres, and not used farther along z than the maximum speed.
+    // The first guess has no value beyond the outermost centres, and is not used farther along z than the maximum speed.
     float reach = min(ceil(uintBitsToFloat(maximum[2]) * cellsPerSpeed), float(cells.z)) + 1.0;
     vec3 low = vec3(1, 1, max(1.0, float(c.z + 1) - reach));
     vec3 high = vec3(cells.xy, min(float(cells.z), float(c.z + 1) + reach));
