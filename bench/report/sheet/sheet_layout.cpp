@@ -179,7 +179,7 @@ class Layouter {
         y_ = bottom;
     }
 
-    /// `label  minimum ▭ most` about the middle of the columns. Of the room, a third is the label's at most, a fifth
+    /// `label  minimum ▭ maximum` about the middle of the columns. Of the room, a third is the label's at most, a fifth
     /// each number's, a tenth all spaces': a sixth is left for the bar.
     void placeScale(const SheetScale& scale) {
         const int room = right() - gridX_, space = std::min(share(0.4), room / 40);

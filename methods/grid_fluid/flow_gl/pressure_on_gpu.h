@@ -1,7 +1,7 @@
 // Solves for the pressure on the GPU as flow::PressureSolver does: multigrid down to a residual, or Jacobi sweeps.
 //
 // The operator is built when solids change. Cycles are queued without checking convergence; the caller reads the report
-// and requests more if necessary. Units: see fluid/projection.h. Owns its buffers. Threads: the OpenGL thread's.
+// and requests more if necessary. Units: see flow/projection.h. Owns its buffers. Threads: the OpenGL thread's.
 // Source: Trottenberg2001, 2.4 and 2.8; Crane2007, 30.2.3 (Jacobi).
 // Departs: coarsest levels have at most 32 cells, not 64: their inverse is built by one group of threads.
 #pragma once
