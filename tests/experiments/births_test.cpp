@@ -12,7 +12,7 @@ TEST(BirthExperiment, FindsNoneInSolidsThatTheMethodKnowsAndManyInThoseItDoesNot
     const BirthReport told = driveThroughWalls(context, true, 3.5), untold = driveThroughWalls(context, false, 3.5);
     EXPECT_EQ(told.inSolids, 0);
     EXPECT_GT(told.births, 100'000);
-    EXPECT_GT(untold.inSolids, 100);  // of a shape that is full once it moves, and loses few
+    EXPECT_GT(untold.inSolids, 100) << "198 to 212 with seeds 1, 2 and 3";
 }
 
 }  // namespace
