@@ -19,10 +19,10 @@ namespace dustbench::cli {
 [[nodiscard]] Command diffCommand();
 [[nodiscard]] Command compareCommand();
 
-/// What a run's own process does: `measure-run SPEC FOLDER -- the user's command`. Internal.
+/// Runs one measurement in its own process: `measure-run SPEC FOLDER -- the user's command`. Internal.
 inline constexpr const char* measureRunName = "measure-run";
 [[nodiscard]] int measureRunCommand(const std::vector<std::string>& argv);
-/// The same for a run that is only begun, to estimate its duration: `forecast-run SPEC FOLDER --`.
+/// Starts a run only to estimate its duration: `forecast-run SPEC FOLDER --`. Internal.
 inline constexpr const char* forecastRunName = "forecast-run";
 [[nodiscard]] int forecastRunCommand(const std::vector<std::string>& argv);
 

@@ -1,4 +1,5 @@
-// The `dustbench` command: parses, runs a subcommand, and turns what it throws into one line and an exit code.
+// The `dustbench` command: parses the arguments, runs a subcommand, and turns exceptions into one line and an exit
+// code.
 #include <algorithm>
 #include <exception>
 #include <iostream>
@@ -17,16 +18,16 @@
 namespace dustbench::cli {
 namespace {
 
-/// A message without line breaks, so that stderr gets one line whatever was thrown.
+/// The message without line breaks, so that stderr always gets one line.
 std::string oneLine(std::string message) {
     std::ranges::replace(message, '\n', ' ');
     return message;
 }
 
-/// `--adapter` and `--data`, for this process and those that it starts.
+/// `--adapter` and `--data`, for this process and its children.
 CommonOptions commonOptions() {
     auto adapter = std::make_shared<std::string>();
-    // Before the subcommand and after it: what stands first comes first.
+    // Accepted before and after the subcommand, in the order given.
     auto data = std::make_shared<std::list<std::vector<std::string>>>();
     return {[adapter, data](Arguments& arguments) {
                 arguments.texts("--data", "DIR",
@@ -43,7 +44,7 @@ CommonOptions commonOptions() {
                 std::vector<std::string> folders;
                 for (const auto& given : *data) folders.insert(folders.end(), given.begin(), given.end());
                 if (!folders.empty()) files::useDataFolders("--data", folders);
-                (void)files::namedDataFolders();  // one that is missing is wrong whatever the command
+                (void)files::namedDataFolders();  // a missing folder is an error for every command
             }};
 }
 

@@ -1,4 +1,4 @@
-// Help and checks that several subcommands share.
+// Help texts and checks shared by several subcommands.
 #pragma once
 
 #include <string>
@@ -10,12 +10,11 @@
 
 namespace dustbench::cli {
 
-/// `name=value` of every -P, in order; values may be lists and ranges. Throws InputError.
+/// `name=value` of every -P option, in order; values may be lists and ranges. Throws InputError.
 [[nodiscard]] bench::ParameterLists parseParameters(const std::vector<std::string>& texts);
 
-/// Loads every scene and drive of the plan once and finds the files that parameters name, so that what is wrong with
-/// them shows before the first run.
-/// Throws InputError.
+/// Loads every scene and drive of the plan once and looks up the files that parameters name, so that errors in them
+/// are reported before the first run. Throws InputError.
 void checkWorlds(const std::vector<bench::PlannedRun>& plan);
 
 }  // namespace dustbench::cli

@@ -1,13 +1,12 @@
 // Writes a method's octree as a VTK hyper-tree grid: one tree whose nodes are refined to all eight children.
 //
 // Cell data, in leaves and in inner nodes:
-//   extinction per metre. Leaf: the sum over its own voxel and all its ancestors'. Inner node: the mean of its
-//   children, so
-//                   that every depth to which the tree is cut off has the same mass
-//   own_extinction  per metre, of the very voxel at the node; 0 where there is none
+//   extinction      per metre. Leaf: the sum over its own voxel and those of all its ancestors. Inner node: the mean of
+//                   its children, so that the tree has the same mass at whatever depth it is cut off
+//   own_extinction  per metre, of the voxel at this node; 0 if there is none
 //   opacity         1 − exp(−extinction·edge)
-//   age             seconds; of the youngest voxel over a leaf, or over and within an inner node; NaN: there is none
-//   level           of the finest voxel over a leaf, or over and within an inner node, as in OctreeVoxel; −1: none
+//   age             seconds; the youngest voxel at, above or (inner nodes) below this node; NaN: none
+//   level           the finest voxel at, above or (inner nodes) below this node, as in OctreeVoxel; −1: none
 #pragma once
 
 #include <filesystem>
@@ -16,7 +15,7 @@
 
 namespace dustbench::bench {
 
-/// Whole or not at all. Throws InputError where it cannot be written, std::logic_error where the voxels are not in
+/// Writes the whole file or none. Throws InputError if it cannot be written, std::logic_error if the voxels are not in
 /// pre-order.
 void writeHtg(const CollectedOctree& octree, double timeSeconds, const std::filesystem::path& file);
 

@@ -14,9 +14,9 @@ namespace dustbench::bench {
 namespace {
 
 constexpr int rowsAtOnce = 4;
-/// Pixels of a row that share one decision on how much of a puff they see; the loops run over whole groups.
+/// Pixels of a row that are culled against a puff together; the loops run over whole groups.
 constexpr int group = 8;
-/// Of 2: below any depth that counts, and 2^x holds for it.
+/// Smallest exponent of 2: below every depth that matters, and still within the range of our 2^x.
 constexpr double minimumExponent = -1000;
 
 /// One row of the image as columns of numbers, padded to whole groups.
@@ -53,7 +53,7 @@ struct Row {
     std::vector<double> nearest, farthest;  ///< t1 of each group
 };
 
-/// What the loops need of a puff in a row: exponent = logDepth − (γ·(X − X0)² + κ)/D, to the base of 2.
+/// Coefficients of one puff in one row: exponent = logDepth − (γ·(X − X0)² + κ)/D, to base 2.
 struct RowPuff {
     double logDepth, gamma, x0, kappa;
     double footAtZero, footPerSlope, inverseWidth;  ///< 1/(√2·s)
@@ -70,7 +70,7 @@ void addWhole(const RowPuff& puff, const double* slopesX, Row& row, std::size_t 
     }
 }
 
-/// ½[erf((t1 − tc)/√2s) − erf((0 − tc)/√2s)] of each; where the eye is far off, the second is −1.
+/// ½[erf((t1 − tc)/√2s) − erf((0 − tc)/√2s)] of each pixel; far from the eye the second term is −1.
 template <bool cutByEye>
 void addCut(const RowPuff& puff, const double* slopesX, Row& row, std::size_t first) {
     const HalfErrorFunction& halfErf = row.halfErf;
@@ -96,7 +96,7 @@ std::int64_t addGroups(const RowPuff& puff, double extentMetres, double footRang
     std::int64_t computed = 0;
     for (std::size_t g = first; g < end; ++g) {
         const std::size_t i = g * group;
-        // The foot in the group's middle, and the bounds for all of the group.
+        // The foot at the group's middle, and bounds that hold for the whole group.
         const double foot = (puff.footAtZero + puff.footPerSlope * slopesX[i + group / 2]) * row.inverse[i + group / 2];
         const double nearMetres = foot - footRangeMetres - extentMetres;
         const double farMetres = foot + footRangeMetres + extentMetres;
@@ -134,7 +134,7 @@ DepthSum sumDepths(const std::vector<Puff>& puffs, const CameraRays& rays, const
                 const int end = std::min(puff.endRow, static_cast<int>(from + count));
                 if (first >= end) continue;
                 const double extent = sigmasAlongRay * puff.deviationMetres;
-                // From the group's middle to its rim, a ray turns by less than the difference in slope, and the foot
+                // From the group's middle to its edge, a ray turns by less than the difference in slope, so the foot
                 // moves by less than that times the centre's distance.
                 const double footRange = glm::length(puff.centre) * (group / 2.0) * (slopesX[1] - slopesX[0]);
                 // exp(−b²/2s²) = 2^(−b²·log2(e)/2s²).

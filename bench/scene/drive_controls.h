@@ -1,6 +1,6 @@
-// Controls from a drive file: its pedals, or a driver that follows its target speed.
+// Controls from a drive file: its pedal positions, or a driver who follows its target speed.
 //
-// Owns: the drive and the driver. The controls of the first row hold before it, those of the last row after it.
+// The first row's controls apply before its time, the last row's after its time. Owns: the drive and the driver.
 #pragma once
 
 #include <memory>

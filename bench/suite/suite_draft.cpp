@@ -21,7 +21,7 @@ constexpr std::int64_t maximumRepetitions = 1000;
     return InputError(where + error.what());
 }
 
-/// As it is used from the working directory: paths in a suite's file are relative to the file.
+/// The path as seen from the working directory: paths in a suite's file are relative to the file.
 std::string usable(const SuiteDraft& draft, const std::string& parameter, const std::string& value) {
     for (const std::string& id : draft.methods)
         if (const Parameter* declared = findMethod(id).parameters.find(parameter);
@@ -43,7 +43,7 @@ std::vector<std::string> readValues(const SuiteDraft& draft, files::TomlReader& 
     }
 }
 
-/// Every value must suit each of the methods, or the file is wrong at this line.
+/// Every value must be allowed by each of the methods; otherwise the error names this line.
 void readParameters(const SuiteDraft& draft, files::TomlReader& table, const std::vector<std::string>& methodIds,
                     ParameterLists& lists) {
     for (const std::string& name : table.keys()) {
@@ -58,7 +58,7 @@ void readParameters(const SuiteDraft& draft, files::TomlReader& table, const std
     }
 }
 
-/// One seed or several, whose runs are different worlds.
+/// One seed or several; each seed is a different world.
 void readSeeds(files::TomlReader& table, std::vector<std::uint64_t>& seeds) {
     if (!table.has("seed")) return;
     seeds.clear();
@@ -88,7 +88,7 @@ void readNames(files::TomlReader& table, const std::string& key, std::vector<std
         }
 }
 
-/// Names of data, or files.
+/// Names of data, or paths of files.
 void readDataNames(const SuiteDraft& draft, files::TomlReader& table, const std::string& key,
                    std::string_view extension, std::vector<std::string>& names) {
     const std::string kind = key.substr(0, key.size() - 1);
@@ -104,7 +104,7 @@ std::vector<std::string> allMethods() {
     return ids;
 }
 
-/// `volumes` asks for them; the other keys say more about it.
+/// `volumes` requests volumes; the other keys refine it.
 void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volumes) {
     const auto read = [&](const std::string& key, const auto& apply) {
         if (!table.has(key)) return;
@@ -134,7 +134,7 @@ void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volume
     });
 }
 
-/// `metrics` asks for them; `metric_frames` says of which frames.
+/// `metrics` requests metrics; `metric_frames` chooses the frames.
 void readJudging(files::TomlReader& table, std::optional<JudgingPlan>& judging) {
     if (table.has("metrics")) {
         if (!table.boolean("metrics", false))
@@ -153,7 +153,7 @@ void readJudging(files::TomlReader& table, std::optional<JudgingPlan>& judging) 
     }
 }
 
-/// `[metric_reference.ID]`: parameters of the method's own, one value each.
+/// `[metric_reference.ID]`: the method's own parameters, one value each.
 void readFinerSettings(files::TomlReader& table, SuiteDraft& draft) {
     files::TomlReader perMethod = table.table("metric_reference");
     for (const std::string& id : perMethod.keys()) {
@@ -179,7 +179,7 @@ void readFinerSettings(files::TomlReader& table, SuiteDraft& draft) {
     perMethod.finish();
 }
 
-/// Which of the cells are left out. A value that no cell could have is a mistake in the file.
+/// The cells to leave out. A value that no cell has is an error in the file.
 void readExceptions(files::TomlReader& suite, SuiteDraft& draft) {
     draft.exceptions.clear();
     for (files::TomlReader& table : suite.tables("except")) {

@@ -12,7 +12,7 @@
 namespace dustbench {
 namespace {
 
-/// The shortest text that reads back as the same number.
+/// The shortest text that parses to the same number.
 std::string numberText(double value) {
     char buffer[32];
     const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
@@ -47,7 +47,7 @@ bool isFile(const Parameter& parameter, std::string_view text) {
     return !extension.empty() && (text.find('/') != std::string_view::npos || text.ends_with(extension));
 }
 
-/// The canonical text of a value, or nothing where the declaration does not allow it.
+/// The canonical text of a value; empty if the declaration does not allow it.
 std::optional<std::string> canonicalText(const Parameter& parameter, std::string_view text) {
     switch (parameter.type) {
         case ParameterType::integer: {

@@ -1,5 +1,5 @@
-// Named, typed, ranged parameters: declared once, from which the command line, suites, `list` and the docs are
-// generated.
+// Parameters with a name, a type and a range. One declaration generates the command line, suites, `list` and the
+// documentation.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace dustbench {
 enum class ParameterType { integer, real, boolean, choice, cells };
 
 /// One declared parameter. `initial` is the default as text in its canonical form; `minimum` and `maximum` are
-/// inclusive, of cells along each edge.
+/// inclusive; for a grid they limit the cells along each edge.
 struct DUSTBENCH_API Parameter {
     std::string name;
     ParameterType type = ParameterType::real;
@@ -28,10 +28,10 @@ struct DUSTBENCH_API Parameter {
     std::vector<std::string> choices;
     std::string unit;
     std::string help;
-    /// Of a choice among files of data, which takes a file's path as well: where in data they lie, and their extension.
+    /// For a choice among data files, which also takes a path: their folder in data, and their extension.
     std::string dataFolder{}, fileExtension{};
 
-    /// What may be given, for people: `integer 0..1000000`, `quicksort|radix|none`.
+    /// The allowed values as text: `integer 0..1000000`, `quicksort|radix|none`.
     [[nodiscard]] std::string allowed() const;
 };
 
@@ -43,17 +43,17 @@ class DUSTBENCH_API ParameterSet {
     ParameterSet& real(std::string name, double initial, double minimum, double maximum, std::string unit,
                        std::string help);
     ParameterSet& boolean(std::string name, bool initial, std::string help);
-    /// One of some words, for what has no enumeration.
+    /// One of several words, without an enumeration.
     ParameterSet& choice(std::string name, std::string initial, std::vector<std::string> choices, std::string help);
     template <typename Enumeration>
     ParameterSet& choice(std::string name, std::type_identity_t<Enumeration> initial,
                          const Choices<Enumeration>& choices, std::string help) {
         return choice(std::move(name), std::string(choices.wordOf(initial)), choices.words(), std::move(help));
     }
-    /// One of the names of `data/<folder>/<name><extension>`, or a file by its path: it has a '/' or the extension.
+    /// A name, for `data/<folder>/<name><extension>`, or a file's path, recognised by a '/' or the extension.
     ParameterSet& dataFile(std::string name, std::string initial, std::string folder, std::string extension,
                            std::vector<std::string> names, std::string help);
-    /// The size of a grid, `128x64x64`.
+    /// The number of cells of a grid, `128x64x64`.
     ParameterSet& cells(std::string name, std::string initial, std::int64_t minimum, std::int64_t maximum,
                         std::string help);
 
@@ -70,19 +70,19 @@ class DUSTBENCH_API ParameterSet {
 class DUSTBENCH_API ParameterValues {
  public:
     ParameterValues() = default;
-    /// All defaults.
+    /// The defaults.
     explicit ParameterValues(const ParameterSet& declared);
 
-    /// Throws InputError with the parameter, what was got and what is allowed.
+    /// Throws InputError with the parameter, the value received and the values allowed.
     void set(std::string_view name, std::string_view text);
 
     [[nodiscard]] std::int64_t integer(std::string_view name) const;
     [[nodiscard]] double real(std::string_view name) const;
     [[nodiscard]] bool boolean(std::string_view name) const;
-    /// Of a data file too.
+    /// Also for data files.
     [[nodiscard]] const std::string& choice(std::string_view name) const;
     [[nodiscard]] std::array<int, 3> cells(std::string_view name) const;
-    /// What the choice stands for in the table that it is declared with.
+    /// The value that the chosen word has in the table it was declared with.
     template <typename Enumeration>
     [[nodiscard]] Enumeration choice(std::string_view name, const Choices<Enumeration>& choices) const {
         return choices.valueOf(choiceOf(name, choices.words()));

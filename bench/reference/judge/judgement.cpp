@@ -16,7 +16,7 @@ struct MeanMetric {
     Metric of;
 };
 
-/// Those of which a run has the mean over its moments.
+/// The metrics that a run reports as a mean over its moments.
 constexpr std::array<MeanMetric, 13> means{{
     {{"psnr_db", "peak signal-to-noise ratio against the exact picture, dB"}, &MomentMetrics::psnrDb},
     {{"ssim", "structural similarity to the exact picture, 1: the same"}, &MomentMetrics::ssim},

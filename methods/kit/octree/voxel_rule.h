@@ -1,7 +1,7 @@
-// Which of several particles in one voxel it stands for, and how much mass it holds.
+// Policies for particles that share a voxel: which one the voxel represents, and how much mass it holds.
 //
 // Units: m² (optical mass). Threads: pure.
-// The paper is silent on particles that share a voxel: these policies are ours.
+// The paper does not say what happens to particles that share a voxel: these policies are ours.
 #pragma once
 
 #include <bit>
@@ -14,7 +14,7 @@
 namespace dustbench::octree {
 
 /// `max`: the highest peak opacity α wins; `youngest` and `accumulate`: the lowest age. Ties go to the lower serial, so
-/// that the winner does not depend on the order in which particles come.
+/// that the winner does not depend on the order of the particles.
 class VoxelRule {
  public:
     VoxelRule(const Puffs& store, OpacityPolicy policy)
@@ -27,7 +27,7 @@ class VoxelRule {
 
     [[nodiscard]] bool accumulates() const { return policy_ == OpacityPolicy::accumulate; }
 
-    /// The higher wins. Floats of one sign order as their bits do.
+    /// The higher value wins. Floats of the same sign compare like their bits.
     [[nodiscard]] std::uint32_t priority(std::uint32_t particle) const {
         return std::bit_cast<std::uint32_t>(values_[particle]) ^ flip_;
     }
