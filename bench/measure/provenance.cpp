@@ -82,6 +82,7 @@ Provenance startProvenance(std::vector<std::string> argv) {
 std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& inputs) {
     std::vector<InputHash> hashes;
     const std::set<std::filesystem::path> files(inputs.begin(), inputs.end());  // a mesh may be used more than once
+    hashes.reserve(files.size());
     for (const std::filesystem::path& file : files) {
         hashes.push_back({nameOfInput(file), sha256OfFile(file)});
     }

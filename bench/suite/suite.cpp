@@ -158,6 +158,7 @@ std::vector<SuiteFile> listSuites() {
                 add(folder, paper);
     }
     std::vector<SuiteFile> list;
+    list.reserve(suites.size());
     for (auto& [id, suite] : suites) list.push_back(std::move(suite));
     return list;
 }

@@ -19,12 +19,14 @@ using testing::HasSubstr;
 using testing::Not;
 
 class DataFolders : public testing::Test {
+ public:
+    ~DataFolders() override { before_ ? setenv("DUSTBENCH_DATA", before_->c_str(), 1) : unsetenv("DUSTBENCH_DATA"); }
+
  protected:
     DataFolders() {
         if (const char* before = std::getenv("DUSTBENCH_DATA")) before_ = before;
         unsetenv("DUSTBENCH_DATA");
     }
-    ~DataFolders() override { before_ ? setenv("DUSTBENCH_DATA", before_->c_str(), 1) : unsetenv("DUSTBENCH_DATA"); }
     /// A file of a folder `name` of data.
     [[nodiscard]] fs::path add(const std::string& name, const std::string& file) const {
         fs::create_directories((folder_.path() / name / file).parent_path());

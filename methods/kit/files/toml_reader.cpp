@@ -82,6 +82,7 @@ std::vector<std::string> TomlReader::keys() const {
     for (const auto& [key, node] : *state_->table) sorted.emplace_back(key.source().begin, key.str());
     std::ranges::sort(sorted, [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<std::string> list;
+    list.reserve(sorted.size());
     for (auto& [position, key] : sorted) list.push_back(std::move(key));
     return list;
 }

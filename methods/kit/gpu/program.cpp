@@ -22,8 +22,10 @@ std::string logOf(GLuint name, decltype(glGetShaderiv) getParameter, decltype(gl
     GLint length = 0;
     getParameter(name, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
-    getLog(name, length, nullptr, log.data());
-    return log.c_str();
+    GLsizei written = 0;
+    getLog(name, length, &written, log.data());
+    log.resize(static_cast<std::size_t>(written));
+    return log;
 }
 
 std::function<void(std::string_view, std::span<const CompiledShader>)>& programListener() {

@@ -38,7 +38,7 @@ scene::Scene sceneWith(bool heightField) {
             for (int i = 0; i < side; ++i)
                 heights[static_cast<std::size_t>(j * side + i)] =
                     static_cast<float>(2 * std::sin(i * 0.05) * std::cos(j * 0.07));
-        scene.terrain = scene::Terrain(std::move(heights), side, side, 1, -side / 2, -side / 2);
+        scene.terrain = scene::Terrain(std::move(heights), side, side, 1, -0.5f * side, -0.5f * side);
     }
     return scene;
 }

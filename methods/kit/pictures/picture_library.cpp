@@ -17,7 +17,7 @@ const PictureLibrary& load() {
         throw std::runtime_error("cannot load the library for pictures: " +
                                  (reason == nullptr ? file.string() : std::string(reason)));
     }
-    return reinterpret_cast<const PictureLibrary& (*)()>(function)();
+    return *reinterpret_cast<const PictureLibrary* (*)()>(function)();
 }
 
 }  // namespace

@@ -23,13 +23,13 @@ std::string oneLine(std::string message) {
 
 class OpenImageIo final : public PictureLibrary {
  public:
-    OpenImageIo() {
 #ifdef __SANITIZE_THREAD__
+    OpenImageIo() {
         // ThreadSanitizer cannot see into an uninstrumented OpenImageIO and reports false races in its thread pool.
         OIIO::attribute("threads", oneThread);
         OIIO::attribute("exr_threads", oneThread);
-#endif
     }
+#endif
 
     std::string read(const std::filesystem::path& file, StoredPicture& picture) const override {
         // Request straight alpha, because OpenImageIO would premultiply the encoded colours.
@@ -98,8 +98,8 @@ class OpenImageIo final : public PictureLibrary {
 }  // namespace
 }  // namespace dustbench::pictures
 
-extern "C" DUSTBENCH_API const dustbench::pictures::PictureLibrary& dustbenchPictureLibrary();
-extern "C" const dustbench::pictures::PictureLibrary& dustbenchPictureLibrary() {
+extern "C" DUSTBENCH_API const dustbench::pictures::PictureLibrary* dustbenchPictureLibrary();
+extern "C" const dustbench::pictures::PictureLibrary* dustbenchPictureLibrary() {
     static const dustbench::pictures::OpenImageIo library;
-    return library;
+    return &library;
 }
