@@ -6,6 +6,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/meshes/mesh_file.h"
+#include "methods/kit/meshes/open_edges.h"
 #include "methods/voxel_shape/voxels/solid_fill.h"
 
 namespace dustbench::voxel_shape {
@@ -86,8 +87,8 @@ VoxelChange readChange(TomlReader& table) {
 /// The space within a closed mesh, put somewhere in the shape's frame.
 std::shared_ptr<const SolidSpace> readRegion(TomlReader& table, const std::filesystem::path& folder) {
     const scene::Mesh mesh = meshes::readMesh(folder / table.text("mesh"), glm::vec3(0));
-    if (openEdges(mesh) > 0)
-        throw InputError(table.where("mesh") + "key 'mesh': the mesh has " + std::to_string(openEdges(mesh)) +
+    if (meshes::openEdges(mesh) > 0)
+        throw InputError(table.where("mesh") + "key 'mesh': the mesh has " + std::to_string(meshes::openEdges(mesh)) +
                          " open edges, expected a closed one, which has an inside");
     const glm::vec3 place = vector(table, "position", far, glm::dvec3(0));
     const auto scale = static_cast<float>(table.number("scale", 1e-3, 1e3, 1));

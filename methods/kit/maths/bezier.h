@@ -1,7 +1,7 @@
 // Cubic Bézier curves of scalars and vectors over t in [0, 1].
 //
 // Threads: pure. Source: Thesis, 4.4.3 (de Casteljau); Farin2002, ch. 4. Departs: uses (1 − t) for the printed weight
-// (N − t).
+// (N − t), except where named.
 #pragma once
 
 namespace dustbench::maths {
@@ -29,6 +29,13 @@ struct CubicPolynomial {
 template <typename T>
 [[nodiscard]] constexpr CubicPolynomial<T> bezierPolynomial(const T& p0, const T& p1, const T& p2, const T& p3) {
     return {p0, 3.0f * (p1 - p0), 3.0f * (p0 - 2.0f * p1 + p2), p3 - p0 + 3.0f * (p1 - p2)};
+}
+
+/// With the weights as printed, (N − t)^(N−i)·t^i for N = 3. They do not sum to 1: the curve begins at 27·p0 and ends
+/// at 8·p0 + 12·p1 + 6·p2 + p3.
+template <typename T>
+[[nodiscard]] constexpr CubicPolynomial<T> printedBezierPolynomial(const T& p0, const T& p1, const T& p2, const T& p3) {
+    return {27.0f * p0, 27.0f * (p1 - p0), 9.0f * (p0 - 2.0f * p1 + p2), p3 - p0 + 3.0f * (p1 - p2)};
 }
 
 }  // namespace dustbench::maths

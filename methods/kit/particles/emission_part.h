@@ -25,6 +25,10 @@ class EmissionPart : public Part {
     /// Called once per step; `step.particlesPerPuff` multiplies every rate. May keep state for the next step (an
     /// accumulator, a time counter).
     [[nodiscard]] virtual Births births(const Step& step) = 0;
+    /// Without a vehicle and at the emission's own rate: for estimates of the memory needed.
+    [[nodiscard]] virtual double meanRatePerSecond() const { return 0; }
+    /// Whether its own rate is 0 at any speed.
+    [[nodiscard]] virtual bool neverEmits() const { return false; }
 };
 
 }  // namespace dustbench::particles

@@ -14,6 +14,21 @@ struct Newborns {
     const float* moment;
     const Emitter* const*
         emitter;  ///< of each newborn: emitters take turns, so that each gets an equal share, evenly spaced in time
+
+    /// Position of newborn `i`'s emitter at its birth, on the straight path of the step: the centre of the source.
+    [[nodiscard]] glm::vec3 centre(std::size_t i) const {
+        return glm::mix(emitter[i]->from, emitter[i]->to, moment[i]);
+    }
+    void setPosition(std::size_t i, const glm::vec3& position) const {
+        chunk.x[i] = position.x;
+        chunk.y[i] = position.y;
+        chunk.z[i] = position.z;
+    }
+    void setVelocity(std::size_t i, const glm::vec3& velocity) const {
+        chunk.velocityX[i] = velocity.x;
+        chunk.velocityY[i] = velocity.y;
+        chunk.velocityZ[i] = velocity.z;
+    }
 };
 
 }  // namespace dustbench::particles

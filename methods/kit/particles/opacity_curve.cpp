@@ -20,6 +20,10 @@ void bezierOpacity(std::size_t count, const float* __restrict share, float* __re
     }
 }
 
+void limitOpacity(std::size_t count, float* __restrict opacity, float maximum) {
+    for (std::size_t i = 0; i < count; ++i) opacity[i] = opacity[i] < maximum ? opacity[i] : maximum;
+}
+
 float valueOf(const ParameterValues& values, const char* name) {
     return static_cast<float>(values.real(name));
 }
@@ -35,11 +39,14 @@ void OpacityCurve::declare(ParameterSet& set) {
         .real("opacity_end", 0, 0, maximumOpacity, "", "peak opacity at death");
 }
 
-OpacityCurve::OpacityCurve(const ParameterValues& values)
+OpacityCurve::OpacityCurve(const ParameterValues& values, maths::SamplingMode mode)
     : form_(values.choice("opacity_curve", forms)),
+      printed_(mode == maths::SamplingMode::paper),
       start_(valueOf(values, "opacity_start")),
-      end_(valueOf(values, "opacity_end")),
-      curve_(maths::bezierPolynomial(start_, valueOf(values, "opacity_early"), valueOf(values, "opacity_late"), end_)) {
+      end_(valueOf(values, "opacity_end")) {
+    const float early = valueOf(values, "opacity_early"), late = valueOf(values, "opacity_late");
+    curve_ = printed_ ? maths::printedBezierPolynomial(start_, early, late, end_)
+                      : maths::bezierPolynomial(start_, early, late, end_);
 }
 
 void OpacityCurve::write(const float* share, float* opacity, std::size_t count) const {
@@ -47,6 +54,7 @@ void OpacityCurve::write(const float* share, float* opacity, std::size_t count) 
         linearOpacity(count, share, opacity, start_, end_);
     else
         bezierOpacity(count, share, opacity, curve_);
+    if (printed_) limitOpacity(count, opacity, static_cast<float>(maximumOpacity));
 }
 
 }  // namespace dustbench::particles

@@ -7,13 +7,15 @@
 
 #include "methods/contract/parameters.h"
 #include "methods/kit/maths/bezier.h"
+#include "methods/kit/maths/sampling.h"
 
 namespace dustbench::particles {
 
 class OpacityCurve {
  public:
     static void declare(ParameterSet& set);
-    explicit OpacityCurve(const ParameterValues& values);
+    /// `mode` paper: the cubic curve with the printed weights (maths/bezier.h), limited to 0.999.
+    explicit OpacityCurve(const ParameterValues& values, maths::SamplingMode mode = maths::SamplingMode::fixed);
 
     void write(const float* share, float* opacity, std::size_t count) const;
 
@@ -22,6 +24,7 @@ class OpacityCurve {
     static constexpr Choices<Form> forms{{"linear", Form::linear}, {"bezier", Form::bezier}};
 
     Form form_;
+    bool printed_;
     float start_, end_;
     maths::CubicPolynomial<float> curve_;
 };

@@ -71,6 +71,9 @@ std::unique_ptr<PartList> readParts(files::TomlReader file) {
         }
     }
     file.finish();
+    if (parts->emission() && parts->emission()->neverEmits())
+        throw InputError(file.where("emission") + "emission part '" + parts->emission()->name() +
+                         "': got rates of 0, allowed: a rate above 0, or nothing is ever born");
     if (const std::string missing = parts->missing(); !missing.empty())
         throw InputError(file.where() + "particle system: " + missing);
     return parts;

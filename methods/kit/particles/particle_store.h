@@ -18,6 +18,9 @@ namespace dustbench::particles {
 
 class DUSTBENCH_API ParticleStore {
  public:
+    /// Of the columns, those of the colour included.
+    static constexpr std::size_t bytesPerParticle = sizeof(std::uint64_t) + 13 * sizeof(float);
+
     explicit ParticleStore(MemoryLedger& ledger);
 
     [[nodiscard]] std::size_t size() const { return serial.size(); }

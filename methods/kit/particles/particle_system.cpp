@@ -1,11 +1,14 @@
 #include "methods/kit/particles/particle_system.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/maths/hash.h"
+#include "methods/kit/memory/available_memory.h"
 #include "methods/kit/parallel/for_each_block.h"
 #include "methods/kit/particles/chunk_update.h"
 #include "methods/kit/particles/emitter_tracker.h"
@@ -23,6 +26,8 @@ constexpr std::size_t fewChunks = 4;  // with fewer chunks, a second thread does
 struct ParticleSystem::State {
     State(std::unique_ptr<PartList> list, std::uint64_t seedOfAll) : parts(std::move(list)), seed(seedOfAll) {}
 
+    /// Throws InputError unless the machine's memory holds so many particles. Only larger numbers are checked again.
+    void requireRoom(double particles);
     void live(const Step& step);
     void bury(std::span<const std::uint32_t> holes);
     void giveBirth(const Births& births, std::span<const Emitter> emitters, std::span<const std::uint32_t> holes,
@@ -31,12 +36,26 @@ struct ParticleSystem::State {
     std::unique_ptr<PartList> parts;
     std::uint64_t seed;
     std::uint64_t nextSerial = 0;
+    double roomFor = 0;  ///< particles for which there was memory when it was last checked
     EmitterTracker tracker;
     MemoryLedger ledger;
     ParticleStore store{ledger};
     NotedParticles deaths{ledger};
     LedgerVector<std::uint32_t> survivors{ledger.account("particle deaths")};
 };
+
+void ParticleSystem::State::requireRoom(double particles) {
+    if (particles <= roomFor) return;
+    constexpr double maximumCount = 0xffffffff;  // a particle's index has 32 bits
+    const double bytes = particles * static_cast<double>(ParticleStore::bytesPerParticle);
+    const std::string asked = fmt::format("{:.0f} particles of a system", particles);
+    if (particles > maximumCount)
+        throw InputError(
+            fmt::format("{} need {:.3g} bytes, allowed: at most {:.0f} particles", asked, bytes, maximumCount));
+    const double held = static_cast<double>(store.size()) * static_cast<double>(ParticleStore::bytesPerParticle);
+    requireAvailable(asked, static_cast<std::size_t>(std::max(bytes - held, 0.0)));
+    roomFor = particles;
+}
 
 void ParticleSystem::State::live(const Step& step) {
     deaths.prepare(store.size());
@@ -79,6 +98,7 @@ void ParticleSystem::State::giveBirth(const Births& births, std::span<const Emit
                                       std::span<const std::uint32_t> holes, const Step& step) {
     const std::size_t born = static_cast<std::size_t>(births.count);
     const std::size_t before = store.size();
+    requireRoom(static_cast<double>(before) + static_cast<double>(births.count));
     if (born > holes.size()) store.resize(before + born - holes.size());
     parallel::forEachBlock(
         born, NewbornBlock::size,
@@ -120,6 +140,8 @@ void ParticleSystem::update(const Surroundings& surroundings) {
     if (const std::string missing = s.parts->missing(); !missing.empty()) throw std::logic_error(missing);
     const PartList& parts = *s.parts;
     const double fixedRate = static_cast<double>(surroundings.fixedCount) / meanLifetimeSeconds();
+    const double rate = fixedRate > 0 ? fixedRate : parts.emission()->meanRatePerSecond();
+    s.requireRoom(rate * meanLifetimeSeconds() * static_cast<double>(surroundings.particlesPerPuff));
     const Step step{surroundings.scene,
                     surroundings.state,
                     surroundings.stepSeconds,

@@ -17,9 +17,4 @@ std::span<const Emitter> PlacedSource::emitters(const Step& step) const {
     return at_ == At::wheels ? step.wheels : std::span(&place_, 1);
 }
 
-glm::vec3 PlacedSource::centreOf(const Newborns& newborns, std::size_t i) {
-    const Emitter& emitter = *newborns.emitter[i];
-    return glm::mix(emitter.from, emitter.to, newborns.moment[i]);
-}
-
 }  // namespace dustbench::particles

@@ -12,10 +12,6 @@ class PlacedSource : public PositionPart {
 
     [[nodiscard]] std::span<const Emitter> emitters(const Step& step) const override;
 
- protected:
-    /// Position of newborn `i`'s emitter at its birth, on the straight path of the step.
-    [[nodiscard]] static glm::vec3 centreOf(const Newborns& newborns, std::size_t i);
-
  private:
     enum class At { wheels, place };
     static constexpr Choices<At> places{{"wheels", At::wheels}, {"place", At::place}};

@@ -17,6 +17,11 @@ struct Emitter {
     glm::vec3 velocityFrom{0}, velocityTo{0};  ///< velocity of the carrier
     glm::vec3 forward{1, 0, 0}, up{0, 1, 0}, right{0, 0, 1};
     float speed = 0;  ///< along `forward`, m/s
+
+    /// From the emitter's frame (forward, up, right) to the world.
+    [[nodiscard]] glm::vec3 toWorld(const glm::vec3& local) const {
+        return local.x * forward + local.y * up + local.z * right;
+    }
 };
 
 struct Step {

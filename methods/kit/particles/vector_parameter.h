@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "methods/contract/errors.h"
 #include "methods/contract/parameters.h"
 
 namespace dustbench::particles {
@@ -24,6 +25,14 @@ inline void declareVector(ParameterSet& set, const std::string& name, const std:
                                          const std::array<std::string_view, 3>& axes) {
     return {values.real(name + "." + std::string(axes[0])), values.real(name + "." + std::string(axes[1])),
             values.real(name + "." + std::string(axes[2]))};
+}
+
+/// A vector in space as a unit vector. Throws InputError for one of zero length.
+[[nodiscard]] inline glm::vec3 directionOf(const ParameterValues& values, const std::string& name) {
+    const glm::vec3 direction = vectorOf(values, name, spaceAxes);
+    if (!(glm::length(direction) > 1e-6f))
+        throw InputError("parameter " + name + ": got [0, 0, 0], allowed: any direction, of some length");
+    return glm::normalize(direction);
 }
 
 }  // namespace dustbench::particles

@@ -14,8 +14,8 @@
 
 #include "methods/contract/scene.h"
 #include "methods/kit/memory/memory_ledger.h"
+#include "methods/kit/meshes/triangle_tree.h"
 #include "methods/voxel_shape/collision/nearness.h"
-#include "methods/voxel_shape/collision/triangle_tree.h"
 #include "methods/voxel_shape/particles/pose.h"
 #include "methods/voxel_shape/particles/shape_particles.h"
 #include "methods/voxel_shape/voxels/voxel_grid.h"
@@ -63,7 +63,7 @@ class ShapeCollision {
 
     Impact impact_;
     float reachMetres_;
-    TriangleTree tree_;
+    meshes::TriangleTree tree_;
     std::vector<Place> places_;
     std::size_t off_ = 0;
 };

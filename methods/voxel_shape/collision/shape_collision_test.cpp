@@ -6,9 +6,10 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
+#include "methods/kit/meshes/open_edges.h"
+#include "methods/kit/meshes/triangle_tree.h"
 #include "methods/voxel_shape/collision/mesh_parts.h"
 #include "methods/voxel_shape/particles/shape_system.h"
-#include "methods/voxel_shape/voxels/solid_fill.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"
 
@@ -38,7 +39,7 @@ scene::Scene sceneWith(const scene::Mesh& mesh, const glm::mat4& toWorld) {
 
 TEST(TriangleTree, FindsTheFirstTriangleOfASegmentAsAPlainLoopDoes) {
     const scene::Mesh sphere = sphereMesh(1, 20);
-    TriangleTree tree;
+    meshes::TriangleTree tree;
     tree.add(sphere, glm::translate(glm::mat4(1), {10, 0, 0}));
     tree.build();
     std::mt19937 random(1);
@@ -86,7 +87,7 @@ TEST(MeshParts, AreWhatHangsTogetherOrOverlaps) {
     ASSERT_EQ(parts.size(), 3u);
     EXPECT_EQ(parts[0].indices.size(), 72u);
     EXPECT_EQ(parts[1].indices.size(), 36u);
-    EXPECT_EQ(openEdges(parts[2]), 0u);
+    EXPECT_EQ(meshes::openEdges(parts[2]), 0u);
 }
 
 TEST(ShapeCollision, LeavesVoxelsOnBetweenTheCopiesOfASolid) {

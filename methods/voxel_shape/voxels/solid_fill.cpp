@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/meshes/open_edges.h"
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -95,35 +96,6 @@ class OutsideSweeps {
 
 }  // namespace
 
-std::size_t openEdges(const scene::Mesh& mesh) {
-    // Corners at one place become one number: their rank among all places.
-    const auto less = [](const glm::vec3& a, const glm::vec3& b) {
-        return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
-    };
-    std::vector<glm::vec3> places(mesh.positions);
-    std::sort(places.begin(), places.end(), less);
-    std::vector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> edges;
-    edges.reserve(mesh.indices.size());
-    const auto rank = [&](std::size_t corner) {
-        return std::lower_bound(places.begin(), places.end(), mesh.positions[mesh.indices[corner]], less) -
-               places.begin();
-    };
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::ptrdiff_t a = rank(i + k), b = rank(i + (k + 1) % 3);
-            if (a != b) edges.emplace_back(std::min(a, b), std::max(a, b));
-        }
-    std::sort(edges.begin(), edges.end());
-    std::size_t open = 0;
-    for (std::size_t i = 0; i < edges.size();) {
-        std::size_t same = i;
-        while (same < edges.size() && edges[same] == edges[i]) ++same;
-        open += (same - i) % 2;
-        i = same;
-    }
-    return open;
-}
-
 bool markInside(MarkedVoxels& surface) {
     const OutsideSweeps sweeps(surface);
     bool any = false;
@@ -154,7 +126,7 @@ bool fillInside(MarkedVoxels& surface) {
 
 void fillSolid(MarkedVoxels& surface, const scene::Mesh& mesh) {
     if (fillInside(surface)) return;
-    if (const std::size_t open = openEdges(mesh); open > 0)
+    if (const std::size_t open = meshes::openEdges(mesh); open > 0)
         throw InputError("solid voxels: the mesh is open (" + std::to_string(open) +
                          " edges of one triangle alone) and encloses nothing at this resolution; allowed: a closed "
                          "mesh, holes narrower than a voxel, or fill = \"surface\"");

@@ -11,9 +11,6 @@
 
 namespace dustbench::voxel_shape {
 
-/// Edges that belong to an odd number of triangles, corners at the same place taken for one: 0 for a closed surface.
-[[nodiscard]] std::size_t openEdges(const scene::Mesh& mesh);
-
 /// Marks what `surface` encloses, and leaves its colours alone; false where that is nothing.
 bool markInside(MarkedVoxels& surface);
 

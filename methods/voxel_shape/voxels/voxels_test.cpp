@@ -5,6 +5,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/meshes/mesh_file.h"
+#include "methods/kit/meshes/open_edges.h"
 #include "methods/kit/testing/test_input_error.h"
 #include "methods/voxel_shape/voxels/slice_pass.h"
 #include "methods/voxel_shape/voxels/slice_voxels.h"
@@ -137,8 +138,8 @@ TEST(SolidFill, ConvergesToTheVolumeOfASphere) {
 
 TEST(SolidFill, RefusesAnOpenSurfaceThatEnclosesNothing) {
     const scene::Mesh wall = rectangleMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-    EXPECT_EQ(openEdges(wall), 4u);
-    EXPECT_EQ(openEdges(sphereMesh(1, 12)), 0u);
+    EXPECT_EQ(meshes::openEdges(wall), 4u);
+    EXPECT_EQ(meshes::openEdges(sphereMesh(1, 12)), 0u);
     MarkedVoxels voxels = surfaceVoxels(wall, latticeAround(wall, 8));
     EXPECT_EQ(voxels.count(), 64u);
     EXPECT_NE(inputError([&] { fillSolid(voxels, wall); }).find("encloses nothing"), std::string::npos);

@@ -1,12 +1,13 @@
 // Colour along a cubic Bézier curve of four control colours, from birth to death.
 //
-// Departs from its source: evaluates the curve as a polynomial in t (maths/bezier.h), which equals de Casteljau's
-// result.
+// fixed: evaluates the curve as a polynomial in t (maths/bezier.h), which equals de Casteljau's result. paper: the
+// printed weights, (N − t)^(N−i)·t^i, which make the colour at birth 27 times the first one.
 #include <array>
 
 #include "methods/kit/maths/bezier.h"
 #include "methods/kit/particles/colour_part.h"
 #include "methods/kit/particles/opacity_curve.h"
+#include "methods/kit/particles/sampling_modes.h"
 #include "methods/kit/particles/vector_parameter.h"
 
 namespace dustbench::particles::parts::colour::bezier {
@@ -32,11 +33,15 @@ class BezierColour final : public ColourPart {
     OpacityCurve opacity_;
 };
 
-BezierColour::BezierColour(const ParameterValues& values) : ColourPart(values), opacity_(values) {
+BezierColour::BezierColour(const ParameterValues& values)
+    : ColourPart(values), opacity_(values, values.choice("mode", samplingModes)) {
+    const bool printed = values.choice("mode", samplingModes) == maths::SamplingMode::paper;
     const glm::vec3 start = vectorOf(values, "start", colourAxes), early = vectorOf(values, "early", colourAxes),
                     late = vectorOf(values, "late", colourAxes), end = vectorOf(values, "end", colourAxes);
     for (int i = 0; i < 3; ++i)
-        channels_[static_cast<std::size_t>(i)] = maths::bezierPolynomial(start[i], early[i], late[i], end[i]);
+        channels_[static_cast<std::size_t>(i)] =
+            printed ? maths::printedBezierPolynomial(start[i], early[i], late[i], end[i])
+                    : maths::bezierPolynomial(start[i], early[i], late[i], end[i]);
 }
 
 void BezierColour::update(Chunk& chunk, const Step&) const {
@@ -52,6 +57,8 @@ PartInfo describe() {
     PartInfo info;
     info.help = "along a cubic curve of four colours";
     info.source = "Thesis, 4.4.3";
+    info.parameters.choice("mode", maths::SamplingMode::fixed, samplingModes,
+                           "paper: the printed weights (N − t), 27 times too bright at birth; fixed: (1 − t)");
     declareVector(info.parameters, "start", colourAxes, {1, 1, 1}, 0, 100, "", "linear RGB at birth");
     declareVector(info.parameters, "early", colourAxes, {1, 1, 1}, 0, 100, "", "second control colour");
     declareVector(info.parameters, "late", colourAxes, {1, 1, 1}, 0, 100, "", "third control colour");

@@ -15,6 +15,8 @@ class Stream final : public EmissionPart {
     explicit Stream(const ParameterValues& values);
 
     [[nodiscard]] Births births(const Step& step) override;
+    [[nodiscard]] bool neverEmits() const override { return ratePerSecond_ <= 0 && ratePerMetre_ <= 0; }
+    [[nodiscard]] double meanRatePerSecond() const override { return ratePerSecond_; }
 
  private:
     double ratePerSecond_, ratePerMetre_;
@@ -45,8 +47,8 @@ PartInfo describe() {
     PartInfo info;
     info.help = "a steady stream, faster with the vehicle's speed";
     info.source = "Thesis, 4.6.1";
-    info.parameters.real("rate_per_second", 0, 0, 1e8, "1/s", "births per second, from all emitters together")
-        .real("rate_per_metre", 40, 0, 1e6, "1/m", "births per metre that the vehicle goes, besides");
+    info.parameters.real("rate_per_second", 0, 0, 1e12, "1/s", "births per second, from all emitters together")
+        .real("rate_per_metre", 40, 0, 1e9, "1/m", "births per metre that the vehicle goes, besides");
     info.create = [](const ParameterValues& values) { return std::make_unique<Stream>(values); };
     return info;
 }

@@ -25,10 +25,7 @@ void DiscSource::place(Newborns& newborns, const Step& step) const {
         const Emitter& emitter = *newborns.emitter[i];
         const auto u = maths::uniform4(step.seed, positionStream, chunk.serial[i]);
         const glm::vec2 point = radiusMetres_ * maths::discPoint(u[0], u[1]);
-        const glm::vec3 position = centreOf(newborns, i) + point.x * emitter.forward + point.y * emitter.right;
-        chunk.x[i] = position.x;
-        chunk.y[i] = position.y;
-        chunk.z[i] = position.z;
+        newborns.setPosition(i, newborns.centre(i) + point.x * emitter.forward + point.y * emitter.right);
     }
 }
 

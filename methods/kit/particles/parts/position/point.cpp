@@ -12,13 +12,7 @@ class PointSource final : public PlacedSource {
 };
 
 void PointSource::place(Newborns& newborns, const Step&) const {
-    const Chunk& chunk = newborns.chunk;
-    for (std::size_t i = 0; i < chunk.count; ++i) {
-        const glm::vec3 centre = centreOf(newborns, i);
-        chunk.x[i] = centre.x;
-        chunk.y[i] = centre.y;
-        chunk.z[i] = centre.z;
-    }
+    for (std::size_t i = 0; i < newborns.chunk.count; ++i) newborns.setPosition(i, newborns.centre(i));
 }
 
 }  // namespace

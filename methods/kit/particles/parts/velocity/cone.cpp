@@ -5,23 +5,17 @@
 // D: within half_angle of `direction`, S: the emitter's speed, V: its velocity, R in [−1, 1). The thesis has (avg +
 // R·var)·D; the dependence of the start velocity on the car's speed is from Carr and Geyer.
 // Frame of `direction`: the emitter's; x forward, y up, z right.
-#include "methods/contract/errors.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/sampling.h"
+#include "methods/kit/particles/sampling_modes.h"
 #include "methods/kit/particles/vector_parameter.h"
 #include "methods/kit/particles/velocity_part.h"
 
 namespace dustbench::particles::parts::velocity::cone {
 namespace {
 
-constexpr Choices<maths::SamplingMode> modes{{"paper", maths::SamplingMode::paper},
-                                             {"fixed", maths::SamplingMode::fixed}};
-
 maths::Cone coneOf(const ParameterValues& values) {
-    const glm::vec3 direction = vectorOf(values, "direction", spaceAxes);
-    if (!(glm::length(direction) > 1e-6f))
-        throw InputError("parameter direction: got [0, 0, 0], allowed: any direction, of some length");
-    return {values.choice("mode", modes), glm::normalize(direction),
+    return {values.choice("mode", samplingModes), directionOf(values, "direction"),
             static_cast<float>(values.real("half_angle_degrees") / 360)};
 }
 
@@ -50,14 +44,10 @@ void ConeVelocity::launch(Newborns& newborns, const Step& step) const {
     for (std::size_t i = 0; i < chunk.count; ++i) {
         const Emitter& emitter = *newborns.emitter[i];
         const auto u = maths::uniform4(step.seed, velocityStream, chunk.serial[i]);
-        const glm::vec3 local = cone_.direction(u[0], u[1]);
-        const glm::vec3 direction = local.x * emitter.forward + local.y * emitter.up + local.z * emitter.right;
+        const glm::vec3 direction = emitter.toWorld(cone_.direction(u[0], u[1]));
         const float speed = (speed_ + speedShare_ * emitter.speed) * (1 + variation_ * maths::centred(u[2]));
         const glm::vec3 carrier = glm::mix(emitter.velocityFrom, emitter.velocityTo, newborns.moment[i]);
-        const glm::vec3 velocity = speed * direction + inherit_ * carrier;
-        chunk.velocityX[i] = velocity.x;
-        chunk.velocityY[i] = velocity.y;
-        chunk.velocityZ[i] = velocity.z;
+        newborns.setVelocity(i, speed * direction + inherit_ * carrier);
     }
 }
 
@@ -67,7 +57,7 @@ PartInfo describe() {
     PartInfo info;
     info.help = "within a cone, faster with the vehicle's speed";
     info.source = "Thesis, 4.3.1 and 4.3.2; Carr2006, 2.1";
-    info.parameters.choice("mode", maths::SamplingMode::fixed, modes,
+    info.parameters.choice("mode", maths::SamplingMode::fixed, samplingModes,
                            "paper: angle √R·half_angle; fixed: uniform over the cone, its cosine interpolated");
     declareVector(info.parameters, "direction", spaceAxes, {0, 1, 0}, -1, 1, "", "axis: forward, up, right");
     info.parameters.real("half_angle_degrees", 30, 0, 180, "°", "half the cone's opening")

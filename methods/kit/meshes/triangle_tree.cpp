@@ -1,4 +1,4 @@
-#include "methods/voxel_shape/collision/triangle_tree.h"
+#include "methods/kit/meshes/triangle_tree.h"
 
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
@@ -9,7 +9,7 @@
 
 #include "methods/contract/errors.h"
 
-namespace dustbench::voxel_shape {
+namespace dustbench::meshes {
 
 struct TriangleTree::Embree {
     Embree() {
@@ -107,4 +107,4 @@ std::size_t TriangleTree::bytes() const {
            static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree_->bytes.load(), 0));
 }
 
-}  // namespace dustbench::voxel_shape
+}  // namespace dustbench::meshes

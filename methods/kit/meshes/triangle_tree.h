@@ -14,9 +14,9 @@
 
 #include "methods/contract/solid.h"
 
-namespace dustbench::voxel_shape {
+namespace dustbench::meshes {
 
-class TriangleTree {
+class DUSTBENCH_API TriangleTree {
  public:
     TriangleTree();
     ~TriangleTree();
@@ -44,4 +44,4 @@ class TriangleTree {
     std::vector<std::array<glm::vec3, 3>> corners_;
 };
 
-}  // namespace dustbench::voxel_shape
+}  // namespace dustbench::meshes
