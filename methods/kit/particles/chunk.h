@@ -14,6 +14,7 @@ inline constexpr std::size_t chunkSize = 512;
 
 /// Pointers to `count` particles. All arrays are distinct, so that kernels may declare them `__restrict`.
 struct Chunk {
+    std::size_t first = 0;  ///< index in the store; 0 for newborns
     std::size_t count = 0;
     const std::uint64_t* serial = nullptr;
     float *x = nullptr, *y = nullptr, *z = nullptr;

@@ -48,6 +48,32 @@ void shade(Chunk& chunk, const PartList& parts, const Step& step) {
     light(chunk.count, chunk.blue, chunk.luminosityBlue);
 }
 
+void move(Chunk& chunk, float seconds) {
+    integrate(chunk.count, chunk.x, chunk.velocityX, chunk.accelerationX, seconds);
+    integrate(chunk.count, chunk.y, chunk.velocityY, chunk.accelerationY, seconds);
+    integrate(chunk.count, chunk.z, chunk.velocityZ, chunk.accelerationZ, seconds);
+}
+
+void drift(Chunk& chunk) {
+    drift(chunk.count, chunk.x, chunk.velocityX, chunk.age);
+    drift(chunk.count, chunk.y, chunk.velocityY, chunk.age);
+    drift(chunk.count, chunk.z, chunk.velocityZ, chunk.age);
+}
+
+[[gnu::noinline]] void moveAmong(const MetSurfaces& surfaces, Chunk& chunk, float seconds) {
+    WayBegins begins;
+    begins.take(chunk, &seconds, false);
+    move(chunk, seconds);
+    meetSurfaces(chunk, begins, surfaces);
+}
+
+[[gnu::noinline]] void driftAmong(const MetSurfaces& surfaces, Chunk& chunk) {
+    WayBegins begins;
+    begins.take(chunk, chunk.age, true);
+    drift(chunk);
+    meetSurfaces(chunk, begins, surfaces);
+}
+
 }  // namespace
 
 void ChunkScratch::lend(Chunk& chunk, bool shaded) {
@@ -61,7 +87,7 @@ void ChunkScratch::lend(Chunk& chunk, bool shaded) {
     chunk.dead = dead.data();
 }
 
-void updateChunk(Chunk& chunk, const PartList& parts, const Step& step) {
+void updateChunk(Chunk& chunk, const PartList& parts, const MetSurfaces& surfaces, const Step& step) {
     const std::size_t count = chunk.count;
     const float seconds = static_cast<float>(step.seconds);
     clear(count, {chunk.accelerationX, chunk.accelerationY, chunk.accelerationZ, chunk.airX, chunk.airY, chunk.airZ});
@@ -82,19 +108,21 @@ void updateChunk(Chunk& chunk, const PartList& parts, const Step& step) {
 
     for (const auto& part : parts.forces()) part->blow(chunk, step);
     for (const auto& part : parts.forces()) part->push(chunk, step);
-    integrate(count, chunk.x, chunk.velocityX, chunk.accelerationX, seconds);
-    integrate(count, chunk.y, chunk.velocityY, chunk.accelerationY, seconds);
-    integrate(count, chunk.z, chunk.velocityZ, chunk.accelerationZ, seconds);
+    if (surfaces.empty())
+        move(chunk, seconds);
+    else
+        moveAmong(surfaces, chunk, seconds);
     for (const auto& part : parts.forces()) part->touch(chunk, step);
 }
 
-void initialiseNewborns(Newborns& newborns, const PartList& parts, const Step& step) {
+void initialiseNewborns(Newborns& newborns, const PartList& parts, const MetSurfaces& surfaces, const Step& step) {
     Chunk& chunk = newborns.chunk;
     parts.position()->place(newborns, step);
     parts.velocity()->launch(newborns, step);
-    drift(chunk.count, chunk.x, chunk.velocityX, chunk.age);
-    drift(chunk.count, chunk.y, chunk.velocityY, chunk.age);
-    drift(chunk.count, chunk.z, chunk.velocityZ, chunk.age);
+    if (surfaces.empty())
+        drift(chunk);
+    else
+        driftAmong(surfaces, chunk);
 
     parts.lifetime().giveLifetimes(newborns, step);
     shareOfLife(chunk.count, chunk.age, chunk.lifetime, chunk.share);

@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "methods/kit/particles/contacts.h"
 #include "methods/kit/particles/newborns.h"
 #include "methods/kit/particles/part_list.h"
 
@@ -23,9 +24,10 @@ struct alignas(64) ChunkScratch {
 };
 
 /// Clears the acceleration, then applies age, life, colour, shading, size, forces, integration. Sets `chunk.dead`.
-void updateChunk(Chunk& chunk, const PartList& parts, const Step& step);
+/// `surfaces`: those of the parts.
+void updateChunk(Chunk& chunk, const PartList& parts, const MetSurfaces& surfaces, const Step& step);
 
 /// Sets position, velocity, lifetime, colour and size of newborns whose serial, age and moment are set.
-void initialiseNewborns(Newborns& newborns, const PartList& parts, const Step& step);
+void initialiseNewborns(Newborns& newborns, const PartList& parts, const MetSurfaces& surfaces, const Step& step);
 
 }  // namespace dustbench::particles

@@ -1,28 +1,39 @@
 // The kind of part that moves particles: through the air it stirs, by acceleration, or by contact.
 //
-// Within a step all forces first `blow`, then all `push`; the particles move; then all `touch`. The order of the list
-// therefore matters only among forces of the same sort. Source: Thesis, 3.1.3 and 5.1.
+// Within a step all forces first `blow`, then all `push`; the particles move, as far as surfaces let them; then all
+// `touch`. The order of the list therefore matters only among forces of the same sort. Source: Thesis, 3.1.3 and 5.1.
 #pragma once
 
 #include "methods/kit/particles/chunk.h"
 #include "methods/kit/particles/part.h"
 #include "methods/kit/particles/step.h"
+#include "methods/kit/particles/surface.h"
 
 namespace dustbench::particles {
+
+class ParticleStore;
 
 class ForcePart : public Part {
  public:
     using Part::Part;
     [[nodiscard]] PartKind kind() const final { return PartKind::force; }
 
-    /// Called once per step before all chunks, to compute values shared by all particles.
-    virtual void begin(const Step&) {}
+    /// Called once per step before all chunks, to compute values shared by all particles, or from all of them: the
+    /// store holds the particles at the step's begin, and later in the step must not be read.
+    virtual void begin(const Step&, const ParticleStore&) {}
     /// Adds to the air's velocity, `chunk.airX`, `…Y`, `…Z`.
     virtual void blow(Chunk&, const Step&) const {}
     /// Adds to the acceleration, which may depend on the air's velocity.
     virtual void push(Chunk&, const Step&) const {}
     /// Corrects position and velocity of particles that have moved through a surface; the old position is x − v·dt.
     virtual void touch(Chunk&, const Step&) const {}
+
+    /// The surface that this part keeps particles out of, between `push` and `touch`; null: none.
+    [[nodiscard]] virtual const Surface* surface() const { return nullptr; }
+    [[nodiscard]] virtual Contact contact() const { return {}; }
+
+    /// Memory held, beyond the part itself.
+    [[nodiscard]] virtual std::size_t bytes() const { return 0; }
 };
 
 }  // namespace dustbench::particles

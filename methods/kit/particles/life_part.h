@@ -7,6 +7,7 @@
 
 #include "methods/kit/particles/newborns.h"
 #include "methods/kit/particles/part.h"
+#include "methods/kit/particles/surface.h"
 
 namespace dustbench::particles {
 
@@ -17,6 +18,9 @@ class LifePart : public Part {
 
     /// Sets `chunk.dead` to 1 for particles that must die; leaves the others unchanged.
     virtual void judge(Chunk& chunk, const Step& step) const = 0;
+
+    /// A surface at which particles die; null: none.
+    [[nodiscard]] virtual const Surface* surface() const { return nullptr; }
 
     /// The mean lifetime, if this part sets lifetimes.
     [[nodiscard]] virtual std::optional<double> meanLifetimeSeconds() const { return std::nullopt; }

@@ -66,6 +66,7 @@ ParticleStore::operator Puffs() const {
 
 Chunk ParticleStore::chunk(std::size_t first, std::size_t count) {
     Chunk chunk;
+    chunk.first = first;
     chunk.count = count;
     chunk.serial = serial.data() + first;
     chunk.x = x.data() + first;

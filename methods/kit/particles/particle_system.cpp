@@ -28,10 +28,10 @@ struct ParticleSystem::State {
 
     /// Throws InputError unless the machine's memory holds so many particles. Only larger numbers are checked again.
     void requireRoom(double particles);
-    void live(const Step& step);
+    void live(const MetSurfaces& surfaces, const Step& step);
     void bury(std::span<const std::uint32_t> holes);
     void giveBirth(const Births& births, std::span<const Emitter> emitters, std::span<const std::uint32_t> holes,
-                   const Step& step);
+                   const MetSurfaces& surfaces, const Step& step);
 
     std::unique_ptr<PartList> parts;
     std::uint64_t seed;
@@ -57,7 +57,7 @@ void ParticleSystem::State::requireRoom(double particles) {
     roomFor = particles;
 }
 
-void ParticleSystem::State::live(const Step& step) {
+void ParticleSystem::State::live(const MetSurfaces& surfaces, const Step& step) {
     deaths.prepare(store.size());
     parallel::forEachBlock(
         store.size(), chunkSize,
@@ -65,7 +65,7 @@ void ParticleSystem::State::live(const Step& step) {
             ChunkScratch scratch;
             Chunk chunk = store.chunk(first, count);
             scratch.lend(chunk, !parts->shadings().empty());
-            updateChunk(chunk, *parts, step);
+            updateChunk(chunk, *parts, surfaces, step);
             deaths.note(first / chunkSize, chunk.dead, count);
         },
         fewChunks);
@@ -95,7 +95,8 @@ void ParticleSystem::State::bury(std::span<const std::uint32_t> holes) {
 
 /// Newborns fill the holes of dead particles first, in order; the rest are appended.
 void ParticleSystem::State::giveBirth(const Births& births, std::span<const Emitter> emitters,
-                                      std::span<const std::uint32_t> holes, const Step& step) {
+                                      std::span<const std::uint32_t> holes, const MetSurfaces& surfaces,
+                                      const Step& step) {
     const std::size_t born = static_cast<std::size_t>(births.count);
     const std::size_t before = store.size();
     requireRoom(static_cast<double>(before) + static_cast<double>(births.count));
@@ -107,7 +108,7 @@ void ParticleSystem::State::giveBirth(const Births& births, std::span<const Emit
             NewbornBlock block;
             Newborns newborns = block.newborns(first, count, nextSerial + first, births, emitters, step.seconds);
             scratch.lend(newborns.chunk, !parts->shadings().empty());
-            initialiseNewborns(newborns, *parts, step);
+            initialiseNewborns(newborns, *parts, surfaces, step);
             for (std::size_t i = 0; i < count; ++i) {
                 const std::size_t k = first + i;
                 store.put(newborns.chunk, i, k < holes.size() ? holes[k] : before + (k - holes.size()));
@@ -154,12 +155,13 @@ void ParticleSystem::update(const Surroundings& surroundings) {
     if (oneColour) s.store.colourOfAll = *oneColour;
     s.store.keepOneColour(oneColour.has_value() && parts.shadings().empty());
 
-    for (const auto& force : s.parts->forces()) force->begin(step);
-    s.live(step);
+    for (const auto& force : s.parts->forces()) force->begin(step, s.store);
+    const MetSurfaces surfaces(parts);
+    s.live(surfaces, step);
     const auto holes = s.deaths.collect();
     const auto emitters = parts.position()->emitters(step);
     const Births births = emitters.empty() ? Births{} : parts.emission()->births(step);
-    s.giveBirth(births, emitters, holes, step);
+    s.giveBirth(births, emitters, holes, surfaces, step);
 }
 
 std::string ParticleSystem::toToml() const {
@@ -185,6 +187,9 @@ std::uint64_t ParticleSystem::stateHash() const {
 MemoryReport ParticleSystem::memory() const {
     MemoryReport report;
     for (const auto& [structure, bytes] : state_->ledger.entries()) report.push_back({structure, bytes, 0});
+    std::size_t bytesOfForces = 0;
+    for (const auto& force : state_->parts->forces()) bytesOfForces += force->bytes();
+    if (bytesOfForces > 0) report.push_back({"forces", bytesOfForces, 0});
     return report;
 }
 

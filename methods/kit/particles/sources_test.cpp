@@ -310,7 +310,8 @@ TEST(Emission, ARateOfNothingOrOfMoreThanTheMachineHoldsIsOneLine) {
         return "no error";
     };
     EXPECT_NE(errorOf("0").find("rates of 0"), std::string::npos) << errorOf("0");
-    EXPECT_NE(errorOf("1e12").find("800000000000 particles of a system need 4.8e+13 bytes"), std::string::npos) << errorOf("1e12");
+    EXPECT_NE(errorOf("1e12").find("800000000000 particles of a system need 4.8e+13 bytes"), std::string::npos)
+        << errorOf("1e12");
     EXPECT_EQ(errorOf("1000"), "no error");
 }
 

@@ -26,7 +26,7 @@ class Wind final : public ForcePart {
  public:
     explicit Wind(const ParameterValues& values);
 
-    void begin(const Step& step) override;
+    void begin(const Step& step, const ParticleStore& store) override;
     void blow(Chunk& chunk, const Step& step) const override;
 
  private:
@@ -42,7 +42,7 @@ Wind::Wind(const ParameterValues& values)
       gustMetres_(values.real("gust_metres")),
       gustSeconds_(values.real("gust_seconds")) {}
 
-void Wind::begin(const Step& step) {
+void Wind::begin(const Step& step, const ParticleStore&) {
     const glm::dvec3 wind = factor_ * glm::dvec3(step.scene.wind);
     wind_ = glm::vec3(wind);
     gusts_ =

@@ -1,0 +1,113 @@
+#include "methods/kit/particles/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "methods/contract/errors.h"
+
+namespace dustbench::particles {
+namespace {
+
+/// Distance that a particle keeps from a surface after a contact, so that rounding does not put it behind: 1e-6 of the
+/// coordinates that entered the test, eight times their rounding.
+float clearance(const glm::vec3& from, const glm::vec3& to, float extentMetres) {
+    const glm::vec3 sum = glm::abs(from) + glm::abs(to);
+    return 1e-6f * (sum.x + sum.y + sum.z + extentMetres);
+}
+
+/// v ← (1 − friction)·v∥ − restitution·v⊥.
+glm::vec3 reflected(const glm::vec3& v, const glm::vec3& n, const Contact& contact) {
+    const float into = std::min(glm::dot(v, n), 0.0f);
+    const glm::vec3 across = into * n;
+    return (1 - contact.friction) * (v - across) - contact.restitution * across;
+}
+
+void lower(std::size_t count, const float* __restrict share, float* __restrict first, std::uint8_t* __restrict by,
+           std::uint8_t surface) {
+    for (std::size_t i = 0; i < count; ++i) {
+        by[i] = share[i] < first[i] ? surface : by[i];
+        first[i] = share[i] < first[i] ? share[i] : first[i];
+    }
+}
+
+/// The first contact of each way.
+void meetAll(const Ways& ways, const MetSurfaces& surfaces, float* share, float* first, std::uint8_t* by) {
+    std::fill_n(first, ways.count, Surface::none);
+    std::fill_n(by, ways.count, std::uint8_t{0});
+    std::uint8_t number = 0;
+    for (const MetSurface& met : surfaces.all()) {
+        met.surface->meet(ways, share);
+        lower(ways.count, share, first, by, number++);
+    }
+}
+
+struct Way {
+    glm::vec3 from, to, velocity;
+    float seconds;
+    bool dead = false;
+};
+
+/// Goes on from a contact at `share` with surface `by`, and from all that follow.
+void follow(Way& way, float share, std::uint8_t by, const MetSurfaces& surfaces) {
+    for (int contacts = 1;; ++contacts) {
+        const MetSurface& met = surfaces.all()[by];
+        const glm::vec3 point = way.from + share * (way.to - way.from);
+        const glm::vec3 normal = met.surface->normalAt(point, way.from);
+        const float away = clearance(way.from, way.to, met.surface->extentMetres());
+        way.velocity = reflected(way.velocity, normal, met.contact);
+        way.from = point + away * normal;
+        way.seconds *= 1 - share;
+        way.to = way.from + way.seconds * way.velocity;
+        way.dead |= met.contact.kills;
+        if (way.dead || contacts == maximumContacts) {
+            way.to = way.from;
+            return;
+        }
+        const Ways one{1, &way.from.x, &way.from.y, &way.from.z, &way.to.x, &way.to.y, &way.to.z};
+        float scratch;
+        meetAll(one, surfaces, &scratch, &share, &by);
+        if (share > 1) return;
+    }
+}
+
+}  // namespace
+
+void WayBegins::take(const Chunk& chunk, const float* lasting, bool each) {
+    std::copy_n(chunk.x, chunk.count, x.data());
+    std::copy_n(chunk.y, chunk.count, y.data());
+    std::copy_n(chunk.z, chunk.count, z.data());
+    if (each)
+        std::copy_n(lasting, chunk.count, seconds.data());
+    else
+        std::fill_n(seconds.data(), chunk.count, *lasting);
+}
+
+MetSurfaces::MetSurfaces(const PartList& parts) {
+    const auto add = [&](const Surface* surface, const Contact& contact) {
+        if (!surface) return;
+        if (count_ == maximum)
+            throw InputError("particle system: more than " + std::to_string(maximum) + " surfaces, allowed: at most " +
+                             std::to_string(maximum) + ", or one mesh of them all");
+        surfaces_[count_++] = {surface, contact};
+    };
+    for (const auto& force : parts.forces()) add(force->surface(), force->contact());
+    for (const auto& life : parts.lives()) add(life->surface(), {.kills = true});
+}
+
+void meetSurfaces(Chunk& chunk, const WayBegins& begins, const MetSurfaces& surfaces) {
+    alignas(64) std::array<float, chunkSize> share, first;
+    alignas(64) std::array<std::uint8_t, chunkSize> by;
+    const Ways ways{chunk.count, begins.x.data(), begins.y.data(), begins.z.data(), chunk.x, chunk.y, chunk.z};
+    meetAll(ways, surfaces, share.data(), first.data(), by.data());
+    for (std::size_t i = 0; i < chunk.count; ++i) {
+        if (first[i] > 1) continue;
+        Way way{
+            ways.from(i), ways.to(i), {chunk.velocityX[i], chunk.velocityY[i], chunk.velocityZ[i]}, begins.seconds[i]};
+        follow(way, first[i], by[i], surfaces);
+        chunk.x[i] = way.to.x, chunk.y[i] = way.to.y, chunk.z[i] = way.to.z;
+        chunk.velocityX[i] = way.velocity.x, chunk.velocityY[i] = way.velocity.y, chunk.velocityZ[i] = way.velocity.z;
+        if (way.dead) chunk.dead[i] = 1;
+    }
+}
+
+}  // namespace dustbench::particles

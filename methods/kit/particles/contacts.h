@@ -1,0 +1,49 @@
+// Moves particles that meet surfaces in a step: each goes on from the first contact with what it leaves of its
+// velocity, for the rest of the step, until it meets nothing more.
+//
+// Threads: pure except for the chunk passed in. Source: Thesis, 5.3.2 and 6.1.1. Departs: the particle bounces where it
+// meets the surface; the thesis lets it start from where it was before.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "methods/kit/particles/chunk.h"
+#include "methods/kit/particles/part_list.h"
+
+namespace dustbench::particles {
+
+/// Where particles begin their way through a step, and how long it takes.
+struct alignas(64) WayBegins {
+    WayBegins() {}  // NOLINT: left as it is on purpose, `take` writes what is read
+
+    /// `seconds`: of each particle, or one for all if `each` is false.
+    void take(const Chunk& chunk, const float* seconds, bool each);
+
+    std::array<float, chunkSize> x, y, z, seconds;
+};
+
+/// The surfaces of a system's forces and lives, in the order of the lists.
+struct MetSurface {
+    const Surface* surface;
+    Contact contact;
+};
+class MetSurfaces {
+ public:
+    explicit MetSurfaces(const PartList& parts);
+    [[nodiscard]] std::span<const MetSurface> all() const { return {surfaces_.data(), count_}; }
+    [[nodiscard]] bool empty() const { return count_ == 0; }
+
+ private:
+    static constexpr std::size_t maximum = 32;
+    std::array<MetSurface, maximum> surfaces_;
+    std::size_t count_ = 0;
+};
+
+/// Most contacts of a particle in one step; after the last it stays at its place until the next step.
+inline constexpr int maximumContacts = 8;
+
+/// The chunk holds the positions at the end of the ways, were nothing in between.
+void meetSurfaces(Chunk& chunk, const WayBegins& begins, const MetSurfaces& surfaces);
+
+}  // namespace dustbench::particles

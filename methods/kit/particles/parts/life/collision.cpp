@@ -1,0 +1,62 @@
+// Death where a particle meets a surface.
+//
+// fixed: dies at the end of the way that meets the surface (contacts.h). paper: dies if the surface lies between the
+// current position and the predicted one, x + v·dt, before the forces of the step act.
+#include "methods/kit/particles/life_part.h"
+#include "methods/kit/particles/sampling_modes.h"
+#include "methods/kit/particles/surface_shapes.h"
+
+namespace dustbench::particles::parts::life::collision {
+namespace {
+
+void predict(std::size_t count, const float* __restrict position, const float* __restrict velocity,
+             float* __restrict next, float seconds) {
+    for (std::size_t i = 0; i < count; ++i) next[i] = position[i] + velocity[i] * seconds;
+}
+
+void raiseWhereMet(std::size_t count, const float* __restrict share, std::uint8_t* __restrict dead) {
+    for (std::size_t i = 0; i < count; ++i) dead[i] = share[i] <= 1.0f ? std::uint8_t{1} : dead[i];
+}
+
+class Collision final : public LifePart {
+ public:
+    /// Throws InputError if the surface cannot be used.
+    explicit Collision(const ParameterValues& values)
+        : LifePart(values),
+          printed_(values.choice("mode", samplingModes) == maths::SamplingMode::paper),
+          surface_(makeSurface(values)) {}
+
+    void judge(Chunk& chunk, const Step& step) const override;
+    [[nodiscard]] const Surface* surface() const override { return printed_ ? nullptr : surface_.get(); }
+
+ private:
+    bool printed_;
+    std::unique_ptr<Surface> surface_;
+};
+
+void Collision::judge(Chunk& chunk, const Step& step) const {
+    if (!printed_) return;
+    alignas(64) float x[chunkSize], y[chunkSize], z[chunkSize], share[chunkSize];
+    const float dt = static_cast<float>(step.seconds);
+    predict(chunk.count, chunk.x, chunk.velocityX, x, dt);
+    predict(chunk.count, chunk.y, chunk.velocityY, y, dt);
+    predict(chunk.count, chunk.z, chunk.velocityZ, z, dt);
+    surface_->meet({chunk.count, chunk.x, chunk.y, chunk.z, x, y, z}, share);
+    raiseWhereMet(chunk.count, share, chunk.dead);
+}
+
+}  // namespace
+
+PartInfo describe() {
+    PartInfo info;
+    info.help = "death at a half-space, a sphere, a disc or a mesh, besides death of age";
+    info.source = "Thesis, 4.7.3 and 6.1";
+    info.parameters.choice(
+        "mode", maths::SamplingMode::fixed, samplingModes,
+        "paper: tests the way predicted before the forces act; fixed: the way that the particle goes");
+    declareSurface(info.parameters);
+    info.create = [](const ParameterValues& values) { return std::make_unique<Collision>(values); };
+    return info;
+}
+
+}  // namespace dustbench::particles::parts::life::collision

@@ -1,0 +1,46 @@
+// Surfaces that particles meet on their way through a step, and what a contact does to them.
+//
+// Units: m. Frame: world. Threads: const members are safe from any.
+// Source: Thesis, 5.3.2 and 6.1. Departs: the way from the old to the new position is tested as a segment, so that no
+// speed is too high; the thesis tests positions.
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+
+namespace dustbench::particles {
+
+/// The straight ways of `count` particles in a step.
+struct Ways {
+    std::size_t count;
+    const float *fromX, *fromY, *fromZ;
+    const float *toX, *toY, *toZ;
+
+    [[nodiscard]] glm::vec3 from(std::size_t i) const { return {fromX[i], fromY[i], fromZ[i]}; }
+    [[nodiscard]] glm::vec3 to(std::size_t i) const { return {toX[i], toY[i], toZ[i]}; }
+};
+
+/// What a contact leaves of a velocity: v ← (1 − friction)·v∥ − restitution·v⊥.
+struct Contact {
+    float restitution = 1;
+    float friction = 0;
+    bool kills = false;  ///< the particle dies where it meets the surface
+};
+
+class Surface {
+ public:
+    /// The share of a way that meets nothing.
+    static constexpr float none = 2;
+
+    virtual ~Surface() = default;
+
+    /// Writes the share of each way, 0..1, at which it first meets the surface, or `none`.
+    virtual void meet(const Ways& ways, float* share) const = 0;
+    /// The unit normal at a point of the surface, towards the side of `from`.
+    [[nodiscard]] virtual glm::vec3 normalAt(const glm::vec3& point, const glm::vec3& from) const = 0;
+    /// Largest coordinate that enters the test, for bounds on its rounding.
+    [[nodiscard]] virtual float extentMetres() const = 0;
+    [[nodiscard]] virtual std::size_t bytes() const { return 0; }
+};
+
+}  // namespace dustbench::particles

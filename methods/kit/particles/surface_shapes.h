@@ -1,0 +1,35 @@
+// The surfaces that a part can name: half-space, sphere, disc, mesh.
+//
+// Units: m. Frame: world. Source: Thesis, 6.1.2 to 6.1.4.
+#pragma once
+
+#include <memory>
+
+#include "methods/contract/parameters.h"
+#include "methods/kit/particles/surface.h"
+
+namespace dustbench::particles {
+
+enum class SurfaceShape { halfSpace, sphere, disc, mesh };
+inline constexpr Choices<SurfaceShape> surfaceShapes{{"half_space", SurfaceShape::halfSpace},
+                                                     {"sphere", SurfaceShape::sphere},
+                                                     {"disc", SurfaceShape::disc},
+                                                     {"mesh", SurfaceShape::mesh}};
+
+/// The shape's numbers, for parts that follow the thesis's own test.
+struct SurfaceNumbers {
+    SurfaceShape shape;
+    glm::vec3 place;
+    glm::vec3 normal;  ///< unit
+    float radiusMetres;
+};
+
+/// Declares `shape`, `place`, `normal`, `radius_metres` and those of a mesh.
+void declareSurface(ParameterSet& set);
+/// Throws InputError for a normal of zero length.
+[[nodiscard]] SurfaceNumbers surfaceNumbers(const ParameterValues& values);
+/// A half-space is met from outside; what is inside may leave. A sphere likewise. A disc and a mesh are met from both
+/// sides. Throws InputError if the mesh cannot be used.
+[[nodiscard]] std::unique_ptr<Surface> makeSurface(const ParameterValues& values);
+
+}  // namespace dustbench::particles
