@@ -1,0 +1,61 @@
+// A coloured light at a point: luminosity += min(I/d², maximum)·colour.
+//
+// The thesis limits the luminosity so that colours stay valid; here each light's share is limited, which also defines
+// it at d = 0.
+#include "methods/kit/particles/shading_part.h"
+#include "methods/kit/particles/vector_parameter.h"
+
+namespace dustbench::particles::parts::shading::light {
+namespace {
+
+void illuminate(std::size_t count, const float* __restrict x, const float* __restrict y, const float* __restrict z,
+                float* __restrict red, float* __restrict green, float* __restrict blue, const glm::vec3 place,
+                const glm::vec3 colour, float intensity, float maximum) {
+    // I/d² > maximum where d² < I/maximum.
+    const float nearest2 = intensity / maximum;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float dx = x[i] - place.x, dy = y[i] - place.y, dz = z[i] - place.z;
+        const float d2 = dx * dx + dy * dy + dz * dz;
+        const float luminosity = d2 > nearest2 ? intensity / d2 : maximum;
+        red[i] += luminosity * colour.r;
+        green[i] += luminosity * colour.g;
+        blue[i] += luminosity * colour.b;
+    }
+}
+
+class Light final : public ShadingPart {
+ public:
+    explicit Light(const ParameterValues& values)
+        : ShadingPart(values),
+          place_(vectorOf(values, "place", spaceAxes)),
+          colour_(vectorOf(values, "colour", colourAxes)),
+          intensity_(static_cast<float>(values.real("intensity"))),
+          maximum_(static_cast<float>(values.real("maximum"))) {}
+
+    void shade(Chunk& chunk, const Step& step) const override;
+
+ private:
+    glm::vec3 place_, colour_;
+    float intensity_, maximum_;
+};
+
+void Light::shade(Chunk& chunk, const Step&) const {
+    illuminate(chunk.count, chunk.x, chunk.y, chunk.z, chunk.luminosityRed, chunk.luminosityGreen, chunk.luminosityBlue,
+               place_, colour_, intensity_, maximum_);
+}
+
+}  // namespace
+
+PartInfo describe() {
+    PartInfo info;
+    info.help = "a coloured light at a point, without shadows";
+    info.source = "Thesis, 6.2.3";
+    declareVector(info.parameters, "place", spaceAxes, {0, 3, 0}, -1e6, 1e6, "m", "of the light, in the world");
+    declareVector(info.parameters, "colour", colourAxes, {1, 1, 1}, 0, 100, "", "linear RGB");
+    info.parameters.real("intensity", 4, 0, 1e6, "m²", "I: the luminosity at a distance of 1 m; it falls as 1/d²")
+        .real("maximum", 1, 1e-3, 1e3, "", "largest luminosity that this light gives, near its place");
+    info.create = [](const ParameterValues& values) { return std::make_unique<Light>(values); };
+    return info;
+}
+
+}  // namespace dustbench::particles::parts::shading::light
