@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 
 #include "bench/scene/cameras.h"
@@ -12,8 +13,8 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/data_folder.h"
-#include "methods/kit/maths/hash.h"
 #include "methods/kit/particles/particle_system.h"
+#include "methods/kit/particles/state_hash.h"
 
 namespace dustbench::bench {
 namespace {
@@ -56,20 +57,6 @@ VehicleState placeBefore(const VehicleParameters& parameters, const scene::Terra
     const double x = start.x - (forwards * std::cos(heading) + right * std::sin(heading));
     const double z = start.z - (-forwards * std::sin(heading) + right * std::cos(heading));
     return placeVehicle(parameters, terrain, x, z, heading, controls.initialSpeed());
-}
-
-void addVehicle(maths::Hash& hash, const VehicleState& vehicle) {
-    const auto add = [&](const glm::dvec3& v) { hash.add(v.x).add(v.y).add(v.z); };
-    add(vehicle.position);
-    hash.add(vehicle.heading).add(vehicle.speed).add(vehicle.acceleration).add(vehicle.steerAngle);
-    add(vehicle.up);
-    for (const scene::WheelState& wheel : vehicle.wheels) {
-        add(wheel.hub);
-        add(wheel.contact);
-        add(wheel.velocity);
-        add(wheel.forward);
-        hash.add(wheel.steerAngle).add(wheel.spinAngle).add(wheel.spinRate);
-    }
 }
 
 std::size_t bytesOf(const scene::Mesh& mesh) {
@@ -198,11 +185,8 @@ void World::simulate() {
 }
 
 std::uint64_t World::stateHash() const {
-    maths::Hash hash;
-    hash.add(state_->now.timeSeconds);
-    addVehicle(hash, state_->now.vehicle);
-    hash.add(state_->dust.stateHash());
-    return hash.value();
+    const std::uint64_t dust = state_->dust.stateHash();
+    return particles::stateHash(state_->now, std::span(&dust, 1));
 }
 
 MemoryReport World::memory() const {

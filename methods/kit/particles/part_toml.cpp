@@ -59,24 +59,63 @@ std::unique_ptr<Part> readPart(files::TomlReader table, PartKind kind) {
     return at(table, "part", [&] { return info.create(values); });
 }
 
-std::unique_ptr<PartList> readParts(files::TomlReader file) {
+/// The parts that a table holds; whatever else it holds must have been read before.
+std::unique_ptr<PartList> readParts(files::TomlReader& table) {
     auto parts = std::make_unique<PartList>();
     for (std::size_t k = 0; k < partKindNames.size(); ++k) {
         const auto kind = static_cast<PartKind>(k);
         const std::string_view key = partKindNames[k];
         if (isList(kind)) {
-            for (files::TomlReader& table : file.tables(key)) parts->set(readPart(std::move(table), kind));
-        } else if (file.has(key)) {
-            parts->set(readPart(file.table(key), kind));
+            for (files::TomlReader& each : table.tables(key)) parts->set(readPart(std::move(each), kind));
+        } else if (table.has(key)) {
+            parts->set(readPart(table.table(key), kind));
         }
     }
-    file.finish();
+    table.finish();
     if (parts->emission() && parts->emission()->neverEmits())
-        throw InputError(file.where("emission") + "emission part '" + parts->emission()->name() +
+        throw InputError(table.where("emission") + "emission part '" + parts->emission()->name() +
                          "': got rates of 0, allowed: a rate above 0, or nothing is ever born");
     if (const std::string missing = parts->missing(); !missing.empty())
-        throw InputError(file.where() + "particle system: " + missing);
+        throw InputError(table.where() + "particle system: " + missing);
     return parts;
+}
+
+bool isName(std::string_view text) {
+    const auto fits = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
+    return !text.empty() && text.front() >= 'a' && std::ranges::all_of(text, fits) &&
+           std::ranges::find(partKindNames, text) == partKindNames.end();
+}
+
+std::string readName(files::TomlReader& table, const std::vector<NamedParts>& before) {
+    std::string name = table.text("name");
+    if (!isName(name))
+        throw InputError(table.where("name") + "key 'name': got '" + name +
+                         "', expected lower-case letters, digits and '_', a letter first, and no kind of part");
+    if (std::ranges::find(before, name, &NamedParts::name) != before.end())
+        throw InputError(table.where("name") + "two systems are named '" + name + "', expected a name for each");
+    return name;
+}
+
+std::vector<NamedParts> readSystems(files::TomlReader file, const std::string& stem) {
+    std::vector<NamedParts> systems;
+    if (!file.has("system")) {
+        systems.push_back({stem, readParts(file)});
+        return systems;
+    }
+    for (files::TomlReader& table : file.tables("system")) {
+        std::string name = readName(table, systems);
+        systems.push_back({std::move(name), readParts(table)});
+    }
+    if (systems.empty()) throw InputError(file.where("system") + "key 'system': got no table, expected one or more");
+    file.finish();
+    return systems;
+}
+
+std::unique_ptr<PartList> onlySystem(std::vector<NamedParts> systems, const std::string& file) {
+    if (systems.size() > 1)
+        throw InputError(file + ": got " + std::to_string(systems.size()) +
+                         " particle systems, expected one: several together are for the method plugin_particles");
+    return std::move(systems.front().parts);
 }
 
 /// The values of the given parameters, as a list if there are several.
@@ -87,30 +126,56 @@ std::string joined(const std::vector<const Parameter*>& parameters, const TextOf
     return parameters.size() > 1 ? "[" + list + "]" : list;
 }
 
+std::string partToToml(const Part& part, const std::string& prefix) {
+    const std::string table = prefix + std::string(kindName(part.kind()));
+    std::string toml = isList(part.kind()) ? "[[" + table + "]]\n" : "[" + table + "]\n";
+    toml += "part = \"" + part.name() + "\"\n";
+    for (const std::string& key : keysOf(part.values().declared())) {
+        const auto textOf = [&](const Parameter& parameter) {
+            return valueToToml(parameter, part.values().canonical().find(parameter.name)->second);
+        };
+        toml += key + " = " + joined(parametersOf(part.values().declared(), key), textOf) + "\n";
+    }
+    return toml;
+}
+
+std::string partsToToml(const PartList& parts, const std::string& prefix) {
+    std::string toml;
+    for (const Part* part : parts.all()) toml.append(toml.empty() ? "" : "\n").append(partToToml(*part, prefix));
+    return toml;
+}
+
 }  // namespace
 
+std::vector<NamedParts> systemsFromFile(const std::filesystem::path& file) {
+    return readSystems(files::TomlReader::parseFile(file), file.stem().string());
+}
+
+std::vector<NamedParts> systemsFromText(std::string_view text, std::string name) {
+    const std::string stem = std::filesystem::path(name).stem().string();
+    return readSystems(files::TomlReader::parseText(text, std::move(name)), stem);
+}
+
 std::unique_ptr<PartList> partsFromFile(const std::filesystem::path& file) {
-    return readParts(files::TomlReader::parseFile(file));
+    return onlySystem(systemsFromFile(file), file.string());
 }
 
 std::unique_ptr<PartList> partsFromText(std::string_view text, std::string name) {
-    return readParts(files::TomlReader::parseText(text, std::move(name)));
+    const std::string file = name;
+    return onlySystem(systemsFromText(text, std::move(name)), file);
 }
 
 std::string partsToToml(const PartList& parts) {
+    return partsToToml(parts, "");
+}
+
+std::string systemsToToml(std::span<const NamedPartsView> systems) {
+    if (systems.size() == 1) return partsToToml(systems.front().parts);
     std::string toml;
-    for (const Part* part : parts.all()) {
-        const std::string kind(kindName(part->kind()));
-        if (!toml.empty()) toml += "\n";
-        toml += isList(part->kind()) ? "[[" + kind + "]]\n" : "[" + kind + "]\n";
-        toml += "part = \"" + part->name() + "\"\n";
-        for (const std::string& key : keysOf(part->values().declared())) {
-            const auto textOf = [&](const Parameter& parameter) {
-                return valueToToml(parameter, part->values().canonical().find(parameter.name)->second);
-            };
-            toml += key + " = " + joined(parametersOf(part->values().declared(), key), textOf) + "\n";
-        }
-    }
+    for (const NamedPartsView& system : systems)
+        toml.append(toml.empty() ? "" : "\n")
+            .append("[[system]]\nname = \"" + system.name + "\"\n\n")
+            .append(partsToToml(system.parts, "system."));
     return toml;
 }
 

@@ -1,10 +1,13 @@
 // Reads and writes particle systems as TOML: `[size]` and `[[force]]` tables with `part = "name"` and its parameters.
 //
-// Source: Thesis, 3.1.4 (systems are saved and loaded).
+// A file holds one system, or several: one `[[system]]` table for each, with its `name` and its parts below it
+// (`[system.size]`, `[[system.force]]`). Source: Thesis, 3.1.4 (systems are saved and loaded; a manager of named
+// systems).
 #pragma once
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,13 +16,31 @@
 
 namespace dustbench::particles {
 
-/// Throws InputError with file, line, the value received and the values allowed.
+struct NamedParts {
+    std::string name;  ///< lower-case letters, digits and `_`; of a file without `[[system]]`: the file's stem
+    std::unique_ptr<PartList> parts;
+};
+
+/// One or more systems with distinct names, in the order of the file. Throws InputError with file, line, the value
+/// received and the values allowed.
+[[nodiscard]] DUSTBENCH_API std::vector<NamedParts> systemsFromFile(const std::filesystem::path& file);
+/// `name` is the file name used in messages.
+[[nodiscard]] DUSTBENCH_API std::vector<NamedParts> systemsFromText(std::string_view text, std::string name);
+
+/// Throws as above, and where the file holds several systems.
 [[nodiscard]] std::unique_ptr<PartList> partsFromFile(const std::filesystem::path& file);
 /// `name` is the file name used in messages.
 [[nodiscard]] std::unique_ptr<PartList> partsFromText(std::string_view text, std::string name);
 
 /// Every part with all its parameters; reading the text gives the same parts.
 [[nodiscard]] std::string partsToToml(const PartList& parts);
+
+struct NamedPartsView {
+    std::string name;
+    const PartList& parts;
+};
+/// Several systems as one file. A single one is written as above, without its name.
+[[nodiscard]] DUSTBENCH_API std::string systemsToToml(std::span<const NamedPartsView> systems);
 
 /// A part's parameters as the keys of its table: a vector's components form one key, whose default is a list.
 [[nodiscard]] DUSTBENCH_API std::vector<Parameter> tableKeys(const ParameterSet& declared);

@@ -119,6 +119,57 @@ TEST(PartToml, ErrorsNameFileAndLineAndTheNearestName) {
     EXPECT_THAT(errorOf("size = 3"), HasSubstr("test.toml:1: "));
 }
 
+/// `parts` as one of several systems.
+std::string named(const std::string& name, const std::string& parts = everyForce) {
+    return "[[system]]\nname = \"" + name + "\"\n" + parts;
+}
+
+std::string systemsErrorOf(const std::string& toml) {
+    try {
+        (void)systemsFromText(toml, "two.toml");
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+std::string saved(const std::vector<NamedParts>& systems) {
+    std::vector<NamedPartsView> views;
+    for (const NamedParts& each : systems) views.push_back({each.name, *each.parts});
+    return systemsToToml(views);
+}
+
+TEST(PartToml, SeveralSystemsSurviveSavingAndLoading) {
+    const std::string two = named("smoke") + named("fire_2", with(everyForce, "\"linear\"", "\"constant\""));
+    const auto systems = systemsFromText(two, "two.toml");
+    ASSERT_EQ(systems.size(), 2u);
+    EXPECT_EQ(systems[0].name, "smoke");
+    EXPECT_EQ(systems[1].name, "fire_2");
+    EXPECT_EQ(partsToToml(*systems[0].parts), partsToToml(*partsFromText(everyForce, "test.toml")));
+    const auto again = systemsFromText(saved(systems), "saved.toml");
+    EXPECT_EQ(saved(again), saved(systems));
+    EXPECT_EQ(again[1].parts->size()->name(), "constant");
+}
+
+TEST(PartToml, AFileWithoutNamesIsOneSystemNamedAfterIt) {
+    const auto systems = systemsFromText(everyForce, "data/dusty.toml");
+    ASSERT_EQ(systems.size(), 1u);
+    EXPECT_EQ(systems[0].name, "dusty");
+    EXPECT_EQ(saved(systems), partsToToml(*systems[0].parts));
+}
+
+TEST(PartToml, ErrorsOfSeveralSystemsNameFileAndLine) {
+    const std::string one = named("smoke");
+    EXPECT_THAT(systemsErrorOf(one + one), AllOf(HasSubstr("two.toml:"), HasSubstr("two systems are named 'smoke'")));
+    EXPECT_THAT(systemsErrorOf(with(one, "smoke", "Smoke")), HasSubstr("two.toml:2: key 'name': got 'Smoke'"));
+    EXPECT_THAT(systemsErrorOf(with(one, "smoke", "size")), HasSubstr("no kind of part"));
+    EXPECT_THAT(systemsErrorOf(with(one, "name", "nam")), HasSubstr("'system.name' is missing"));
+    EXPECT_THAT(systemsErrorOf(with(one, "\"drag\"", "\"dragg\"")), HasSubstr("did you mean 'drag'"));
+    EXPECT_THAT(systemsErrorOf("system = []"), HasSubstr("one or more"));
+    EXPECT_THAT(systemsErrorOf("wind = 3\n" + one), HasSubstr("'wind'"));
+    EXPECT_THAT(errorOf(one + with(one, "smoke", "fire")), HasSubstr("got 2 particle systems, expected one"));
+}
+
 TEST(PartToml, MissingFileIsAnErrorWithItsName) {
     EXPECT_THROW(ParticleSystem::load("/no/such/dust.toml", 1), InputError);
 }

@@ -176,6 +176,10 @@ PartList& ParticleSystem::parts() {
     return *state_->parts;
 }
 
+const PartList& ParticleSystem::parts() const {
+    return *state_->parts;
+}
+
 double ParticleSystem::meanLifetimeSeconds() const {
     return *state_->parts->lifetime().meanLifetimeSeconds();
 }

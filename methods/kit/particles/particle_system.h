@@ -48,6 +48,7 @@ class DUSTBENCH_API ParticleSystem {
     [[nodiscard]] const ParticleStore& store() const;
     /// For swapping parts between updates.
     [[nodiscard]] PartList& parts();
+    [[nodiscard]] const PartList& parts() const;
     [[nodiscard]] double meanLifetimeSeconds() const;
     /// Hash of every particle's state, in storage order.
     [[nodiscard]] std::uint64_t stateHash() const;

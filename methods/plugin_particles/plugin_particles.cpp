@@ -1,0 +1,131 @@
+#include "methods/plugin_particles/plugin_particles.h"
+
+#include <algorithm>
+
+#include "methods/contract/errors.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/particles/state_hash.h"
+
+namespace dustbench::plugin_particles {
+namespace {
+
+/// Systems whose particles are counted by facts of their own.
+constexpr std::size_t countedSystems = 4;
+
+std::string aliveFact(std::size_t system) {
+    return "alive_" + std::to_string(system + 1);
+}
+
+/// Systems of the data folder; the default is one of them even where its file is missing, which is then said on use.
+std::vector<std::string> systemNames() {
+    std::vector<std::string> names = files::listData("particles", ".toml");
+    if (std::ranges::find(names, "wheel_dust") == names.end()) names.emplace_back("wheel_dust");
+    return names;
+}
+
+/// The first system has the run's seed, so that `wheel_dust` is the shared dust; the chance of each other is its own.
+std::uint64_t seedOf(std::size_t system, std::uint64_t seed) {
+    return seed ^ (system * 0x9e3779b97f4a7c15ULL);
+}
+
+std::int64_t shareOf(std::size_t system, std::size_t systems, std::int64_t particles) {
+    const auto count = static_cast<std::int64_t>(systems);
+    return particles / count + (static_cast<std::int64_t>(system) < particles % count ? 1 : 0);
+}
+
+}  // namespace
+
+PluginParticles::PluginParticles(std::vector<particles::NamedParts> systems) : parts_(std::move(systems)) {}
+
+void PluginParticles::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) {
+    scene_ = &scene;
+    const std::size_t count = parts_.size();
+    if (setup.particles > 0 && setup.particles < static_cast<std::int64_t>(count))
+        throw InputError("parameter particles: got " + std::to_string(setup.particles) + ", allowed: 0, or at least " +
+                         std::to_string(count) + ", one for each system");
+    for (std::size_t i = 0; i < count; ++i)
+        systems_.push_back({std::move(parts_[i].name),
+                            particles::ParticleSystem(std::move(parts_[i].parts), seedOf(i, setup.seed)),
+                            shareOf(i, count, setup.particles), std::make_unique<SystemPicture>(device)});
+    parts_.clear();
+}
+
+void PluginParticles::update(const Frame& frame) {
+    {
+        const auto timing = frame.clock.measure(Stage::simulate);
+        for (System& system : systems_)
+            system.particles.update({*scene_, frame.state, frame.stepSeconds, system.fixedCount});
+        now_ = frame.state;
+    }
+    for (System& system : systems_)
+        system.picture->upload(system.particles.store(), glm::vec3(frame.view.camera.eye), frame.clock);
+}
+
+void PluginParticles::draw(const Frame& frame, gpu::Layer& layer) {
+    for (System& system : systems_) system.picture->draw(frame.view, layer);
+}
+
+void PluginParticles::volume(const Frame&, VolumeVisitor& visitor) const {
+    for (const System& system : systems_) visitor.puffs(system.particles.store());
+}
+
+void PluginParticles::report(const Frame&, Facts& facts) const {
+    std::int64_t all = 0;
+    for (std::size_t i = 0; i < systems_.size(); ++i) {
+        const auto alive = static_cast<std::int64_t>(systems_[i].particles.store().size());
+        if (i < countedSystems) facts.tell(aliveFact(i), alive);
+        all += alive;
+    }
+    facts.tell("alive_max", all);
+    facts.tell("systems", static_cast<std::int64_t>(systems_.size()));
+}
+
+MemoryReport PluginParticles::memory() const {
+    MemoryReport report;
+    for (const System& system : systems_)
+        for (const MemoryReport& part : {system.particles.memory(), system.picture->memory()})
+            for (const MemoryUse& use : part)
+                report.push_back({system.name + ": " + use.structure, use.cpuBytes, use.gpuBytes});
+    return report;
+}
+
+std::int64_t PluginParticles::primitives() const {
+    std::size_t sum = 0;
+    for (const System& system : systems_) sum += system.picture->count();
+    return static_cast<std::int64_t>(sum);
+}
+
+std::optional<std::uint64_t> PluginParticles::stateHash() const {
+    std::vector<std::uint64_t> hashes;
+    for (const System& system : systems_) hashes.push_back(system.particles.stateHash());
+    return particles::stateHash(now_, hashes);
+}
+
+std::string PluginParticles::toToml() const {
+    std::vector<particles::NamedPartsView> views;
+    for (const System& system : systems_) views.push_back({system.name, system.particles.parts()});
+    return particles::systemsToToml(views);
+}
+
+MethodInfo describe() {
+    MethodInfo info;
+    info.title = "Plugin particles";
+    info.summary = "Particle systems put together from parts: sources, velocities, forces, colours and ways to draw.";
+    info.source = "Thesis";
+    info.parameters.dataFile("system", "wheel_dust", "particles", ".toml", systemNames(),
+                             "what is simulated and drawn: one particle system, or several");
+    for (std::size_t i = 0; i < countedSystems; ++i)
+        info.facts.push_back({aliveFact(i), "particles", FactOver::lastFrame,
+                              "particles alive in system " + std::to_string(i + 1) +
+                                  " of the file after the last frame; empty where there are fewer systems"});
+    info.facts.push_back({"alive_max", "particles", FactOver::maximumOfFrames,
+                          "particles alive in all systems of the file: maximum of the recorded frames"});
+    info.facts.push_back({"systems", "systems", FactOver::lastFrame, "particle systems that the file holds"});
+    info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
+        const auto file = files::findData("particle system", "particles", values.choice("system"), ".toml");
+        return std::make_unique<PluginParticles>(particles::systemsFromFile(file));
+    };
+    return info;
+}
+
+}  // namespace dustbench::plugin_particles

@@ -1,0 +1,57 @@
+// Particle systems put together from parts: one or several with names, each with a simulation of its own.
+//
+// The systems are stepped in the order of their file and drawn in that order, each over those before it; they do not
+// see each other. With the harness's `particles=N` they share N evenly. With `wheel_dust` the state is that of the
+// shared dust, bit by bit. Source: Thesis, 3 (design), 4.1 (rendering). Departs: structure of arrays instead of linked
+// lists.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "methods/contract/method.h"
+#include "methods/kit/particles/part_toml.h"
+#include "methods/kit/particles/particle_system.h"
+#include "methods/plugin_particles/system_picture.h"
+
+namespace dustbench::plugin_particles {
+
+class PluginParticles final : public Method {
+ public:
+    /// One or more systems.
+    explicit PluginParticles(std::vector<particles::NamedParts> systems);
+
+    /// Throws InputError if fewer particles are asked for than there are systems.
+    void prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) override;
+    void update(const Frame& frame) override;
+    void draw(const Frame& frame, gpu::Layer& layer) override;
+    void volume(const Frame& frame, VolumeVisitor& visitor) const override;
+    void report(const Frame& frame, Facts& facts) const override;
+    [[nodiscard]] MemoryReport memory() const override;
+    [[nodiscard]] std::int64_t primitives() const override;
+    [[nodiscard]] std::optional<std::uint64_t> stateHash() const override;
+    [[nodiscard]] bool wantsPreroll() const override { return true; }
+
+    /// The systems as they are now, as a file.
+    [[nodiscard]] std::string toToml() const;
+
+ private:
+    struct System {
+        std::string name;
+        particles::ParticleSystem particles;
+        std::int64_t fixedCount = 0;
+        std::unique_ptr<SystemPicture> picture{};
+    };
+
+    std::vector<particles::NamedParts> parts_;  ///< until `prepare`
+    std::vector<System> systems_;
+    const scene::Scene* scene_ = nullptr;
+    scene::SceneState now_;
+};
+
+/// Called by the registry.
+[[nodiscard]] MethodInfo describe();
+
+}  // namespace dustbench::plugin_particles
