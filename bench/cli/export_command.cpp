@@ -28,10 +28,11 @@ bench::PlannedRun plannedExport(const ExportOptions& options) {
     bench::RunSpec spec = options.world.toSpec();
     spec.volumes = options.volumes.over(bench::VolumeSettings());
     spec.frames = spec.volumes->frames.last + 1;
-    const auto runs = bench::expandParameters(spec, findMethod(spec.method), parseParameters(options.world.parameters));
+    const auto runs = bench::expandParameters(spec, findMethod(spec.method), options.world.parameterLists());
     if (runs.size() != 1)
         throw InputError("-P: got " + std::to_string(runs.size()) +
                          " combinations of values, allowed for an export: one value for each parameter");
+    bench::requireChangesWithinRun(runs.front().spec);
     return runs.front();
 }
 

@@ -62,7 +62,8 @@ void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results)
 
 int run(const RunOptions& options) {
     const bench::RunSpec spec = toSpec(options);
-    const auto plan = bench::expandParameters(spec, findMethod(spec.method), parseParameters(options.world.parameters));
+    const auto plan = bench::expandParameters(spec, findMethod(spec.method), options.world.parameterLists());
+    for (const bench::PlannedRun& each : plan) bench::requireChangesWithinRun(each.spec);
     checkWorlds(plan);
     requireOpenGl();
     bench::ResultsFolder results(options.out);

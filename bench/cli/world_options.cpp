@@ -1,5 +1,9 @@
 #include "bench/cli/world_options.h"
 
+#include <algorithm>
+
+#include "bench/cli/shared_options.h"
+#include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/data_folder.h"
 
@@ -8,6 +12,25 @@ namespace dustbench::cli {
 void WorldOptions::declare(Arguments& arguments) {
     arguments.required("--method", "ID", "one of `dustbench list methods`", method);
     declareWorld(arguments);
+    arguments.texts("--at", "TIMEs:name=value",
+                    "change something of the method while the run goes on, so many seconds after its first recorded "
+                    "frame: 2.5s:velocity.speed=8",
+                    changes);
+}
+
+bench::ParameterLists WorldOptions::parameterLists() const {
+    bench::ParameterLists lists = parseParameters(parameters);
+    if (changes.empty()) return lists;
+    const MethodInfo& info = findMethod(method);
+    const auto& declared = info.parameters.all();
+    const auto parameter = std::ranges::find(declared, ParameterType::changes, &Parameter::type);
+    if (parameter == declared.end())
+        throw InputError("--at: got '" + changes.front() + "', but nothing of method '" + info.id +
+                         "' changes while a run goes on");
+    std::string all;
+    for (const std::string& change : changes) all.append(all.empty() ? "" : ";").append(change);
+    lists.emplace_back(parameter->name, std::vector{all});
+    return lists;
 }
 
 void WorldOptions::declareWorld(Arguments& arguments) {

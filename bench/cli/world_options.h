@@ -7,6 +7,7 @@
 
 #include "bench/cli/arguments.h"
 #include "bench/results/run_spec.h"
+#include "bench/suite/suite.h"
 
 namespace dustbench::cli {
 
@@ -14,6 +15,7 @@ struct WorldOptions {
     std::string method;
     std::string scene = bench::RunSpec().scene, drive;
     std::vector<std::string> parameters;  ///< of -P, not yet parsed
+    std::vector<std::string> changes;     ///< of --at
     std::int64_t warmup = bench::RunSpec().warmup;
     std::string size = "640x480";
     std::int64_t seed = 1, threads = 0;
@@ -21,6 +23,8 @@ struct WorldOptions {
     void declare(Arguments& arguments);
     /// All except the method.
     void declareWorld(Arguments& arguments);
+    /// The values of -P and --at. Throws InputError if the method takes no changes.
+    [[nodiscard]] bench::ParameterLists parameterLists() const;
     /// All except the parameters. Throws InputError for an unknown name.
     [[nodiscard]] bench::RunSpec toSpec() const;
     /// All except the parameters and the method.

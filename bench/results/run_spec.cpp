@@ -6,8 +6,10 @@
 #include <filesystem>
 
 #include "bench/measure/sha256.h"
+#include "bench/scene/time_step.h"
 #include "bench/scene/world.h"
 #include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
 
 namespace dustbench::bench {
 namespace {
@@ -59,6 +61,20 @@ ParameterTexts canonicalParameters(const MethodInfo& method, const ParameterText
     ParameterTexts all = resolved.world.canonical();
     for (const auto& [name, text] : resolved.method.canonical()) all[name] = text;
     return all;
+}
+
+void requireChangesWithinRun(const RunSpec& spec) {
+    const ParameterValues values = resolveParameters(findMethod(spec.method), spec.parameters).method;
+    const double last = static_cast<double>(spec.frames - 1) * stepSeconds;
+    for (const Parameter& parameter : values.declared().all()) {
+        if (parameter.type != ParameterType::changes) continue;
+        for (const Change& change : values.changes(parameter.name))
+            if (change.seconds > last)
+                throw InputError(
+                    fmt::format("parameter {}: {}={} at {} s is after the last frame, allowed: 0..{:.6g} s "
+                                "(--frames {})",
+                                parameter.name, change.name, change.value, change.seconds, last, spec.frames));
+    }
 }
 
 void requireFramesWithinRun(const RunSpec& spec) {

@@ -49,6 +49,8 @@ struct RunSpec {
 
 /// Throws InputError if a volume or metric is requested for a frame that the run does not record.
 void requireFramesWithinRun(const RunSpec& spec);
+/// Throws InputError if something is to change after the last frame.
+void requireChangesWithinRun(const RunSpec& spec);
 
 /// A specification's parameter values, split into the world's and the method's.
 struct ResolvedParameters {

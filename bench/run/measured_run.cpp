@@ -184,6 +184,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
         record.summary.emplace_back("FILE_volume", series);
     writeWhole(folder / "frames.csv", framesCsv(runner.records()));
     writeWhole(folder / "stages.csv", stagesCsv(runner.records()));
+    for (const KeptFile& file : runner.method().files()) writeWhole(folder / file.name, file.text);
     if (!spec.judging) return;
     if (std::string reason = whyNotJudged(*spec.judging, runner.method()); !reason.empty()) {
         record.provenance.warnings.push_back(std::move(reason));

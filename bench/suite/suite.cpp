@@ -76,6 +76,7 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
                             base.judging && finer != draft.finerSettings.end())
                             base.judging->finer = finer->second;
                         for (PlannedRun& run : expandParameters(base, findMethod(id), lists)) {
+                            requireChangesWithinRun(run.spec);
                             if (draft.seeds.size() > 1) run.label = fmt::format("seed={} {}", seed, run.label);
                             if (draft.drives.size() > 1) run.label = drive + " " + run.label;
                             if (draft.sizes.size() > 1) run.label = size + " " + run.label;

@@ -39,6 +39,12 @@ struct RunSetup {
     std::int64_t particles = 0;  ///< requested load (`particles=N`); 0: set by the vehicle's speed
 };
 
+/// A text that a run keeps among its results.
+struct KeptFile {
+    std::string name;  ///< `systems.toml`
+    std::string text;
+};
+
 /// One way to show the cloud. `prepare` is called once, then `update` and `draw` each frame, on the thread that owns
 /// the OpenGL context.
 class DUSTBENCH_API Method {
@@ -66,6 +72,8 @@ class DUSTBENCH_API Method {
     [[nodiscard]] virtual std::int64_t primitives() const { return 0; }
     /// Hash of the method's own simulation; empty if it only shows the shared dust.
     [[nodiscard]] virtual std::optional<std::uint64_t> stateHash() const { return std::nullopt; }
+    /// Files that the run keeps beside its run.json. Asked once, after the last frame.
+    [[nodiscard]] virtual std::vector<KeptFile> files() const { return {}; }
     /// True if the method's own simulation must also run during preroll and warm-up.
     [[nodiscard]] virtual bool wantsPreroll() const { return false; }
 };

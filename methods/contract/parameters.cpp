@@ -42,6 +42,35 @@ std::optional<std::array<int, 3>> parseCells(const Parameter& parameter, std::st
     return cells;
 }
 
+/// `2.5s:velocity.speed=8`
+std::optional<Change> parseChange(std::string_view text) {
+    const std::size_t colon = text.find(':'), equals = text.find('=');
+    if (colon == std::string_view::npos || equals == std::string_view::npos || equals < colon) return std::nullopt;
+    std::string_view time = text.substr(0, colon);
+    if (!time.ends_with('s')) return std::nullopt;
+    time.remove_suffix(1);
+    const auto seconds = parseNumber<double>(time);
+    if (!seconds || !std::isfinite(*seconds) || *seconds < 0) return std::nullopt;
+    Change change{*seconds == 0 ? 0 : *seconds, std::string(text.substr(colon + 1, equals - colon - 1)),
+                  std::string(text.substr(equals + 1))};
+    if (change.name.empty() || change.value.empty()) return std::nullopt;
+    return change;
+}
+
+/// Changes separated by `;`, by time.
+std::optional<std::vector<Change>> parseChanges(std::string_view text) {
+    std::vector<Change> changes;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find(';'), text.size());
+        auto change = parseChange(text.substr(0, end));
+        if (!change) return std::nullopt;
+        changes.push_back(*std::move(change));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    std::ranges::stable_sort(changes, {}, &Change::seconds);
+    return changes;
+}
+
 bool isFile(const Parameter& parameter, std::string_view text) {
     const std::string& extension = parameter.fileExtension;
     return !extension.empty() && (text.find('/') != std::string_view::npos || text.ends_with(extension));
@@ -76,6 +105,15 @@ std::optional<std::string> canonicalText(const Parameter& parameter, std::string
             if (!value) return std::nullopt;
             return std::to_string((*value)[0]) + "x" + std::to_string((*value)[1]) + "x" + std::to_string((*value)[2]);
         }
+        case ParameterType::changes: {
+            const auto changes = parseChanges(text);
+            if (!changes) return std::nullopt;
+            std::string canonical;
+            for (const Change& each : *changes)
+                canonical.append(canonical.empty() ? "" : ";")
+                    .append(numberText(each.seconds) + "s:" + each.name + "=" + each.value);
+            return canonical;
+        }
     }
     return std::nullopt;
 }
@@ -94,6 +132,8 @@ std::string Parameter::allowed() const {
         case ParameterType::cells:
             return "a grid such as " + initial + ", " + numberText(minimum) + ".." + numberText(maximum) +
                    " cells along each edge";
+        case ParameterType::changes:
+            return "SECONDSs:NAME=VALUE, several separated by ';', at 0 s (the first recorded frame) or later";
         case ParameterType::choice:
             break;
     }
@@ -165,6 +205,10 @@ ParameterSet& ParameterSet::cells(std::string name, std::string initial, std::in
                 std::move(help)});
 }
 
+ParameterSet& ParameterSet::changes(std::string name, std::string help) {
+    return add({std::move(name), ParameterType::changes, "", 0, 0, {}, "", std::move(help)});
+}
+
 const Parameter* ParameterSet::find(std::string_view name) const {
     const auto found = std::ranges::find(parameters_, name, &Parameter::name);
     return found == parameters_.end() ? nullptr : &*found;
@@ -216,6 +260,10 @@ const std::string& ParameterValues::choice(std::string_view name) const {
 
 std::array<int, 3> ParameterValues::cells(std::string_view name) const {
     return *parseCells(*declared_.find(name), value(name, ParameterType::cells));
+}
+
+std::vector<Change> ParameterValues::changes(std::string_view name) const {
+    return *parseChanges(value(name, ParameterType::changes));
 }
 
 const std::string& ParameterValues::choiceOf(std::string_view name, const std::vector<std::string>& words) const {

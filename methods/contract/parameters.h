@@ -15,7 +15,16 @@
 
 namespace dustbench {
 
-enum class ParameterType { integer, real, boolean, choice, cells };
+enum class ParameterType { integer, real, boolean, choice, cells, changes };
+
+/// Something that changes while a run goes on: in every frame k ≥ 0 with k·step ≥ `seconds` (to a thousandth of a
+/// step), `name` has `value`. What names and values mean is up to the method.
+struct Change {
+    double seconds;  ///< from the begin of frame 0 on; 0 or more
+    std::string name, value;
+
+    bool operator==(const Change&) const = default;
+};
 
 /// One declared parameter. `initial` is the default as text in its canonical form; `minimum` and `maximum` are
 /// inclusive; for a grid they limit the cells along each edge.
@@ -56,6 +65,8 @@ class DUSTBENCH_API ParameterSet {
     /// The number of cells of a grid, `128x64x64`.
     ParameterSet& cells(std::string name, std::string initial, std::int64_t minimum, std::int64_t maximum,
                         std::string help);
+    /// Changes while the run goes on, `2.5s:NAME=VALUE;4s:…`; none by default. The command line's `--at` sets it.
+    ParameterSet& changes(std::string name, std::string help);
 
     [[nodiscard]] const std::vector<Parameter>& all() const { return parameters_; }
     [[nodiscard]] const Parameter* find(std::string_view name) const;
@@ -82,6 +93,8 @@ class DUSTBENCH_API ParameterValues {
     /// Also for data files.
     [[nodiscard]] const std::string& choice(std::string_view name) const;
     [[nodiscard]] std::array<int, 3> cells(std::string_view name) const;
+    /// By time; those of one time in the given order.
+    [[nodiscard]] std::vector<Change> changes(std::string_view name) const;
     /// The value that the chosen word has in the table it was declared with.
     template <typename Enumeration>
     [[nodiscard]] Enumeration choice(std::string_view name, const Choices<Enumeration>& choices) const {

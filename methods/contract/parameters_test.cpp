@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/testing/test_input_error.h"
 
 namespace dustbench {
 namespace {
@@ -90,6 +91,20 @@ TEST(Parameters, RefuseToBeDeclaredTwiceOrWithABadDefault) {
     ParameterSet set = sample();
     EXPECT_THROW(set.real("depth", 1, 0, 2, "", ""), std::logic_error);
     EXPECT_THROW(set.real("new", 3, 0, 2, "", ""), std::logic_error);
+}
+
+TEST(Parameters, ChangesAreSortedByTimeAndKeepTheirTexts) {
+    ParameterSet set;
+    set.changes("at", "changes");
+    ParameterValues values(set);
+    EXPECT_TRUE(values.changes("at").empty());
+    values.set("at", "2.50s:velocity.speed=8;+1s:velocity.part=a=b;2.5s:x=2");
+    EXPECT_EQ(values.canonical().at("at"), "1s:velocity.part=a=b;2.5s:velocity.speed=8;2.5s:x=2");
+    EXPECT_EQ(values.changes("at"),
+              (std::vector<Change>{{1, "velocity.part", "a=b"}, {2.5, "velocity.speed", "8"}, {2.5, "x", "2"}}));
+    for (const char* bad : {"2.5:a=1", "-1s:a=1", "infs:a=1", "s:a=1", "1s:a", "1s:a=", "1s:=1", "a=1s:2", "1s:a=1;;"})
+        EXPECT_NE(inputError([&] { values.set("at", bad); }).find("allowed: SECONDSs:NAME=VALUE"), std::string::npos)
+            << bad;
 }
 
 }  // namespace

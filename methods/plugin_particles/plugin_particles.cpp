@@ -4,6 +4,7 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/particles/part_change.h"
 #include "methods/kit/particles/state_hash.h"
 
 namespace dustbench::plugin_particles {
@@ -33,9 +34,49 @@ std::int64_t shareOf(std::size_t system, std::size_t systems, std::int64_t parti
     return particles / count + (static_cast<std::int64_t>(system) < particles % count ? 1 : 0);
 }
 
+/// The system that a change's name begins with, which is cut off; a single system need not be named.
+std::size_t systemOf(std::string_view& name, const std::vector<std::string>& systems) {
+    const std::string_view first = name.substr(0, name.find('.'));
+    const auto found = std::ranges::find(systems, first);
+    if (found == systems.end()) {
+        if (systems.size() == 1) return 0;
+        throw unknownName("particle system", first, systems);
+    }
+    name.remove_prefix(std::min(first.size() + 1, name.size()));
+    return static_cast<std::size_t>(found - systems.begin());
+}
+
+template <typename PartsOf>
+void apply(const Change& change, const std::vector<std::string>& systems, const PartsOf& partsOf) {
+    try {
+        std::string_view name = change.name;
+        particles::PartList& parts = partsOf(systemOf(name, systems));
+        particles::changePart(parts, name, change.value);
+    } catch (const InputError& error) {
+        throw InputError("change " + change.name + "=" + change.value + ": " + error.what());
+    }
+}
+
+/// Tries the changes on copies of the systems.
+void requirePossible(const std::vector<Change>& changes, const std::vector<particles::NamedParts>& systems) {
+    std::vector<std::string> names;
+    std::vector<particles::NamedParts> copies;
+    for (const particles::NamedParts& each : systems) {
+        const particles::NamedPartsView view{each.name, *each.parts};
+        copies.push_back(
+            std::move(particles::systemsFromText(particles::systemsToToml({&view, 1}), each.name).front()));
+        names.push_back(each.name);
+    }
+    for (const Change& change : changes)
+        apply(change, names, [&](std::size_t i) -> particles::PartList& { return *copies[i].parts; });
+}
+
 }  // namespace
 
-PluginParticles::PluginParticles(std::vector<particles::NamedParts> systems) : parts_(std::move(systems)) {}
+PluginParticles::PluginParticles(std::vector<particles::NamedParts> systems, std::vector<Change> changes)
+    : parts_(std::move(systems)), changes_(std::move(changes)) {
+    requirePossible(changes_, parts_);
+}
 
 void PluginParticles::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) {
     scene_ = &scene;
@@ -50,7 +91,19 @@ void PluginParticles::prepare(const scene::Scene& scene, const RunSetup& setup, 
     parts_.clear();
 }
 
+void PluginParticles::applyChanges(const Frame& frame) {
+    if (applied_ == changes_.size() || frame.index < 0) return;
+    // A change at a frame's very begin belongs to it, however its time is rounded: to a thousandth of a step.
+    const double now = (static_cast<double>(frame.index) + 1e-3) * frame.stepSeconds;
+    std::vector<std::string> names;
+    for (const System& system : systems_) names.push_back(system.name);
+    for (; applied_ < changes_.size() && changes_[applied_].seconds <= now; ++applied_)
+        apply(changes_[applied_], names,
+              [&](std::size_t i) -> particles::PartList& { return systems_[i].particles.parts(); });
+}
+
 void PluginParticles::update(const Frame& frame) {
+    applyChanges(frame);
     {
         const auto timing = frame.clock.measure(Stage::simulate);
         for (System& system : systems_)
@@ -101,10 +154,10 @@ std::optional<std::uint64_t> PluginParticles::stateHash() const {
     return particles::stateHash(now_, hashes);
 }
 
-std::string PluginParticles::toToml() const {
+std::vector<KeptFile> PluginParticles::files() const {
     std::vector<particles::NamedPartsView> views;
     for (const System& system : systems_) views.push_back({system.name, system.particles.parts()});
-    return particles::systemsToToml(views);
+    return {{"systems.toml", particles::systemsToToml(views)}};
 }
 
 MethodInfo describe() {
@@ -114,6 +167,9 @@ MethodInfo describe() {
     info.source = "Thesis";
     info.parameters.dataFile("system", "wheel_dust", "particles", ".toml", systemNames(),
                              "what is simulated and drawn: one particle system, or several");
+    info.parameters.changes("at",
+                            "changes of parts and their parameters while the run goes on: 2.5s:velocity.speed=8, "
+                            "1s:velocity.part=cone; with several systems 2s:smoke.velocity.speed=8");
     for (std::size_t i = 0; i < countedSystems; ++i)
         info.facts.push_back({aliveFact(i), "particles", FactOver::lastFrame,
                               "particles alive in system " + std::to_string(i + 1) +
@@ -123,7 +179,7 @@ MethodInfo describe() {
     info.facts.push_back({"systems", "systems", FactOver::lastFrame, "particle systems that the file holds"});
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         const auto file = files::findData("particle system", "particles", values.choice("system"), ".toml");
-        return std::make_unique<PluginParticles>(particles::systemsFromFile(file));
+        return std::make_unique<PluginParticles>(particles::systemsFromFile(file), values.changes("at"));
     };
     return info;
 }

@@ -2,8 +2,9 @@
 //
 // The systems are stepped in the order of their file and drawn in that order, each over those before it; they do not
 // see each other. With the harness's `particles=N` they share N evenly. With `wheel_dust` the state is that of the
-// shared dust, bit by bit. Source: Thesis, 3 (design), 4.1 (rendering). Departs: structure of arrays instead of linked
-// lists.
+// shared dust, bit by bit. Parts and their parameters may change while the run goes on (kit/particles/part_change.h);
+// with several systems, a change's name begins with the system's. Source: Thesis, 3 (design), 4.1 (rendering). Departs:
+// structure of arrays instead of linked lists.
 #pragma once
 
 #include <memory>
@@ -20,8 +21,8 @@ namespace dustbench::plugin_particles {
 
 class PluginParticles final : public Method {
  public:
-    /// One or more systems.
-    explicit PluginParticles(std::vector<particles::NamedParts> systems);
+    /// One or more systems. `changes`: by time. Throws InputError if a change is impossible where its turn comes.
+    explicit PluginParticles(std::vector<particles::NamedParts> systems, std::vector<Change> changes = {});
 
     /// Throws InputError if fewer particles are asked for than there are systems.
     void prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) override;
@@ -33,9 +34,8 @@ class PluginParticles final : public Method {
     [[nodiscard]] std::int64_t primitives() const override;
     [[nodiscard]] std::optional<std::uint64_t> stateHash() const override;
     [[nodiscard]] bool wantsPreroll() const override { return true; }
-
-    /// The systems as they are now, as a file.
-    [[nodiscard]] std::string toToml() const;
+    /// `systems.toml`: the systems as they are now. Loading it gives the same parts.
+    [[nodiscard]] std::vector<KeptFile> files() const override;
 
  private:
     struct System {
@@ -45,7 +45,11 @@ class PluginParticles final : public Method {
         std::unique_ptr<SystemPicture> picture{};
     };
 
+    void applyChanges(const Frame& frame);
+
     std::vector<particles::NamedParts> parts_;  ///< until `prepare`
+    std::vector<Change> changes_;
+    std::size_t applied_ = 0;  ///< of changes_
     std::vector<System> systems_;
     const scene::Scene* scene_ = nullptr;
     scene::SceneState now_;

@@ -43,16 +43,24 @@ class Moment : public TestMoment {
     std::int64_t index = 0;
 };
 
-PluginParticles made(const std::string& toml) {
-    return PluginParticles(particles::systemsFromText(toml, "test.toml"));
+PluginParticles made(const std::string& toml, const std::string& changes = "") {
+    ParameterSet set;
+    set.changes("at", "");
+    ParameterValues values(set);
+    values.set("at", changes);
+    return PluginParticles(particles::systemsFromText(toml, "test.toml"), values.changes("at"));
 }
 
 class Counted final : public VolumeVisitor {
  public:
-    void puffs(const Puffs& puffs) override { sizes.push_back(puffs.size()); }
+    void puffs(const Puffs& puffs) override {
+        sizes.push_back(puffs.size());
+        firstHeights.push_back(puffs.y[0]);
+    }
     void octree(const OctreeVolume&) override {}
     void grid(const GridVolume&) override {}
     std::vector<std::size_t> sizes;
+    std::vector<float> firstHeights;
 };
 
 TEST(PluginParticles, StepsEverySystemAndTellsWhatEachHolds) {
@@ -62,6 +70,7 @@ TEST(PluginParticles, StepsEverySystemAndTellsWhatEachHolds) {
     Counted counted;
     method.volume(moment.frame(), counted);
     EXPECT_THAT(counted.sizes, testing::ElementsAre(300, 300));
+    EXPECT_NE(counted.firstHeights[0], counted.firstHeights[1]) << "the same chance for both";
 
     const MethodInfo info = describe();
     Facts atEnd(info.facts, FactOver::lastFrame), maxima(info.facts, FactOver::maximumOfFrames);
@@ -108,6 +117,70 @@ TEST(PluginParticles, ShareTheLoadEvenly) {
                   moment.run(tooMany, 1, {1, 1});
               }),
               "parameter particles: got 1, allowed: 0, or at least 2, one for each system");
+}
+
+std::optional<std::uint64_t> hashAfter(int steps, const std::string& changes, std::int64_t firstIndex = 0) {
+    Moment moment;
+    moment.index = firstIndex;
+    PluginParticles method = made(fountain("one") + fountain("two"), changes);
+    moment.run(method, steps);
+    return method.stateHash();
+}
+
+TEST(PluginParticles, ChangeInTheFrameThatBeginsAtTheirTime) {
+    const std::string change = "one.velocity.speed=9";
+    for (const int frame : {0, 1, 7, 29}) {
+        const std::string at = std::to_string(frame / 60.0) + "s:" + change;
+        EXPECT_EQ(hashAfter(frame, at), hashAfter(frame, "")) << frame;
+        EXPECT_NE(hashAfter(frame + 1, at), hashAfter(frame + 1, "")) << frame;
+        EXPECT_EQ(hashAfter(frame + 10, at), hashAfter(frame + 10, at)) << frame;
+    }
+    // Not during the preroll and the warm-up.
+    EXPECT_EQ(hashAfter(10, "0s:" + change, -10), hashAfter(10, "", -10));
+    EXPECT_NE(hashAfter(11, "0s:" + change, -10), hashAfter(11, "", -10));
+}
+
+TEST(PluginParticles, ChangesActInTheOrderOfTheirTimes) {
+    EXPECT_EQ(hashAfter(30, "0.3s:one.velocity.speed=9;0.1s:two.size.part=linear"),
+              hashAfter(30, "0.1s:two.size.part=linear;0.3s:one.velocity.speed=9"));
+    EXPECT_EQ(hashAfter(30, "0.1s:one.velocity.speed=9;0.1s:one.velocity.speed=3"),
+              hashAfter(30, "0.1s:one.velocity.speed=3"));
+    EXPECT_NE(hashAfter(30, "0.1s:one.velocity.speed=9"), hashAfter(30, "0.1s:two.velocity.speed=9"));
+}
+
+TEST(PluginParticles, KeepTheirSystemsAsTheyAreAtTheEnd) {
+    Moment moment;
+    PluginParticles method = made(fountain("one") + fountain("two"), "0.1s:two.velocity.speed=9");
+    moment.run(method, 3);
+    const auto before = method.files();
+    moment.step(method, 10);
+    const auto after = method.files();
+    ASSERT_EQ(after.size(), 1u);
+    EXPECT_EQ(after[0].name, "systems.toml");
+    EXPECT_THAT(after[0].text, testing::HasSubstr("speed = 9\n"));
+    EXPECT_THAT(before[0].text, testing::Not(testing::HasSubstr("speed = 9\n")));
+
+    // What was kept before the change, loaded and changed in the same way, has the same history.
+    Moment again;
+    PluginParticles loaded = made(before[0].text, "0.1s:two.velocity.speed=9");
+    again.run(loaded, 13);
+    EXPECT_EQ(loaded.stateHash(), method.stateHash());
+    EXPECT_EQ(loaded.files()[0].text, after[0].text);
+}
+
+TEST(PluginParticles, RefuseImpossibleChangesAtOnce) {
+    const std::string two = fountain("one") + fountain("two");
+    EXPECT_THAT(
+        inputError([&] { made(two, "1s:tow.velocity.speed=9"); }),
+        testing::AllOf(testing::HasSubstr("change tow.velocity.speed=9: "), testing::HasSubstr("did you mean 'two'")));
+    EXPECT_THAT(inputError([&] { made(two, "1s:one.velocity.sped=9"); }), testing::HasSubstr("did you mean 'speed'"));
+    EXPECT_THAT(inputError([&] { made(fountain("one"), "1s:velocity.sped=9"); }),
+                testing::HasSubstr("did you mean 'speed'"));
+    // A parameter of a part that only an earlier change brings.
+    EXPECT_THAT(inputError([&] { made(two, "1s:one.size.end_metres=2"); }), testing::HasSubstr("of 'constant'"));
+    EXPECT_NO_THROW(made(two, "1s:one.size.end_metres=2;0.5s:one.size.part=linear"));
+    for (const char* bad : {"-1s:one.velocity.speed=9", "1:one.velocity.speed=9", "1s", "1s:=2", "1s:a=", "nans:a=2"})
+        EXPECT_THAT(inputError([&] { made(two, bad); }), testing::HasSubstr(std::string("parameter at: got '") + bad));
 }
 
 TEST(PluginParticles, DrawsTheSameTwice) {

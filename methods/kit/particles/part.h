@@ -42,6 +42,10 @@ class DUSTBENCH_API Part {
     void setName(std::string name) { name_ = std::move(name); }
     [[nodiscard]] const ParameterValues& values() const { return values_; }
 
+    /// Carries on where `before`, which this part replaces in a living system, stops: a part that keeps something from
+    /// step to step (an accumulator) takes it over from one of its own class.
+    virtual void takeOver(const Part& /*before*/) {}
+
  private:
     std::string name_;
     ParameterValues values_;

@@ -15,27 +15,41 @@ bool givesLifetimes(const std::unique_ptr<LifePart>& part) {
     return part->meanLifetimeSeconds().has_value();
 }
 
+template <typename Kind>
+void replace(std::unique_ptr<Kind>& place, std::unique_ptr<Part> part) {
+    if (place) part->takeOver(*place);
+    place = as<Kind>(std::move(part));
+}
+
+template <typename Kind>
+void replaceOrRemove(PartList::List<Kind>& list, std::size_t index, std::unique_ptr<Part> part) {
+    if (part)
+        replace(list.at(index), std::move(part));
+    else
+        list.erase(list.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
 }  // namespace
 
 void PartList::set(std::unique_ptr<Part> part) {
     switch (part->kind()) {
         case PartKind::emission:
-            emission_ = as<EmissionPart>(std::move(part));
+            replace(emission_, std::move(part));
             return;
         case PartKind::position:
-            position_ = as<PositionPart>(std::move(part));
+            replace(position_, std::move(part));
             return;
         case PartKind::velocity:
-            velocity_ = as<VelocityPart>(std::move(part));
+            replace(velocity_, std::move(part));
             return;
         case PartKind::colour:
-            colour_ = as<ColourPart>(std::move(part));
+            replace(colour_, std::move(part));
             return;
         case PartKind::size:
-            size_ = as<SizePart>(std::move(part));
+            replace(size_, std::move(part));
             return;
         case PartKind::render:
-            render_ = as<RenderPart>(std::move(part));
+            replace(render_, std::move(part));
             return;
         case PartKind::life:
             lives_.push_back(as<LifePart>(std::move(part)));
@@ -49,21 +63,42 @@ void PartList::set(std::unique_ptr<Part> part) {
     }
 }
 
+void PartList::setInList(PartKind kind, std::size_t index, std::unique_ptr<Part> part) {
+    if (kind == PartKind::life) return replaceOrRemove(lives_, index, std::move(part));
+    if (kind == PartKind::shading) return replaceOrRemove(shadings_, index, std::move(part));
+    if (kind == PartKind::force) return replaceOrRemove(forces_, index, std::move(part));
+    throw std::logic_error("a part of kind '" + std::string(kindName(kind)) + "' stands in no list");
+}
+
+void PartList::takeOver(const PartList& before) {
+    const std::vector<Part*> own = mutableParts();
+    const std::vector<const Part*> old = before.all();
+    for (std::size_t i = 0, k = 0; i < own.size(); ++i) {
+        while (k < old.size() && old[k]->kind() < own[i]->kind()) ++k;
+        if (k < old.size() && old[k]->kind() == own[i]->kind()) own[i]->takeOver(*old[k++]);
+    }
+}
+
 const LifePart& PartList::lifetime() const {
     const auto found = std::ranges::find_if(lives_, givesLifetimes);
     if (found == lives_.end()) throw std::logic_error("no part gives lifetimes");
     return **found;
 }
 
-std::vector<const Part*> PartList::all() const {
-    std::vector<const Part*> parts;
-    for (const Part* part : std::initializer_list<const Part*>{emission_.get(), position_.get(), velocity_.get(),
-                                                               colour_.get(), size_.get(), render_.get()})
+std::vector<Part*> PartList::mutableParts() const {
+    std::vector<Part*> parts;
+    for (Part* part : std::initializer_list<Part*>{emission_.get(), position_.get(), velocity_.get(), colour_.get(),
+                                                   size_.get(), render_.get()})
         if (part) parts.push_back(part);
     for (const auto& part : lives_) parts.push_back(part.get());
     for (const auto& part : shadings_) parts.push_back(part.get());
     for (const auto& part : forces_) parts.push_back(part.get());
     return parts;
+}
+
+std::vector<const Part*> PartList::all() const {
+    const std::vector<Part*> parts = mutableParts();
+    return {parts.begin(), parts.end()};
 }
 
 std::string PartList::missing() const {

@@ -25,6 +25,10 @@ class PartList {
 
     /// Adds a part by its kind: replaces the single part, or appends to the list.
     void set(std::unique_ptr<Part> part);
+    /// Puts a part in the place of the `index`-th of its list, from which it takes over; null removes that one.
+    void setInList(PartKind kind, std::size_t index, std::unique_ptr<Part> part);
+    /// Takes over (Part::takeOver) from the parts of a living system that this list replaces.
+    void takeOver(const PartList& before);
 
     /// Null while the system is being assembled.
     [[nodiscard]] EmissionPart* emission() const { return emission_.get(); }
@@ -49,6 +53,8 @@ class PartList {
     [[nodiscard]] std::string missing() const;
 
  private:
+    [[nodiscard]] std::vector<Part*> mutableParts() const;
+
     std::unique_ptr<EmissionPart> emission_;
     std::unique_ptr<PositionPart> position_;
     std::unique_ptr<VelocityPart> velocity_;

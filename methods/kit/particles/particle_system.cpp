@@ -180,6 +180,12 @@ const PartList& ParticleSystem::parts() const {
     return *state_->parts;
 }
 
+void ParticleSystem::replaceParts(std::unique_ptr<PartList> parts) {
+    if (const std::string missing = parts->missing(); !missing.empty()) throw InputError("particle system: " + missing);
+    parts->takeOver(*state_->parts);
+    state_->parts = std::move(parts);
+}
+
 double ParticleSystem::meanLifetimeSeconds() const {
     return *state_->parts->lifetime().meanLifetimeSeconds();
 }

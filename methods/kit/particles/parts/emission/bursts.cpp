@@ -19,6 +19,8 @@ class Bursts final : public EmissionPart {
 
     [[nodiscard]] Births births(const Step& step) override;
     [[nodiscard]] bool neverEmits() const override { return count_ <= 0; }
+    /// The fraction that is due, and the place within the interval if that stays the same.
+    void takeOver(const Part& before) override;
     [[nodiscard]] double meanRatePerSecond() const override { return count_ / intervalSeconds_; }
 
  private:
@@ -40,6 +42,15 @@ Bursts::Bursts(const ParameterValues& values)
     if (durationSeconds_ > intervalSeconds_)
         throw InputError("parameter duration_seconds: got " + values.canonical().find("duration_seconds")->second +
                          ", allowed: at most interval_seconds, " + values.canonical().find("interval_seconds")->second);
+}
+
+void Bursts::takeOver(const Part& before) {
+    const auto* bursts = dynamic_cast<const Bursts*>(&before);
+    if (!bursts) return;
+    carried_ = bursts->carried_;
+    if (bursts->intervalSeconds_ != intervalSeconds_) return;
+    seconds_ = bursts->seconds_;
+    done_ = burstsUpTo(seconds_);
 }
 
 double Bursts::burstsUpTo(double seconds) const {

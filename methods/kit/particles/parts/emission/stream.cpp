@@ -17,6 +17,9 @@ class Stream final : public EmissionPart {
     [[nodiscard]] Births births(const Step& step) override;
     [[nodiscard]] bool neverEmits() const override { return ratePerSecond_ <= 0 && ratePerMetre_ <= 0; }
     [[nodiscard]] double meanRatePerSecond() const override { return ratePerSecond_; }
+    void takeOver(const Part& before) override {
+        if (const auto* stream = dynamic_cast<const Stream*>(&before)) carried_ = stream->carried_;
+    }
 
  private:
     double ratePerSecond_, ratePerMetre_;
