@@ -80,6 +80,7 @@ PluginParticles::PluginParticles(std::vector<particles::NamedParts> systems, std
 
 void PluginParticles::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) {
     scene_ = &scene;
+    device_ = &device;
     const std::size_t count = parts_.size();
     if (setup.particles > 0 && setup.particles < static_cast<std::int64_t>(count))
         throw InputError("parameter particles: got " + std::to_string(setup.particles) + ", allowed: 0, or at least " +
@@ -87,8 +88,21 @@ void PluginParticles::prepare(const scene::Scene& scene, const RunSetup& setup, 
     for (std::size_t i = 0; i < count; ++i)
         systems_.push_back({std::move(parts_[i].name),
                             particles::ParticleSystem(std::move(parts_[i].parts), seedOf(i, setup.seed)),
-                            shareOf(i, count, setup.particles), std::make_unique<SystemPicture>(device)});
+                            shareOf(i, count, setup.particles)});
     parts_.clear();
+    for (System& system : systems_) makePicture(system);
+}
+
+/// Unless it has it already.
+void PluginParticles::makePicture(System& system) {
+    const particles::RenderPart* part = system.particles.parts().render();
+    std::string shownAs = part ? part->name() : "puff";
+    if (part)
+        for (const auto& [name, value] : part->values().canonical()) shownAs.append(" " + name + "=" + value);
+    if (shownAs == system.shownAs) return;
+    const particles::Look look = part ? part->look() : particles::Look();
+    system.picture = std::make_unique<SystemPicture>(*device_, look, scene_->lights);
+    system.shownAs = std::move(shownAs);
 }
 
 void PluginParticles::applyChanges(const Frame& frame) {
@@ -100,6 +114,7 @@ void PluginParticles::applyChanges(const Frame& frame) {
     for (; applied_ < changes_.size() && changes_[applied_].seconds <= now; ++applied_)
         apply(changes_[applied_], names,
               [&](std::size_t i) -> particles::PartList& { return systems_[i].particles.parts(); });
+    for (System& system : systems_) makePicture(system);
 }
 
 void PluginParticles::update(const Frame& frame) {
@@ -111,7 +126,9 @@ void PluginParticles::update(const Frame& frame) {
         now_ = frame.state;
     }
     for (System& system : systems_)
-        system.picture->upload(system.particles.store(), glm::vec3(frame.view.camera.eye), frame.clock);
+        system.picture->upload(
+            {system.particles.store(), glm::vec3(frame.view.camera.eye), static_cast<float>(frame.stepSeconds)},
+            frame.clock);
 }
 
 void PluginParticles::draw(const Frame& frame, gpu::Layer& layer) {

@@ -42,16 +42,19 @@ class PluginParticles final : public Method {
         std::string name;
         particles::ParticleSystem particles;
         std::int64_t fixedCount = 0;
+        std::string shownAs{};  ///< the render part of `picture`
         std::unique_ptr<SystemPicture> picture{};
     };
 
     void applyChanges(const Frame& frame);
+    void makePicture(System& system);
 
     std::vector<particles::NamedParts> parts_;  ///< until `prepare`
     std::vector<Change> changes_;
     std::size_t applied_ = 0;  ///< of changes_
     std::vector<System> systems_;
     const scene::Scene* scene_ = nullptr;
+    gpu::Device* device_ = nullptr;
     scene::SceneState now_;
 };
 

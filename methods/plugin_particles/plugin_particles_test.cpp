@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
+#include "methods/kit/files/data_folder.h"
 #include "methods/kit/testing/test_input_error.h"
 #include "methods/kit/testing/test_moment.h"
 
@@ -55,12 +57,21 @@ class Counted final : public VolumeVisitor {
  public:
     void puffs(const Puffs& puffs) override {
         sizes.push_back(puffs.size());
+        if (puffs.empty()) return;
         firstHeights.push_back(puffs.y[0]);
+        for (std::size_t i = 0; i < puffs.size(); ++i) {
+            const glm::vec3 place = puffs.position(i), colour = puffs.colour(i);
+            finite = finite && std::isfinite(glm::dot(place, place) + glm::dot(colour, colour) + puffs.radius[i] +
+                                             puffs.opacity[i]);
+            farthest = std::max(farthest, glm::length(place));
+        }
     }
     void octree(const OctreeVolume&) override {}
     void grid(const GridVolume&) override {}
     std::vector<std::size_t> sizes;
     std::vector<float> firstHeights;
+    bool finite = true;
+    float farthest = 0;
 };
 
 TEST(PluginParticles, StepsEverySystemAndTellsWhatEachHolds) {
@@ -87,7 +98,7 @@ TEST(PluginParticles, StepsEverySystemAndTellsWhatEachHolds) {
     for (const MemoryUse& use : method.memory()) bytes[use.structure] += use.cpuBytes + use.gpuBytes;
     EXPECT_GE(bytes["one: particle positions"], 300 * 12u);
     EXPECT_GE(bytes["two: particle positions"], 300 * 12u);
-    EXPECT_GE(bytes["two: billboards"], 300 * 20u);
+    EXPECT_GE(bytes["two: primitives"], 300 * 20u);
 }
 
 TEST(PluginParticles, SystemsDifferByTheirSeedAloneAndByTheRuns) {
@@ -181,6 +192,29 @@ TEST(PluginParticles, RefuseImpossibleChangesAtOnce) {
     EXPECT_NO_THROW(made(two, "1s:one.size.end_metres=2;0.5s:one.size.part=linear"));
     for (const char* bad : {"-1s:one.velocity.speed=9", "1:one.velocity.speed=9", "1s", "1s:=2", "1s:a=", "nans:a=2"})
         EXPECT_THAT(inputError([&] { made(two, bad); }), testing::HasSubstr(std::string("parameter at: got '") + bad));
+}
+
+/// A minute of every delivered system: their numbers stay at what is asked for, and their states are numbers.
+TEST(PluginParticles, DeliveredSystemsAreStable) {
+    for (const std::string& name : files::listData("particles", ".toml")) {
+        Moment moment;
+        moment.scene.vehicle.emplace();
+        PluginParticles method(particles::systemsFromFile(files::findData("system", "particles", name, ".toml")));
+        method.prepare(moment.scene, {1, 2000}, Moment::device());
+        for (int second = 0; second < 60; ++second) {
+            for (scene::WheelState& wheel : moment.state.vehicle.wheels) wheel.velocity = {20, 0, 0};
+            moment.state.vehicle.speed = 20;
+            moment.step(method, 60);
+            Counted counted;
+            method.volume(moment.frame(), counted);
+            std::size_t alive = 0;
+            for (const std::size_t size : counted.sizes) alive += size;
+            ASSERT_LE(alive, 2600u) << name << " after " << second << " s";
+            ASSERT_TRUE(counted.finite) << name << " after " << second << " s";
+            ASSERT_LT(counted.farthest, 2000) << name << " after " << second << " s";
+            ASSERT_TRUE(second <= 20 || alive >= 1400) << name << " has " << alive << " after " << second << " s";
+        }
+    }
 }
 
 TEST(PluginParticles, DrawsTheSameTwice) {

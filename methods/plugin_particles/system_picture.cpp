@@ -1,41 +1,61 @@
 #include "methods/plugin_particles/system_picture.h"
 
-#include "methods/kit/parallel/for_each_block.h"
-
 namespace dustbench::plugin_particles {
 
-SystemPicture::SystemPicture(gpu::Device& device) : sort_(ledger_), billboards_(device, {}) {}
+scene::View seenBy(draw::Eye eye, const scene::View& view, float eyesMetres) {
+    scene::View seen = view;
+    const glm::dvec3 right = glm::normalize(glm::cross(view.camera.target - view.camera.eye, view.camera.up));
+    const glm::dvec3 shift = right * (0.5 * static_cast<double>(eyesMetres) * (eye == draw::Eye::left ? -1 : 1));
+    seen.camera.eye += shift;
+    seen.camera.target += shift;
+    return seen;
+}
 
-void SystemPicture::upload(const Puffs& puffs, const glm::vec3& eye, const StageClock& clock) {
-    colourOfAll_ = puffs.colourOfAll;
+SystemPicture::SystemPicture(gpu::Device& device, const particles::Look& look, const scene::Lights& lights)
+    : look_(look),
+      sort_(ledger_),
+      pass_(makePass(device, look, lights)),
+      light_(device),
+      oneEye_(device),
+      bothEyes_(device) {
+    if (look.stereo || (isAdditive() && look.clamped)) blend_.emplace(device);
+}
+
+void SystemPicture::upload(const Moment& moment, const StageClock& clock) {
+    const Puffs& puffs = moment.puffs;
     std::span<const std::uint32_t> order;
-    {
+    if (!isAdditive() && look_.primitive != particles::Primitive::objects) {
         const auto timing = clock.measure(Stage::sort);
-        order = sort_.farToNear(draw::SortKind::radix, {puffs.x, puffs.y, puffs.z}, eye);
+        order = sort_.farToNear(draw::SortKind::radix, {puffs.x, puffs.y, puffs.z}, moment.eye);
     }
     const auto timing = clock.measure(Stage::upload);
-    const draw::InstanceLayout layout = billboards_.layout(!puffs.uniformColour);
-    const std::span<float> memory = billboards_.map(order.size(), layout);
-    parallel::forEachBlock(order.size(), 16'384, [&](std::size_t first, std::size_t count) {
-        float* value = memory.data() + first * layout.floats;
-        for (const std::uint32_t i : order.subspan(first, count)) {
-            for (const float next : {puffs.x[i], puffs.y[i], puffs.z[i], puffs.radius[i], puffs.opacity[i]})
-                *value++ = next;
-            if (!layout.coloured) continue;
-            for (const float next : {puffs.red[i], puffs.green[i], puffs.blue[i]}) *value++ = next;
-        }
-    });
-    billboards_.unmap();
+    pass_->upload({puffs, order, moment.stepSeconds});
 }
 
 void SystemPicture::draw(const scene::View& view, const gpu::Layer& layer) {
-    billboards_.draw(view, colourOfAll_, layer);
+    if (!look_.stereo) return drawForEye(view, layer);
+    const gpu::Layer& both = bothEyes_.clearedLike(layer);
+    for (const draw::Eye eye : {draw::Eye::left, draw::Eye::right}) {
+        const gpu::Layer& one = oneEye_.clearedLike(layer);
+        drawForEye(seenBy(eye, view, look_.eyesMetres), one);
+        blend_->addEye(one.colour(), both, eye);
+    }
+    blend_->over(both.colour(), layer);
+}
+
+void SystemPicture::drawForEye(const scene::View& view, const gpu::Layer& layer) {
+    if (!isAdditive() || !look_.clamped) return pass_->draw(view, layer);
+    const gpu::Layer& light = light_.clearedLike(layer);
+    pass_->draw(view, light);
+    blend_->add(light.colour(), layer, 1, true);
 }
 
 MemoryReport SystemPicture::memory() const {
     MemoryReport report;
     for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
-    report.push_back({"billboards", 0, billboards_.gpuBytes()});
+    report.push_back({"primitives", 0, pass_->gpuBytes()});
+    const std::size_t buffers = light_.gpuBytes() + oneEye_.gpuBytes() + bothEyes_.gpuBytes();
+    if (buffers > 0) report.push_back({"own buffers", 0, buffers});
     return report;
 }
 

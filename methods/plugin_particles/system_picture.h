@@ -1,38 +1,55 @@
 // One system's particles on the screen, as its render part says.
 //
-// Owns: the passes and the order of drawing. Threads: the OpenGL thread. Source: Thesis, 4.1.
+// Additive light is drawn into a buffer of its own and clamped there (kit/draw/layer_blend.h), unless the part says
+// otherwise. For glasses of red and green everything is drawn once for each eye; the opaque scene remains that of one
+// eye in the middle. Owns: the pass, the buffers and the order of drawing. Threads: the OpenGL thread.
+// Source: Thesis, 4.1.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <span>
 
+#include "methods/contract/memory_report.h"
 #include "methods/contract/stage_clock.h"
-#include "methods/contract/view.h"
-#include "methods/contract/volume.h"
-#include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/depth_sort.h"
+#include "methods/kit/draw/layer_blend.h"
+#include "methods/plugin_particles/shape_pass.h"
 
 namespace dustbench::plugin_particles {
 
+/// The view of one of two eyes, `eyesMetres` apart; both look in the same direction.
+[[nodiscard]] scene::View seenBy(draw::Eye eye, const scene::View& view, float eyesMetres);
+
 class SystemPicture {
  public:
-    explicit SystemPicture(gpu::Device& device);
+    /// Throws InputError if a picture or a mesh cannot be read.
+    SystemPicture(gpu::Device& device, const particles::Look& look, const scene::Lights& lights);
 
-    /// Sorts and uploads particles, as seen from `eye`.
-    void upload(const Puffs& puffs, const glm::vec3& eye, const StageClock& clock);
+    struct Moment {
+        const Puffs& puffs;
+        glm::vec3 eye;
+        float stepSeconds;
+    };
+    /// Sorts, if needed, and uploads the particles.
+    void upload(const Moment& moment, const StageClock& clock);
     /// Draws what was uploaded last, as often as wanted.
     void draw(const scene::View& view, const gpu::Layer& layer);
 
     /// Primitives that the last `draw` submitted.
-    [[nodiscard]] std::size_t count() const { return billboards_.count(); }
+    [[nodiscard]] std::size_t count() const { return pass_->count() * (look_.stereo ? 2 : 1); }
     [[nodiscard]] MemoryReport memory() const;
 
  private:
+    [[nodiscard]] bool isAdditive() const { return look_.blending == particles::Blending::additive; }
+    void drawForEye(const scene::View& view, const gpu::Layer& layer);
+
+    particles::Look look_;
     MemoryLedger ledger_;
     draw::DepthSort sort_;
-    draw::Billboards billboards_;
-    glm::vec3 colourOfAll_{1};
+    std::unique_ptr<ShapePass> pass_;
+    std::optional<draw::LayerBlend> blend_;
+    draw::OwnLayer light_, oneEye_, bothEyes_;
 };
 
 }  // namespace dustbench::plugin_particles

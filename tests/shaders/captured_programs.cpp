@@ -32,9 +32,19 @@ using Values = std::map<std::string, std::string>;
 constexpr int width = 32, height = 24;
 constexpr int frames = 2;
 
-/// Numbers that decide about shaders. A choice or a switch is gone through by itself.
-const std::map<std::string, std::vector<std::string>> decidingNumbers{{"shadow_cells", {"0", "2"}},
-                                                                      {"vorticity", {"0", "2"}}};
+/// Values that decide about shaders. A choice or a switch is gone through by itself.
+const std::map<std::string, std::vector<std::string>> decidingValues{
+    {"shadow_cells", {"0", "2"}},
+    {"vorticity", {"0", "2"}},
+    {"at",
+     {"0s:render.part=points", "0s:render.part=points;0s:render.round=on",
+      "0s:render.part=points;0s:render.blend=alpha", "0s:render.part=lines",
+      "0s:render.part=lines;0s:render.fade=off;0s:render.blend=alpha", "0s:render.part=lines;0s:render.blend=alpha",
+      "0s:render.part=hybrid;0s:render.stereo=on", "0s:render.part=sprites",
+      "0s:render.part=sprites;0s:render.blend=alpha", "0s:render.part=sprites;0s:render.picture=puff",
+      "0s:render.part=aa_sprites", "0s:render.part=aa_sprites;0s:render.blend=alpha;0s:render.picture=puff",
+      "0s:render.part=aa_sprites;0s:render.by=accumulation", "0s:render.part=objects",
+      "0s:render.part=objects;0s:render.along_velocity=on", "0s:render.blend=additive"}}};
 
 /// So small that a combination takes milliseconds; for the methods that have such a parameter.
 const Values small{{"grid", "16x16x16"}, {"shape_particles", "300"}, {"depth", "5"}};
@@ -58,7 +68,7 @@ const std::vector<Product> products{
 };
 
 std::vector<std::string> valuesOf(const Parameter& parameter) {
-    if (const auto found = decidingNumbers.find(parameter.name); found != decidingNumbers.end()) return found->second;
+    if (const auto found = decidingValues.find(parameter.name); found != decidingValues.end()) return found->second;
     if (parameter.type == ParameterType::choice) return parameter.choices;
     if (parameter.type == ParameterType::boolean) return {"off", "on"};
     return {};

@@ -15,6 +15,7 @@ std::map<std::string, std::string> definitions(const BillboardStyle& style, cons
     if (style.facing == Facing::viewplane) names["VIEWPLANE"] = "";
     if (style.soft) names["SOFT"] = "";
     if (style.additive) names["ADDITIVE"] = "";
+    if (style.moving) names["MOVING"] = "";
     if (pictures) names["TEXTURED"] = "";
     if (pictures && pictures->crossFaded()) names["CROSS_FADED"] = "";
     return names;
@@ -33,13 +34,18 @@ Billboards::Billboards(gpu::Device& device, const BillboardStyle& style, const P
       style_(style),
       pictures_(pictures) {}
 
-void Billboards::draw(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer) {
+void Billboards::drawCopy(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer,
+                          const Copy& copy) {
     if (count() == 0) return;
     const glm::mat4 eyeToClip = view.eyeToClip();
     gpu::Program& program = this->program(view);
     program.set("projection", glm::vec4(eyeToClip[0][0], eyeToClip[1][1], view.camera.nearMetres,
                                         pictures_ ? pictures_->opticalDepthScale() : 1.0f));
     if (!layoutOfAll().coloured) program.set("puffColour", colourOfAll);
+    if (style_.moving) {
+        program.set("back", copy.back);
+        program.set("share", copy.share);
+    }
     if (pictures_) {
         program.set("shadeScale", pictures_->shadeScale());
         pictures_->texture().bind(0);

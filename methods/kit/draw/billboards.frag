@@ -12,6 +12,11 @@ flat in float frame;
 uniform float shadeScale;
 layout(binding = 0) uniform sampler2DArray pictures;
 #endif
+#ifdef MOVING
+uniform float share;
+#else
+const float share = 1.0;
+#endif
 #ifdef COLOURED
 flat in vec3 puffColour;
 #else
@@ -62,10 +67,11 @@ void main() {
 #ifdef SOFT
     depth *= shareBeforeScene();
 #endif
-    float alpha = 1.0 - exp2(-depth);
 #ifdef ADDITIVE
-    colour = vec4(lit * alpha, 0.0);
+    float alpha = 1.0 - exp2(-depth);
+    colour = vec4(lit * (share * alpha), 0.0);
 #else
+    float alpha = 1.0 - exp2(-share * depth);
     colour = vec4(lit * alpha, alpha);
 #endif
 }

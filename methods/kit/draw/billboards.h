@@ -30,6 +30,8 @@ struct BillboardStyle {
     bool soft = false;
     /// Adds light without covering anything, as fire does: C = αC_puff + C, in any order.
     bool additive = false;
+    /// Billboards have a displacement, and are drawn at any place on it: copies of a moving puff.
+    bool moving = false;
 };
 
 class DUSTBENCH_API Billboards : public InstanceBatch {
@@ -37,16 +39,24 @@ class DUSTBENCH_API Billboards : public InstanceBatch {
     /// `pictures` must outlive this; null selects Gaussian puffs.
     Billboards(gpu::Device& device, const BillboardStyle& style, const PuffTextures* pictures = nullptr);
 
-    /// x y z radius opacity [picture] [red green blue]
+    /// x y z radius opacity [picture] [displacement: 3] [red green blue]
     [[nodiscard]] InstanceLayout layout(bool coloured) const {
-        return {5u + (framed() ? 1u : 0u) + (coloured ? 3u : 0u), coloured};
+        return {5u + (framed() ? 1u : 0u) + (style_.moving ? 3u : 0u) + (coloured ? 3u : 0u), coloured};
     }
     /// Whether each billboard names the picture it shows: 0..frames()−1, with a fraction for cross-fading.
     [[nodiscard]] bool framed() const { return pictures_ != nullptr; }
 
     /// Draws the instances mapped last; may be called repeatedly. `colourOfAll` applies to billboards without own
     /// colours.
-    void draw(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer);
+    void draw(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer) {
+        drawCopy(view, colourOfAll, layer, {0, 1});
+    }
+    /// Of moving billboards: where each is, and how much of it shows.
+    struct Copy {
+        float back;   ///< share of the displacement that each is moved back
+        float share;  ///< of its optical depth (additive: of its light)
+    };
+    void drawCopy(const scene::View& view, const glm::vec3& colourOfAll, const gpu::Layer& layer, const Copy& copy);
 
  private:
     BillboardStyle style_;

@@ -1,10 +1,18 @@
 // Corners of camera-facing quads, pulled from the instance buffer: SHAPES_AT_ONCE quads per drawn instance.
 layout(std430, binding = 0) readonly buffer Instances {
-    float values[];  // x y z radius opacity [frame] [red green blue]
+    float values[];  // x y z radius opacity [frame] [displacement] [red green blue]
 };
 uniform int count;
 uniform vec3 eye;
 uniform mat4 worldToEye;
+#ifdef MOVING
+uniform float back;
+#ifdef TEXTURED
+const int displacement = 6;
+#else
+const int displacement = 5;
+#endif
+#endif
 uniform vec4 projection;  // x and y scale, near distance, optical depth scale of the puff picture
 
 out vec3 puff;           // offset from the centre, such that |offset|² = b²/(2s²)·log2(e); optical depth
@@ -34,7 +42,12 @@ void main() {
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1 & 1) * 2.0 - 1.0;
 
     // Subtract the eye first, so that coordinates near the eye keep their precision.
-    vec3 centre = mat3(worldToEye) * (vec3(values[base], values[base + 1], values[base + 2]) - eye);
+    vec3 place = vec3(values[base], values[base + 1], values[base + 2]) - eye;
+#ifdef MOVING
+    int at = base + displacement;
+    place -= back * vec3(values[at], values[at + 1], values[at + 2]);
+#endif
+    vec3 centre = mat3(worldToEye) * place;
     float distance = length(centre);
     bool drawn = wanted < count && distance > 1e-4;
     float radius = drawn ? values[base + 3] : 0.0;

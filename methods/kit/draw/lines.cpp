@@ -9,8 +9,10 @@ namespace dustbench::draw {
 namespace {
 
 std::map<std::string, std::string> definitions(const LineStyle& style) {
-    if (style.additive) return {{"ADDITIVE", ""}};
-    return {};
+    std::map<std::string, std::string> names;
+    if (style.additive) names["ADDITIVE"] = "";
+    if (style.fade) names["FADE"] = "";
+    return names;
 }
 
 }  // namespace

@@ -1,5 +1,9 @@
 // The particle's colour, premultiplied.
+#ifdef FADE
+in vec4 lineColour;
+#else
 flat in vec4 lineColour;
+#endif
 layout(location = 0) out vec4 colour;
 
 void main() {

@@ -7,7 +7,11 @@ uniform vec3 eye;
 uniform mat4 worldToEye;
 uniform vec3 projection;  // x and y scale, near distance
 uniform float seconds;
+#ifdef FADE
+out vec4 lineColour;
+#else
 flat out vec4 lineColour;
+#endif
 
 void main() {
     int base = min(gl_VertexID >> 1, count - 1) * FLOATS;
@@ -17,4 +21,7 @@ void main() {
     vec3 position = mat3(worldToEye) * (place - eye);
     gl_Position = vec4(position.xy * projection.xy, projection.z, -position.z);
     lineColour = vec4(values[base + 7], values[base + 8], values[base + 9], values[base + 6]);
+#ifdef FADE
+    if ((gl_VertexID & 1) != 0) lineColour.a = 0.0;
+#endif
 }

@@ -40,8 +40,8 @@ SolidMesh::SolidMesh(gpu::Device& device, const scene::Solid& solid) : layout_(d
     layout_.indices(indices_);
 }
 
-void SolidMesh::draw(const gpu::Program& program, const gpu::DrawState& state) const {
-    gpu::drawIndexed(program, layout_, state, gpu::Primitives::triangles, indexCount_);
+void SolidMesh::draw(const gpu::Program& program, const gpu::DrawState& state, int instances) const {
+    gpu::drawIndexed(program, layout_, state, gpu::Primitives::triangles, indexCount_, instances);
 }
 
 }  // namespace dustbench::draw

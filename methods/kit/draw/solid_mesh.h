@@ -17,7 +17,7 @@ class DUSTBENCH_API SolidMesh {
  public:
     SolidMesh(gpu::Device& device, const scene::Solid& solid);
 
-    void draw(const gpu::Program& program, const gpu::DrawState& state) const;
+    void draw(const gpu::Program& program, const gpu::DrawState& state, int instances = 1) const;
 
     [[nodiscard]] const glm::vec3& minimum() const { return minimum_; }
     [[nodiscard]] const glm::vec3& maximum() const { return maximum_; }

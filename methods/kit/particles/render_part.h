@@ -3,19 +3,84 @@
 // Source: Thesis, 3.1.3 and 4.1. Departs: many methods can draw one system, so the part contains no drawing code.
 #pragma once
 
+#include <string>
+
+#include "methods/contract/choices.h"
 #include "methods/kit/particles/part.h"
 
 namespace dustbench::particles {
 
 /// The shapes that a file can request.
-enum class Primitive { puff };
+enum class Primitive { puff, points, lines, hybrid, sprites, aa_sprites, objects };
+
+enum class Blending {
+    alpha,     ///< C = α·C_particle + (1 − α)·C, sorted far to near
+    additive,  ///< C = α·C_particle + C, in any order
+};
+inline constexpr Choices<Blending> blendings{{"alpha", Blending::alpha}, {"additive", Blending::additive}};
+
+enum class AntiAliasing {
+    copies,        ///< of each sprite, between its old position and its new one
+    accumulation,  ///< the mean of pictures at times within the step
+};
+inline constexpr Choices<AntiAliasing> antiAliasings{{"copies", AntiAliasing::copies},
+                                                     {"accumulation", AntiAliasing::accumulation}};
+
+/// Everything a file can say about the appearance; a part sets what its primitive has.
+struct Look {
+    Primitive primitive = Primitive::puff;
+    Blending blending = Blending::alpha;
+    bool clamped = true;    ///< additive light: clamped to 1 in a buffer of its own
+    float pixels = 0;       ///< of points; 0: the particle's own size
+    bool round = false;     ///< points with a Gaussian profile
+    float seconds = 0;      ///< of the path that lines and copies show; 0: one step
+    std::string picture{};  ///< of sprites, a name in data/textures or a file; empty: a Gaussian
+    int copies = 1;         ///< of anti-aliased sprites
+    AntiAliasing by = AntiAliasing::copies;
+    bool fading = false;  ///< copies count for more the newer they are
+    std::string mesh{};   ///< of objects, a name in data/scenes/meshes or a file
+    bool alongVelocity = false;
+    bool stereo = false;   ///< red and green glasses, the left eye green
+    float eyesMetres = 0;  ///< distance of the two eyes
+};
 
 class RenderPart : public Part {
  public:
     using Part::Part;
     [[nodiscard]] PartKind kind() const final { return PartKind::render; }
 
-    [[nodiscard]] virtual Primitive primitive() const = 0;
+    [[nodiscard]] virtual Look look() const = 0;
+
+ protected:
+    /// `blend`, `clamped`, and the wrapper around any primitive: `stereo`, `eyes_metres`.
+    static void declareBlending(ParameterSet& set, Blending initial);
+    static void declareStereo(ParameterSet& set);
+    /// A look with these parameters.
+    [[nodiscard]] Look lookOf(Primitive primitive) const;
+};
+
+/// A part without a state: its parameters are its look. `Traits` has `primitive` and `complete(Look&, values)`.
+template <typename Traits>
+class LookPart final : public RenderPart {
+ public:
+    explicit LookPart(const ParameterValues& values) : RenderPart(values), look_(lookOf(Traits::primitive)) {
+        Traits::complete(look_, values);
+    }
+    [[nodiscard]] Look look() const override { return look_; }
+
+    [[nodiscard]] static PartInfo describe(std::string help, std::string source, Blending initial) {
+        PartInfo info;
+        info.help = std::move(help);
+        info.source = std::move(source);
+        Traits::declare(info.parameters);
+        if (Traits::primitive != Primitive::objects) declareBlending(info.parameters, initial);
+        declareStereo(info.parameters);
+        info.create = [](const ParameterValues& values) { return std::make_unique<LookPart>(values); };
+        return info;
+    }
+
+ private:
+    Look look_;
 };
 
 }  // namespace dustbench::particles

@@ -4,20 +4,17 @@
 namespace dustbench::particles::parts::render::puff {
 namespace {
 
-class Puff final : public RenderPart {
- public:
-    explicit Puff(const ParameterValues& values) : RenderPart(values) {}
+struct Traits {
+    static constexpr Primitive primitive = Primitive::puff;
 
-    [[nodiscard]] Primitive primitive() const override { return Primitive::puff; }
+    static void declare(ParameterSet&) {}
+    static void complete(Look&, const ParameterValues&) {}
 };
 
 }  // namespace
 
 PartInfo describe() {
-    PartInfo info;
-    info.help = "a round puff of dust";
-    info.create = [](const ParameterValues& values) { return std::make_unique<Puff>(values); };
-    return info;
+    return LookPart<Traits>::describe("a round puff of dust", "", Blending::alpha);
 }
 
 }  // namespace dustbench::particles::parts::render::puff

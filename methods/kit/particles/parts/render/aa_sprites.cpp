@@ -1,0 +1,34 @@
+// Sprites blurred along the way of the last step. Light and optical depth are those of one sprite, shared out.
+#include "methods/kit/particles/render_part.h"
+#include "methods/kit/particles/sprite_picture.h"
+
+namespace dustbench::particles::parts::render::aa_sprites {
+namespace {
+
+struct Traits {
+    static constexpr Primitive primitive = Primitive::aa_sprites;
+
+    static void declare(ParameterSet& set) {
+        declarePicture(set);
+        set.choice("by", AntiAliasing::copies, antiAliasings,
+                   "copies of each sprite between its old place and its new one, or the mean of whole pictures")
+            .integer("copies", 4, 1, 64, "", "of each sprite, or pictures")
+            .real("seconds", 0, 0, 10, "s", "of the path that they show; 0: the last step")
+            .boolean("fade", true, "newer ones count for more");
+    }
+    static void complete(Look& look, const ParameterValues& values) {
+        look.picture = pictureOf(values);
+        look.by = values.choice("by", antiAliasings);
+        look.copies = static_cast<int>(values.integer("copies"));
+        look.seconds = static_cast<float>(values.real("seconds"));
+        look.fading = values.boolean("fade");
+    }
+};
+
+}  // namespace
+
+PartInfo describe() {
+    return LookPart<Traits>::describe("sprites, anti-aliased in time", "Thesis, 4.1.6", Blending::additive);
+}
+
+}  // namespace dustbench::particles::parts::render::aa_sprites

@@ -1,0 +1,28 @@
+#include "methods/kit/particles/render_part.h"
+
+namespace dustbench::particles {
+
+void RenderPart::declareBlending(ParameterSet& set, Blending initial) {
+    set.choice("blend", initial, blendings, "cover what is behind, sorted far to near; or add light, in any order")
+        .boolean("clamped", true, "added light is clamped to 1 in a buffer of its own, whatever the scene behind it");
+}
+
+void RenderPart::declareStereo(ParameterSet& set) {
+    set.boolean("stereo", false,
+                "for glasses of red and green: the left eye's picture in green, the right one's in red")
+        .real("eyes_metres", 0.065, 0, 10, "m", "distance of the two eyes, if stereo");
+}
+
+Look RenderPart::lookOf(Primitive primitive) const {
+    Look look;
+    look.primitive = primitive;
+    if (primitive != Primitive::objects) {
+        look.blending = values().choice("blend", blendings);
+        look.clamped = values().boolean("clamped");
+    }
+    look.stereo = values().boolean("stereo");
+    look.eyesMetres = static_cast<float>(values().real("eyes_metres"));
+    return look;
+}
+
+}  // namespace dustbench::particles

@@ -1,0 +1,15 @@
+// What a sprite shows: a Gaussian, or a picture of data/textures.
+#pragma once
+
+#include <string>
+
+#include "methods/contract/parameters.h"
+
+namespace dustbench::particles {
+
+/// Declares `picture`.
+void declarePicture(ParameterSet& set);
+/// Empty for the Gaussian.
+[[nodiscard]] std::string pictureOf(const ParameterValues& values);
+
+}  // namespace dustbench::particles

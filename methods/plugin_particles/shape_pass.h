@@ -1,0 +1,65 @@
+// How one primitive is uploaded and drawn; a system's picture has the pass that its render part asks for.
+//
+// Owns: the instances, on the GPU. Threads: the OpenGL thread. Source: Thesis, 4.1.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "methods/contract/scene.h"
+#include "methods/contract/view.h"
+#include "methods/contract/volume.h"
+#include "methods/kit/gpu/layer.h"
+#include "methods/kit/parallel/for_each_block.h"
+#include "methods/kit/particles/render_part.h"
+
+namespace dustbench::plugin_particles {
+
+/// Particles to draw. `order` is empty if any order will do.
+struct Drawn {
+    const Puffs& puffs;
+    std::span<const std::uint32_t> order;
+    float stepSeconds;
+
+    /// The way that particle `i` has come in `seconds` (0: a step), at most since its birth: straight along its
+    /// velocity, which is exact for a step without a collision.
+    [[nodiscard]] glm::vec3 wayOf(std::size_t i, float seconds) const {
+        const float lasted = std::min(seconds > 0 ? seconds : stepSeconds, puffs.age[i]);
+        return lasted * glm::vec3(puffs.velocityX[i], puffs.velocityY[i], puffs.velocityZ[i]);
+    }
+};
+
+class ShapePass {
+ public:
+    virtual ~ShapePass() = default;
+    virtual void upload(const Drawn& drawn) = 0;
+    /// Draws what was uploaded last into `layer`, as often as wanted.
+    virtual void draw(const scene::View& view, const gpu::Layer& layer) = 0;
+    /// Primitives that a `draw` submits.
+    [[nodiscard]] virtual std::size_t count() const = 0;
+    [[nodiscard]] virtual std::size_t gpuBytes() const = 0;
+};
+
+/// Throws InputError if the look's picture or mesh cannot be read.
+[[nodiscard]] std::unique_ptr<ShapePass> makePass(gpu::Device& device, const particles::Look& look,
+                                                  const scene::Lights& lights);
+[[nodiscard]] std::unique_ptr<ShapePass> makePointPass(gpu::Device& device, const particles::Look& look);
+[[nodiscard]] std::unique_ptr<ShapePass> makeLinePass(gpu::Device& device, const particles::Look& look);
+[[nodiscard]] std::unique_ptr<ShapePass> makeHybridPass(gpu::Device& device, const particles::Look& look);
+[[nodiscard]] std::unique_ptr<ShapePass> makeSpritePass(gpu::Device& device, const particles::Look& look);
+[[nodiscard]] std::unique_ptr<ShapePass> makeObjectPass(gpu::Device& device, const particles::Look& look,
+                                                        const scene::Lights& lights);
+
+/// Calls `put(value, i)` for each particle `i` in drawing order, with `value` where its floats belong.
+template <typename Put>
+void fill(std::span<float> memory, std::size_t floats, const Drawn& drawn, const Put& put) {
+    parallel::forEachBlock(drawn.puffs.size(), 16'384, [&](std::size_t first, std::size_t count) {
+        float* value = memory.data() + first * floats;
+        for (std::size_t place = first; place < first + count; ++place, value += floats)
+            put(value, drawn.order.empty() ? place : drawn.order[place]);
+    });
+}
+
+}  // namespace dustbench::plugin_particles
