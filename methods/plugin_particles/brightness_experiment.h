@@ -1,0 +1,24 @@
+// Measures what ways to draw do to brightness: lines of fast particles, the order of additive light, white backgrounds
+// (claims R17 and R21).
+//
+// Units: m. Threads: that of the device. Source: Thesis, 4.1.1 (blending) and 4.1.3 (lines).
+#pragma once
+
+#include "methods/contract/experiment.h"
+
+namespace dustbench::plugin_particles::brightness {
+
+/// The experiment `brightness`:
+///     point_light_4x, line_light_4x, hybrid_light_4x
+///                              light of a particle, summed over the picture, at four times the speed over that at once
+///                              the speed: mean over 100 random directions across the view
+///     shuffled_additive, shuffled_clamped, shuffled_alpha
+///                              largest difference of any pixel between two orders of the same 400 points: light added
+///                              up, the same clamped in its own buffer, and alpha without sorting
+///     contrast_white_additive, contrast_white_alpha
+///                              largest difference that the points make to a white background on a display, which ends
+///                              at 1
+[[nodiscard]] ExperimentInfo describe();
+[[nodiscard]] std::vector<Finding> measureBrightness(gpu::Device& device, std::uint64_t seed);
+
+}  // namespace dustbench::plugin_particles::brightness
