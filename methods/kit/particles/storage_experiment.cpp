@@ -1,0 +1,113 @@
+#include "methods/kit/particles/storage_experiment.h"
+
+#include <map>
+
+#include "methods/kit/maths/philox.h"
+#include "methods/kit/particles/storage_variants.h"
+#include "methods/kit/particles/timing.h"
+
+namespace dustbench::particles::storage {
+namespace {
+
+constexpr float seconds = 1.0f / 60, meanLifetime = 200 * seconds;
+constexpr int warmUpSteps = 400, timedSteps = 20;
+
+/// Newborns whose lifetimes differ by half the mean, so that the dead lie anywhere.
+class Births {
+ public:
+    Births(std::uint64_t seed, std::size_t perStep) : seed_(seed), newborns_(perStep) {}
+
+    const std::vector<Attributes>& next() {
+        for (Attributes& newborn : newborns_) {
+            const auto u = maths::uniform4(seed_, 1, serial_++);
+            newborn = {};
+            newborn.velocity = {u[0], u[1], u[2]};
+            newborn.acceleration = {0, -9.8f, 0};
+            newborn.lifetime = meanLifetime * (0.5f + u[3]);
+        }
+        return newborns_;
+    }
+
+ private:
+    std::uint64_t seed_, serial_ = 0;
+    std::vector<Attributes> newborns_;
+};
+
+/// Nanoseconds per particle and step.
+struct Times {
+    std::vector<double> scan, churn;
+};
+
+template <typename Storage>
+class Subject {
+ public:
+    Subject(std::uint64_t seed, std::size_t particles) : particles_(particles), births_(seed, particles / 200) {
+        for (int i = 0; i < warmUpSteps; ++i) {
+            storage_.scan(seconds);
+            storage_.churn(births_.next());
+        }
+    }
+    void measure(Times& times) {
+        double scan = 0, churn = 0;
+        for (int i = 0; i < timedSteps; ++i) {
+            scan += secondsOf([&] { storage_.scan(seconds); });
+            const auto& newborns = births_.next();
+            churn += secondsOf([&] { storage_.churn(newborns); });
+        }
+        const double perParticle = 1e9 / timedSteps / static_cast<double>(particles_);
+        times.scan.push_back(scan * perParticle);
+        times.churn.push_back(churn * perParticle);
+    }
+
+ private:
+    std::size_t particles_;
+    Births births_;
+    Storage storage_;
+};
+
+/// Of two series that were measured in turns.
+Finding ratioOf(std::string quantity, const std::vector<double>& above, const std::vector<double>& below) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < above.size(); ++i) ratios.push_back(above[i] / below[i]);
+    return medianOf(std::move(quantity), ratios);
+}
+
+}  // namespace
+
+std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, int repetitions) {
+    Subject<List<false>> list(seed, particles);
+    Subject<List<true>> listPool(seed, particles);
+    Subject<ArrayOfStructures<false>> aos(seed, particles);
+    Subject<ArrayOfStructures<true>> aosPool(seed, particles);
+    Subject<StructureOfArrays<false>> soa(seed, particles);
+    Subject<StructureOfArrays<true>> soaPool(seed, particles);
+    std::map<std::string, Times> times;
+    for (int k = 0; k < repetitions; ++k) {
+        list.measure(times["list"]);
+        listPool.measure(times["list_pool"]);
+        aos.measure(times["aos"]);
+        aosPool.measure(times["aos_pool"]);
+        soa.measure(times["soa"]);
+        soaPool.measure(times["soa_pool"]);
+    }
+    std::vector<Finding> findings{ratioOf("scan_list_over_soa", times["list_pool"].scan, times["soa_pool"].scan),
+                                  ratioOf("scan_aos_over_soa", times["aos_pool"].scan, times["soa_pool"].scan),
+                                  ratioOf("scan_list_over_aos", times["list_pool"].scan, times["aos_pool"].scan)};
+    for (const std::string name : {"list", "aos", "soa"})
+        findings.push_back(ratioOf("churn_without_over_with_" + name, times[name].churn, times[name + "_pool"].churn));
+    for (const auto& [name, measured] : times) {
+        findings.push_back(medianOf("scan_ns_" + name, measured.scan));
+        findings.push_back(medianOf("churn_ns_" + name, measured.churn));
+    }
+    return findings;
+}
+
+ExperimentInfo describe() {
+    ExperimentInfo info;
+    info.summary = "What a linked list, arrays and a pool of the dead cost when particles are scanned and replaced.";
+    info.source = "Thesis";
+    info.run = [](ExperimentContext& context) { return measureStorage(context.seed(), 100'000, 7); };
+    return info;
+}
+
+}  // namespace dustbench::particles::storage

@@ -1,0 +1,20 @@
+// Measures what a linked list, arrays and a pool of the dead cost (claim R22).
+//
+// Threads: one. Source: Thesis, 3.1.4.
+#pragma once
+
+#include "methods/contract/experiment.h"
+
+namespace dustbench::particles::storage {
+
+/// The experiment `storage`, of 100,000 particles of which 1 in 200 dies per step, after 400 steps:
+///     scan_list_over_soa, scan_aos_over_soa    time of a scan over that of the structure of arrays, all with a pool
+///     scan_list_over_aos                       what links cost alone
+///     churn_without_over_with_list, …_aos, …_soa    time of removing the dead and adding newborns, without the pool of
+///                                                   the dead over with it
+///     scan_ns_…, churn_ns_…                    nanoseconds per particle and step, by `list`, `aos`, `soa`, with
+///     `_pool`
+[[nodiscard]] DUSTBENCH_API ExperimentInfo describe();
+[[nodiscard]] std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, int repetitions);
+
+}  // namespace dustbench::particles::storage

@@ -1,0 +1,53 @@
+// For experiments that time: the median of some repetitions, and an exponent fitted to times.
+//
+// Units: s. Threads: one caller at a time.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "methods/contract/experiment.h"
+
+namespace dustbench::particles {
+
+/// The process's time for `work`, once.
+template <typename Work>
+[[nodiscard]] double secondsOf(const Work& work) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// The median with minimum and maximum as its interval.
+[[nodiscard]] inline Finding medianOf(std::string quantity, std::vector<double> values) {
+    std::ranges::sort(values);
+    return {std::move(quantity), values[values.size() / 2], values.front(), values.back(),
+            static_cast<std::int64_t>(values.size())};
+}
+
+/// b of y = a·xᵇ by least squares of the logarithms, with Student's 95 % interval (n from 3 to 10).
+[[nodiscard]] inline Finding exponentOf(std::string quantity, const std::vector<double>& x,
+                                        const std::vector<double>& y) {
+    constexpr double t95[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306};
+    const auto n = static_cast<double>(x.size());
+    double meanX = 0, meanY = 0, xx = 0, xy = 0, rest = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        meanX += std::log(x[i]) / n;
+        meanY += std::log(y[i]) / n;
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        xx += (std::log(x[i]) - meanX) * (std::log(x[i]) - meanX);
+        xy += (std::log(x[i]) - meanX) * (std::log(y[i]) - meanY);
+    }
+    const double slope = xy / xx;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double off = std::log(y[i]) - meanY - slope * (std::log(x[i]) - meanX);
+        rest += off * off;
+    }
+    const double half = t95[x.size() - 3] * std::sqrt(rest / (n - 2) / xx);
+    return {std::move(quantity), slope, slope - half, slope + half, static_cast<std::int64_t>(x.size())};
+}
+
+}  // namespace dustbench::particles
