@@ -35,7 +35,7 @@ class Births {
 
 /// Nanoseconds per particle and step.
 struct Times {
-    std::vector<double> scan, churn;
+    std::vector<double> scan, churn, refill;
 };
 
 template <typename Storage>
@@ -48,15 +48,23 @@ class Subject {
         }
     }
     void measure(Times& times) {
-        double scan = 0, churn = 0;
+        double scan = 0, churn = 0, refill = 0;
         for (int i = 0; i < timedSteps; ++i) {
             scan += secondsOf([&] { storage_.scan(seconds); });
             const auto& newborns = births_.next();
-            churn += secondsOf([&] { storage_.churn(newborns); });
+            if constexpr (requires { storage_.sweep(); }) {
+                churn += secondsOf([&] { storage_.sweep(); });
+                const double spent = secondsOf([&] { storage_.refill(newborns); });
+                refill += spent;
+                churn += spent;
+            } else {
+                churn += secondsOf([&] { storage_.churn(newborns); });
+            }
         }
         const double perParticle = 1e9 / timedSteps / static_cast<double>(particles_);
         times.scan.push_back(scan * perParticle);
         times.churn.push_back(churn * perParticle);
+        times.refill.push_back(refill * perParticle);
     }
 
  private:
@@ -95,6 +103,7 @@ std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, i
                                   ratioOf("scan_list_over_aos", times["list_pool"].scan, times["aos_pool"].scan)};
     for (const std::string name : {"list", "aos", "soa"})
         findings.push_back(ratioOf("churn_without_over_with_" + name, times[name].churn, times[name + "_pool"].churn));
+    findings.push_back(ratioOf("allocation_without_over_with_list", times["list"].refill, times["list_pool"].refill));
     for (const auto& [name, measured] : times) {
         findings.push_back(medianOf("scan_ns_" + name, measured.scan));
         findings.push_back(medianOf("churn_ns_" + name, measured.churn));

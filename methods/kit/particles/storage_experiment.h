@@ -12,6 +12,9 @@ namespace dustbench::particles::storage {
 ///     scan_list_over_aos                       what links cost alone
 ///     churn_without_over_with_list, …_aos, …_soa    time of removing the dead and adding newborns, without the pool of
 ///                                                   the dead over with it
+///     allocation_without_over_with_list    the same without the walk that finds the dead: nodes given back and asked
+///     for
+///                                          again, over nodes taken from the pool
 ///     scan_ns_…, churn_ns_…                    nanoseconds per particle and step, by `list`, `aos`, `soa`, with
 ///     `_pool`
 [[nodiscard]] DUSTBENCH_API ExperimentInfo describe();

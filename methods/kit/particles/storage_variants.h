@@ -48,6 +48,11 @@ class List {
         for (Node* node = first_; node; node = node->next) node->particle.live(seconds);
     }
     void churn(const std::vector<Attributes>& newborns) {
+        sweep();
+        refill(newborns);
+    }
+    /// Takes the dead out of the list.
+    void sweep() {
         for (Node** link = &first_; *link;) {
             Node* node = *link;
             if (!node->particle.isDead()) {
@@ -55,8 +60,14 @@ class List {
                 continue;
             }
             *link = node->next;
-            bury(node);
+            node->next = free_;
+            free_ = node;
         }
+    }
+    /// Adds newborns; without a pool, the nodes of the dead are given back first.
+    void refill(const std::vector<Attributes>& newborns) {
+        if constexpr (!pool)
+            while (free_) delete std::exchange(free_, free_->next);
         for (const Attributes& newborn : newborns) first_ = make(newborn);
     }
     [[nodiscard]] double sumOfAges() const {
@@ -71,14 +82,6 @@ class List {
         Node* next;
     };
 
-    void bury(Node* node) {
-        if constexpr (pool) {
-            node->next = free_;
-            free_ = node;
-        } else {
-            delete node;
-        }
-    }
     Node* make(const Attributes& particle) {
         if (!free_) return new Node{particle, first_};
         Node* node = std::exchange(free_, free_->next);
