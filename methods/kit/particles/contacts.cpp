@@ -52,7 +52,7 @@ void follow(Way& way, float share, std::uint8_t by, const MetSurfaces& surfaces)
     for (int contacts = 1;; ++contacts) {
         const MetSurface& met = surfaces.all()[by];
         const glm::vec3 point = way.from + share * (way.to - way.from);
-        const glm::vec3 normal = met.surface->normalAt(point, way.from);
+        const glm::vec3 normal = met.surface->normalAt(point, way.from, way.to);
         const float away = clearance(way.from, way.to, met.surface->extentMetres());
         way.velocity = reflected(way.velocity, normal, met.contact);
         way.from = point + away * normal;

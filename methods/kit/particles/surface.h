@@ -36,8 +36,9 @@ class Surface {
 
     /// Writes the share of each way, 0..1, at which it first meets the surface, or `none`.
     virtual void meet(const Ways& ways, float* share) const = 0;
-    /// The unit normal at a point of the surface, towards the side of `from`.
-    [[nodiscard]] virtual glm::vec3 normalAt(const glm::vec3& point, const glm::vec3& from) const = 0;
+    /// The unit normal where the way from `from` to `to` meets the surface, at `point`; towards the side of `from`.
+    [[nodiscard]] virtual glm::vec3 normalAt(const glm::vec3& point, const glm::vec3& from,
+                                             const glm::vec3& to) const = 0;
     /// Largest coordinate that enters the test, for bounds on its rounding.
     [[nodiscard]] virtual float extentMetres() const = 0;
     [[nodiscard]] virtual std::size_t bytes() const { return 0; }

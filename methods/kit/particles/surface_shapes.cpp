@@ -61,7 +61,9 @@ class HalfSpace final : public Surface {
  public:
     explicit HalfSpace(const SurfaceNumbers& n) : n_(n) {}
     void meet(const Ways& ways, float* share) const override { meetHalfSpace(ways, share, n_.place, n_.normal); }
-    [[nodiscard]] glm::vec3 normalAt(const glm::vec3&, const glm::vec3&) const override { return n_.normal; }
+    [[nodiscard]] glm::vec3 normalAt(const glm::vec3&, const glm::vec3&, const glm::vec3&) const override {
+        return n_.normal;
+    }
     [[nodiscard]] float extentMetres() const override { return sumOfSizes(n_.place); }
 
  private:
@@ -72,7 +74,7 @@ class Sphere final : public Surface {
  public:
     explicit Sphere(const SurfaceNumbers& n) : n_(n) {}
     void meet(const Ways& ways, float* share) const override { meetSphere(ways, share, n_.place, n_.radiusMetres); }
-    [[nodiscard]] glm::vec3 normalAt(const glm::vec3& point, const glm::vec3&) const override {
+    [[nodiscard]] glm::vec3 normalAt(const glm::vec3& point, const glm::vec3&, const glm::vec3&) const override {
         const glm::vec3 out = point - n_.place;
         const float length = glm::length(out);
         return length > 0 ? out / length : glm::vec3(0, 1, 0);
@@ -89,7 +91,7 @@ class Disc final : public Surface {
     void meet(const Ways& ways, float* share) const override {
         meetDisc(ways, share, n_.place, n_.normal, n_.radiusMetres);
     }
-    [[nodiscard]] glm::vec3 normalAt(const glm::vec3&, const glm::vec3& from) const override {
+    [[nodiscard]] glm::vec3 normalAt(const glm::vec3&, const glm::vec3& from, const glm::vec3&) const override {
         return glm::dot(n_.normal, from - n_.place) < 0 ? -n_.normal : n_.normal;
     }
     [[nodiscard]] float extentMetres() const override { return sumOfSizes(n_.place) + n_.radiusMetres; }
@@ -122,10 +124,9 @@ class MeshSurface final : public Surface {
             share[i] = hit ? hit->share : none;
         }
     }
-    [[nodiscard]] glm::vec3 normalAt(const glm::vec3& point, const glm::vec3& from) const override {
-        // The way a little beyond the point meets the same triangle.
-        const auto hit = tree_.firstHit(from, point + 1e-3f * (point - from));
-        return hit ? hit->normal : glm::normalize(from - point);
+    [[nodiscard]] glm::vec3 normalAt(const glm::vec3&, const glm::vec3& from, const glm::vec3& to) const override {
+        const auto hit = tree_.firstHit(from, to);
+        return hit ? hit->normal : glm::vec3(0, 1, 0);
     }
     [[nodiscard]] float extentMetres() const override { return std::max(sumOfSizes(minimum_), sumOfSizes(maximum_)); }
     [[nodiscard]] std::size_t bytes() const override { return tree_.bytes(); }

@@ -74,7 +74,7 @@ void mirrorAtMesh(const Chunk& chunk, const Surface& surface, const Mirror mirro
         float share;
         surface.meet({1, &from.x, &from.y, &from.z, &to.x, &to.y, &to.z}, &share);
         if (share > 1) continue;
-        const glm::vec3 n = surface.normalAt(from + share * (to - from), from);
+        const glm::vec3 n = surface.normalAt(from + share * (to - from), from, to);
         mirror(vx, vy, vz, n.x, n.y, n.z, true);
     }
 }
