@@ -1,5 +1,6 @@
 #include "bench/cli/arguments.h"
 
+#include <algorithm>
 #include <charconv>
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -87,6 +88,17 @@ void Arguments::requiredTexts(const std::string& name, const std::string& placeh
 void Arguments::texts(const std::string& name, const std::string& placeholder, const std::string& help,
                       std::vector<std::string>& values) {
     app_.add_option(name, values, help)->type_name(placeholder)->allow_extra_args(false)->type_size(1);
+}
+
+void Arguments::inOrder(const std::string& name, const std::string& placeholder, const std::string& help,
+                        std::function<void(const std::string&)> take) {
+    const auto takeAll = [take = std::move(take)](const CLI::results_t& values) {
+        std::ranges::for_each(values, take);
+        return true;
+    };
+    CLI::Option* option =
+        app_.add_option(name, takeAll, help)->type_name(placeholder)->required(!name.starts_with('-'));
+    option->trigger_on_parse()->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void Arguments::integer(const std::string& name, const std::string& help, std::int64_t& value, std::int64_t minimum,

@@ -31,6 +31,10 @@ class Arguments {
     /// May be given several times.
     void texts(const std::string& name, const std::string& placeholder, const std::string& help,
                std::vector<std::string>& values);
+    /// May be given several times; `take` is called with each value as it is parsed, so that the order among several
+    /// options is known. Mandatory if positional.
+    void inOrder(const std::string& name, const std::string& placeholder, const std::string& help,
+                 std::function<void(const std::string&)> take);
     void integer(const std::string& name, const std::string& help, std::int64_t& value, std::int64_t minimum,
                  std::int64_t maximum = std::numeric_limits<std::int64_t>::max());
     void number(const std::string& name, const std::string& help, double& value, double minimum, double maximum);

@@ -18,6 +18,8 @@ namespace dustbench::cli {
 [[nodiscard]] Command reportCommand();
 [[nodiscard]] Command diffCommand();
 [[nodiscard]] Command compareCommand();
+/// The tools of the folders of methods/: `shape`.
+[[nodiscard]] std::vector<Command> toolCommands();
 
 /// Runs one measurement in its own process: `measure-run SPEC FOLDER -- the user's command`. Internal.
 inline constexpr const char* measureRunName = "measure-run";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <iterator>
 #include <list>
 #include <memory>
 #include <string>
@@ -51,9 +52,10 @@ CommonOptions commonOptions() {
 int run(const std::vector<std::string>& argv) {
     if (!argv.empty() && argv.front() == measureRunName) return measureRunCommand(argv);
     if (!argv.empty() && argv.front() == forecastRunName) return forecastRunCommand(argv);
-    return dispatch({listCommand(), envCommand(), runCommand(), compareCommand(), suiteCommand(), mergeCommand(),
-                     reproduceCommand(), reportCommand(), exportCommand(), diffCommand()},
-                    commonOptions(), "dustbench " + bench::buildFacts().version, argv);
+    std::vector<Command> commands{listCommand(),  envCommand(),       runCommand(),    compareCommand(), suiteCommand(),
+                                  mergeCommand(), reproduceCommand(), reportCommand(), exportCommand(),  diffCommand()};
+    std::ranges::move(toolCommands(), std::back_inserter(commands));
+    return dispatch(commands, commonOptions(), "dustbench " + bench::buildFacts().version, argv);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// Experiments test claims of papers that no run of a method can test. A folder under methods/ defines each one in
-// `<id>_experiment.cpp`, with `ExperimentInfo describe()` in the namespace dustbench::<folder>::<id>.
+// What a folder under methods/ offers besides a method: experiments, which test claims of papers that no run can test,
+// and tools, which are commands of their own. Each is one file, `<id>_experiment.cpp` or `<id>_tool.cpp`, with
+// `ExperimentInfo describe()` or `ToolInfo describe()` in the namespace dustbench::<folder>::<id>.
 //
 // Threads: the current oneTBB arena; findings do not depend on the number of threads.
 #pragma once
@@ -8,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,11 +36,11 @@ class DUSTBENCH_API ExperimentWorld {
     [[nodiscard]] virtual Frame step() = 0;
 };
 
-/// Services that the harness provides to an experiment.
+/// Services that the harness provides to an experiment or a tool.
 class DUSTBENCH_API ExperimentContext {
  public:
     virtual ~ExperimentContext();
-    /// The only source of randomness for the experiment.
+    /// The only source of randomness.
     [[nodiscard]] virtual std::uint64_t seed() const = 0;
     /// Created on first call. Throws InputError if OpenGL is unavailable.
     [[nodiscard]] virtual gpu::Device& device() = 0;
@@ -54,6 +56,28 @@ struct ExperimentInfo {
     std::function<std::vector<Finding>(ExperimentContext&)> run;
     std::string id{};      ///< file name without `_experiment.cpp`; set by the registry
     std::string folder{};  ///< folder of the experiment: `voxel_shape`, `kit/particles`; set by the registry
+};
+
+/// An option of a tool (`--save`), or a required argument if the name has no dashes.
+struct ToolOption {
+    std::string name, placeholder, help;
+    bool repeats = false;  ///< may be given several times
+};
+
+struct ToolArgument {
+    std::string name, value;
+};
+
+/// The command `dustbench <id>`.
+struct ToolInfo {
+    std::string summary;  ///< a few words
+    std::string manual;   ///< shown below the options in its help
+    std::vector<ToolOption> options;
+    /// Receives the arguments in the order given. Returns the table to print: rows of cells, the first of them the
+    /// header. Throws InputError, with nothing written.
+    std::function<std::vector<std::vector<std::string>>(ExperimentContext&, std::span<const ToolArgument>)> run;
+    std::string id{};      ///< file name without `_tool.cpp`; set by the registry
+    std::string folder{};  ///< as for experiments
 };
 
 }  // namespace dustbench

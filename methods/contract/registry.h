@@ -1,4 +1,4 @@
-// All methods and experiments of this build. CMake generates the lists from the folders of methods/.
+// All methods, experiments and tools of this build. CMake generates the lists from the folders of methods/.
 #pragma once
 
 #include <string_view>
@@ -20,5 +20,8 @@ namespace dustbench {
 
 /// Throws InputError with the nearest name.
 [[nodiscard]] const ExperimentInfo& findExperiment(std::string_view id);
+
+/// Sorted by id.
+[[nodiscard]] const std::vector<ToolInfo>& tools();
 
 }  // namespace dustbench

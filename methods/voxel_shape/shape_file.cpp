@@ -4,7 +4,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "methods/contract/errors.h"
-#include "methods/kit/files/toml_reader.h"
 #include "methods/kit/meshes/mesh_file.h"
 #include "methods/kit/meshes/open_edges.h"
 #include "methods/voxel_shape/voxels/solid_fill.h"
@@ -93,37 +92,6 @@ std::shared_ptr<const SolidSpace> readRegion(TomlReader& table, const std::files
     const glm::vec3 place = vector(table, "position", far, glm::dvec3(0));
     const auto scale = static_cast<float>(table.number("scale", 1e-3, 1e3, 1));
     return std::make_shared<const SolidSpace>(mesh, glm::scale(glm::translate(glm::mat4(1), place), glm::vec3(scale)));
-}
-
-VoxelEdit readEdit(TomlReader& table, const std::filesystem::path& folder) {
-    VoxelEdit edit;
-    edit.where = table.where();
-    const bool box = table.has("min") || table.has("max"), sphere = table.has("centre") || table.has("radius_metres"),
-               mesh = table.has("mesh");
-    if (int{box} + int{sphere} + int{mesh} != 1)
-        throw InputError(edit.where +
-                         "an edit takes either a box (min, max), a sphere (centre, radius_metres) or a closed mesh");
-    if (sphere) {
-        edit.region = VoxelEdit::Region::sphere;
-        edit.centre = table.vector3("centre");
-        edit.radiusMetres = static_cast<float>(table.number("radius_metres", 0, far));
-    } else if (mesh) {
-        edit.region = VoxelEdit::Region::mesh;
-        edit.mesh = readRegion(table, folder);
-    } else {
-        edit.minimum = table.vector3("min");
-        edit.maximum = table.vector3("max");
-        if (glm::any(glm::greaterThan(edit.minimum, edit.maximum)))
-            throw InputError(edit.where + "the edit's min lies beyond its max");
-    }
-    edit.change = readChange(table);
-    if (edit.change.isEmpty()) throw InputError(edit.where + "the edit changes nothing");
-    if (edit.change.contradictsItself())
-        throw InputError(edit.where +
-                         "the edit contradicts itself: `active = false` takes voxels out of the shape, and "
-                         "no other attribute goes with it");
-    table.finish();
-    return edit;
 }
 
 void readSource(TomlReader& file, const std::filesystem::path& folder, Shape& shape) {
@@ -253,6 +221,37 @@ void readOthers(TomlReader& file, const std::filesystem::path& folder, Shape& sh
 }
 
 }  // namespace
+
+VoxelEdit readEdit(TomlReader& table, const std::filesystem::path& folder) {
+    VoxelEdit edit;
+    edit.where = table.where();
+    const bool box = table.has("min") || table.has("max"), sphere = table.has("centre") || table.has("radius_metres"),
+               mesh = table.has("mesh");
+    if (int{box} + int{sphere} + int{mesh} != 1)
+        throw InputError(edit.where +
+                         "an edit takes either a box (min, max), a sphere (centre, radius_metres) or a closed mesh");
+    if (sphere) {
+        edit.region = VoxelEdit::Region::sphere;
+        edit.centre = table.vector3("centre");
+        edit.radiusMetres = static_cast<float>(table.number("radius_metres", 1e-4, far));
+    } else if (mesh) {
+        edit.region = VoxelEdit::Region::mesh;
+        edit.mesh = readRegion(table, folder);
+    } else {
+        edit.minimum = table.vector3("min");
+        edit.maximum = table.vector3("max");
+        if (glm::any(glm::greaterThan(edit.minimum, edit.maximum)))
+            throw InputError(edit.where + "the edit's min lies beyond its max");
+    }
+    edit.change = readChange(table);
+    if (edit.change.isEmpty()) throw InputError(edit.where + "the edit changes nothing");
+    if (edit.change.contradictsItself())
+        throw InputError(edit.where +
+                         "the edit contradicts itself: `active = false` takes voxels out of the shape, and "
+                         "no other attribute goes with it");
+    table.finish();
+    return edit;
+}
 
 Shape readShape(const std::filesystem::path& path) {
     TomlReader file = TomlReader::parseFile(path);

@@ -1,8 +1,15 @@
 #include "methods/voxel_shape/voxels/voxel_change.h"
 
+#include <vector>
+
 #include "methods/contract/errors.h"
 
 namespace dustbench::voxel_shape {
+namespace {
+
+constexpr std::uint32_t nobody = 0xffffffffu;
+
+}  // namespace
 
 void VoxelChange::applyTo(Voxel& voxel, float voxelMetres) const {
     if (active) voxel.setActive(*active);
@@ -33,6 +40,34 @@ bool VoxelChange::contradictsItself() const {
     return !rest.isEmpty();
 }
 
+namespace {
+
+/// Where inactive voxels lie that `within` is true for, they become copies of the nearest active one by steps through
+/// faces, before they become active themselves.
+template <typename Within>
+void giveNearestLooks(VoxelGrid& grid, const Within& within) {
+    const Lattice& lattice = grid.lattice();
+    std::vector<std::uint32_t> queue(grid.active().begin(), grid.active().end());
+    std::vector<std::uint32_t> nearest(lattice.size(), nobody);
+    for (const std::uint32_t i : queue) nearest[i] = i;
+    for (std::size_t next = 0; next < queue.size(); ++next)
+        for (int face = 0; face < 6; ++face) {
+            glm::ivec3 cell = lattice.cell(queue[next]);
+            cell[face / 2] += face % 2 == 0 ? -1 : 1;
+            if (!lattice.contains(cell) || nearest[lattice.index(cell)] != nobody) continue;
+            nearest[lattice.index(cell)] = nearest[queue[next]];
+            queue.push_back(lattice.index(cell));
+        }
+    for (std::uint32_t i = 0; i < lattice.size(); ++i) {
+        if (nearest[i] == nobody || grid.voxels()[i].isActive() || !within(lattice.centre(lattice.cell(i)))) continue;
+        grid.voxels()[i] = grid.voxels()[nearest[i]];
+        grid.voxels()[i].density = 0;
+        grid.voxels()[i].setActive(false);
+    }
+}
+
+}  // namespace
+
 bool VoxelEdit::contains(const glm::vec3& point) const {
     if (region == Region::sphere) return glm::distance(point, centre) <= radiusMetres;
     if (region == Region::mesh) return mesh->contains(glm::dvec3(point));
@@ -41,6 +76,7 @@ bool VoxelEdit::contains(const glm::vec3& point) const {
 
 void VoxelEdit::applyTo(VoxelGrid& grid) const {
     const Lattice& lattice = grid.lattice();
+    if (change.active.value_or(false)) giveNearestLooks(grid, [this](const glm::vec3& p) { return contains(p); });
     std::size_t met = 0;
     for (std::uint32_t i = 0; i < lattice.size(); ++i) {
         Voxel& voxel = grid.voxels()[i];

@@ -50,7 +50,8 @@ struct VoxelEdit {
     VoxelChange change;
 
     [[nodiscard]] bool contains(const glm::vec3& point) const;
-    /// Throws InputError where it meets no voxel. The grid's active voxels are listed anew.
+    /// A voxel that it puts into the shape starts as a copy of the nearest one there. Throws InputError where it meets
+    /// no voxel. The grid's active voxels are listed anew.
     void applyTo(VoxelGrid& grid) const;
 };
 

@@ -1,0 +1,69 @@
+// End-to-end tests of commands that folders of methods/ offer.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "bench/cli/called_program.h"
+
+namespace dustbench::cli {
+namespace {
+
+using testing::HasSubstr;
+
+class ToolCommands : public Dustbench {};
+
+TEST_F(ToolCommands, AreListedAndExplainThemselves) {
+    const std::string commands = call("--help").out;
+    for (const ToolInfo& tool : tools()) {
+        EXPECT_THAT(commands, HasSubstr(tool.summary));
+        const Called called = call(tool.id + " --help");
+        EXPECT_EQ(called.code, 0);
+        for (const ToolOption& option : tool.options) EXPECT_THAT(called.out, HasSubstr(option.name)) << tool.id;
+        EXPECT_THAT(called.out, HasSubstr("--data")) << "an option of every command";
+    }
+}
+
+TEST_F(ToolCommands, ShapeIsEditedInTheOrderGivenAndRuns) {
+    if (std::ranges::find(tools(), "shape", &ToolInfo::id) == tools().end()) GTEST_SKIP() << "no such tool";
+    std::ofstream(folder_ / "block.toml") << "description = \"\"\n[grid]\ncells = [6, 6, 6]\nedge_metres = 0.25\n";
+    const std::string block = "'" + (folder_ / "block.toml").string() + "'";
+    const auto edited = [&](const std::string& edits, const std::string& out) {
+        const Called called = call(fmt::format("shape {} {} --save '{}'", block, edits, (folder_ / out).string()));
+        EXPECT_EQ(called.code, 0) << called.err;
+        return contentOf(folder_ / out);
+    };
+    const std::string red = "--paint 'sphere=0,0.7,0,0.4 colour=1,0,0'",
+                      blue = "--paint 'sphere=0,0.7,0,0.4 colour=0,0,1'";
+    const std::string carve = "--carve 'box=-1,0,-1,1,0.3,1'";
+    const std::string first = edited(red + " " + carve + " " + blue, "a.toml"),
+                      second = edited(blue + " " + carve + " " + red, "b.toml");
+    EXPECT_LT(first.find("[1, 0, 0]"), first.find("active = false"));
+    EXPECT_LT(first.find("active = false"), first.find("[0, 0, 1]"));
+    EXPECT_GT(second.find("[1, 0, 0]"), second.find("[0, 0, 1]"));
+    const Called run =
+        call(fmt::format("run --method voxel_shape -P shape='{}' --frames 1 --warmup 0 -P preroll=0 "
+                         "--size 64x48 --out '{}'",
+                         (folder_ / "a.toml").string(), out()));
+    EXPECT_EQ(run.code, 0) << run.err;
+}
+
+TEST_F(ToolCommands, WrongUseIsOneLineAndExitCodeThree) {
+    if (std::ranges::find(tools(), "shape", &ToolInfo::id) == tools().end()) GTEST_SKIP() << "no such tool";
+    const std::vector<std::pair<std::string, std::string>> mistakes{
+        {"shape", "file"},
+        {"shape bal", "'ball'"},
+        {"shape ball --pant x", "'--paint'"},
+        {"shape ball --save a.toml --save b.toml", "once"},
+        {"shape ball --paint", "--paint"},
+        {"shape ball --paint 'sphere=0,0,0,0.1 color=1,0,0'", "'colour'"}};
+    for (const auto& [arguments, expected] : mistakes) {
+        const Called called = call(arguments);
+        EXPECT_EQ(called.code, 3) << arguments;
+        EXPECT_THAT(called.err, HasSubstr(expected)) << arguments;
+        EXPECT_EQ(std::ranges::count(called.err, '\n'), 1) << called.err;
+        EXPECT_EQ(called.out, "") << arguments;
+    }
+}
+
+}  // namespace
+}  // namespace dustbench::cli

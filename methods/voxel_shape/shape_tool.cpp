@@ -1,0 +1,200 @@
+// `dustbench shape`: what a shape is made of, and edits of it from the command line, saved as a shape file or as
+// voxels.
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+#include "methods/contract/choices.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/experiment.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/voxel_shape/edit_text.h"
+#include "methods/voxel_shape/shape_builder.h"
+#include "methods/voxel_shape/shape_file.h"
+#include "methods/voxel_shape/voxels/voxel_file.h"
+
+namespace dustbench::voxel_shape::shape {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Choices<EditKind> editOptions{{"--paint", EditKind::paint},
+                                        {"--carve", EditKind::carve},
+                                        {"--fill", EditKind::fill},
+                                        {"--force", EditKind::force}};
+
+struct Call {
+    fs::path file;
+    std::optional<fs::path> save;
+    std::string scene = "plain";
+    std::vector<ToolArgument> edits;
+};
+
+Call callOf(std::span<const ToolArgument> arguments) {
+    Call call;
+    for (const ToolArgument& argument : arguments) {
+        if (argument.name == "file")
+            call.file = argument.value.ends_with(".vti") ? fs::path(argument.value)
+                                                         : files::findData("shape", "shapes", argument.value, ".toml");
+        else if (argument.name == "--save")
+            call.save = argument.value;
+        else if (argument.name == "--scene")
+            call.scene = argument.value;
+        else
+            call.edits.push_back(argument);
+    }
+    if (call.save && call.save->extension() != ".toml" && call.save->extension() != ".vti")
+        throw InputError("--save: got '" + call.save->string() + "', allowed: a file that ends in .toml or .vti");
+    return call;
+}
+
+bool isVoxelFile(const fs::path& file) {
+    return file.extension() == ".vti";
+}
+
+/// The shape alone, with no place in a scene; nothing is saved when it is built.
+Shape shapeOf(const fs::path& file) {
+    Shape shape;
+    if (isVoxelFile(file)) {
+        shape.name = file.filename().string();
+        shape.source = Source::voxels;
+        shape.mesh = file;
+    } else {
+        shape = readShape(file);
+    }
+    shape.savedVoxels.clear();
+    shape.track.followsVehicle = false;
+    return shape;
+}
+
+VoxelGrid voxelsOf(MemoryLedger& ledger, const Shape& shape, const std::string& scene, ExperimentContext& context) {
+    const auto world = shape.source == Source::vehicle ? context.world(scene, {}, 1, 1) : nullptr;
+    return buildShape(ledger, shape, world ? world->scene() : scene::Scene(), context.device(), 1).grid();
+}
+
+void writeText(const fs::path& file, const std::string& text, const Shape& expected) {
+    const fs::path part = file.string() + ".part";
+    const auto fail = [&](const std::string& why) {
+        std::error_code ignored;
+        fs::remove(part, ignored);
+        throw InputError(file.string() + ": " + why);
+    };
+    if (!(std::ofstream(part, std::ios::binary) << text << std::flush)) fail("the shape cannot be written there");
+    // What was written is read again: a file that says its edits or paths in some other way is not carried over.
+    try {
+        const Shape again = readShape(part);
+        const bool sameSource = fs::weakly_canonical(again.mesh) == fs::weakly_canonical(expected.mesh);
+        if (again.edits.size() != expected.edits.size() || (expected.source != Source::vehicle && !sameSource))
+            throw InputError("it would name other files");
+    } catch (const InputError& error) {
+        fail(std::string("the edits cannot be added to this shape file; save them as .vti (") + error.what() + ")");
+    }
+    std::error_code error;
+    fs::rename(part, file, error);
+    if (error) fail("the shape cannot be written there");
+}
+
+std::string textOf(const fs::path& file, const fs::path& folder, const std::string& edits) {
+    if (isVoxelFile(file))
+        return fmt::format("description = \"voxels of {}\"\nvoxels_from = \"{}\"\n{}", file.filename().string(),
+                           fs::proximate(fs::absolute(file), fs::absolute(folder)).generic_string(), edits);
+    std::ifstream stream(file, std::ios::binary);
+    return withEdits(std::string(std::istreambuf_iterator<char>(stream), {}), file, folder, edits);
+}
+
+void save(const Call& call, const Shape& edited, const VoxelGrid& voxels) {
+    if (isVoxelFile(*call.save)) return writeVoxels(voxels, *call.save);
+    const fs::path folder = fs::absolute(*call.save).parent_path();
+    std::string edits;
+    for (const ToolArgument& edit : call.edits)
+        edits += "\n[[edit]]\n" + editAsToml(editOptions.parse("edit", edit.name), edit.name, edit.value, folder);
+    writeText(*call.save, textOf(call.file, folder, edits), edited);
+}
+
+/// How many active voxels are pushed by a force.
+std::size_t forced(const VoxelGrid& grid) {
+    const auto isForced = [&](std::uint32_t i) { return glm::length(grid.voxels()[i].force) > 0; };
+    return static_cast<std::size_t>(std::ranges::count_if(grid.active(), isForced));
+}
+
+std::uint64_t particlesOf(const VoxelGrid& grid) {
+    std::uint64_t sum = 0;
+    for (const std::uint32_t i : grid.active()) sum += grid.voxels()[i].maximumDensity;
+    return sum;
+}
+
+/// Of voxels that are active before and after.
+std::size_t recoloured(const VoxelGrid& before, const VoxelGrid& after) {
+    const auto changed = [&](std::uint32_t i) {
+        const Voxel &a = before.voxels()[i], &b = after.voxels()[i];
+        return a.isActive() && a.colour.colour() != b.colour.colour();
+    };
+    return static_cast<std::size_t>(std::ranges::count_if(after.active(), changed));
+}
+
+std::string place(const glm::vec3& p) {
+    return fmt::format("{:.4g}, {:.4g}, {:.4g}", p.x, p.y, p.z);
+}
+
+std::vector<std::vector<std::string>> table(const VoxelGrid& before, const VoxelGrid& after) {
+    const Lattice& lattice = after.lattice();
+    const auto text = [](auto number) { return std::to_string(number); };
+    return {{"", "before", "after"},
+            {"active voxels", text(before.active().size()), text(after.active().size())},
+            {"of another colour", text(0), text(recoloured(before, after))},
+            {"with a force", text(forced(before)), text(forced(after))},
+            {"particles held", text(particlesOf(before)), text(particlesOf(after))},
+            {"voxels along x, y, z", "", place(lattice.counts)},
+            {"edge of a voxel, m", "", fmt::format("{:.4g}", lattice.edgeMetres)},
+            {"from, m", "", place(lattice.origin)},
+            {"to, m", "", place(lattice.maximumCorner())}};
+}
+
+std::vector<std::vector<std::string>> edit(ExperimentContext& context, std::span<const ToolArgument> arguments) {
+    const Call call = callOf(arguments);
+    const Shape shape = shapeOf(call.file);
+    Shape edited = shape;
+    for (const ToolArgument& argument : call.edits)
+        edited.edits.push_back(readEditWords(editOptions.parse("edit", argument.name), argument.name, argument.value));
+    MemoryLedger ledger;
+    const VoxelGrid before = voxelsOf(ledger, shape, call.scene, context);
+    const VoxelGrid after = voxelsOf(ledger, edited, call.scene, context);
+    if (call.save) save(call, edited, after);
+    return table(before, after);
+}
+
+}  // namespace
+
+ToolInfo describe() {
+    ToolInfo info;
+    info.summary = "Show a shape made of voxels; paint, carve, fill or push it, and save it";
+    info.manual =
+        "An edit names a region and what becomes of the voxels whose middles lie in it, in words that are the keys of\n"
+        "shape files (data/shapes/car.toml): metres in the shape's own frame, linear RGB, lists with commas.\n"
+        "  region  sphere=x,y,z,radius   box=x,y,z,x,y,z (minimum, maximum)   mesh=FILE [position=x,y,z] [scale=s]\n"
+        "  paint   colour opacity size_voxels fading_colour fading_opacity fading_size_voxels lifetime_seconds\n"
+        "          interpolation_seconds pictures_per_second maximum_density\n"
+        "  force   kind=linear acceleration=x,y,z; kind=orbit|gravity|spiral|helix axis=x,y,z radians_per_second=w\n"
+        "          growth_per_radian=k (spiral) metres_per_radian=k (helix)\n"
+        "Edits apply in the order given, those of the shape file first; which voxels there are is settled before\n"
+        "their looks, since particles are shared out over them.\n"
+        "Example: dustbench shape bunny --carve \"sphere=0,1,0,0.4\" --paint \"box=-1.3,2,-1.1,0.6,2.7,0.4 "
+        "colour=0,0,1\" "
+        "--save blue.toml\n"
+        "         dustbench run --method voxel_shape -P shape=blue.toml --out out/blue";
+    info.options = {
+        {"file", "FILE", "a shape of data/shapes, a shape file (.toml) or saved voxels (.vti)"},
+        {"--paint", "EDIT", "changes the looks of voxels in a region: \"sphere=0,0.5,0,0.2 colour=0.8,0.1,0.1\"", true},
+        {"--carve", "EDIT", "takes voxels out of the shape: \"box=-1,0,-1,1,0.5,1\"", true},
+        {"--fill", "EDIT", "puts voxels in, which look like the nearest ones unless painted", true},
+        {"--force", "EDIT", "pushes the particles there: \"sphere=0,1,0,0.5 kind=gravity radians_per_second=3\"", true},
+        {"--save", "OUT",
+         "writes a shape file (.toml) with these edits, or the voxels (.vti); replaces an existing one"},
+        {"--scene", "ID", "whose vehicle it is if the shape is the vehicle; default: plain"}};
+    info.run = edit;
+    return info;
+}
+
+}  // namespace dustbench::voxel_shape::shape
