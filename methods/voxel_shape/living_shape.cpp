@@ -13,6 +13,7 @@ namespace dustbench::voxel_shape {
 void LivingShape::prepare(MemoryLedger& ledger, const scene::Scene& scene, gpu::Device& device, std::uint64_t seed) {
     system_.emplace(buildShape(ledger, shape_, scene, device, seed));
     if (shape_.look.lit) light_.emplace(ledger, system_->grid(), scene.lights);
+    if (shape_.stress.fullMetres > 0) stress_.emplace(ledger, *system_, shape_.stress);
     if (shape_.dustDrawsPerSecond > 0) flow_.emplace(ledger);
     if (shape_.collides && !scene.solids.empty()) {
         double scale = 0;
@@ -46,6 +47,10 @@ void LivingShape::step(const Frame& frame) {
     {
         const auto timing = frame.clock.measureDetail("replace");
         system_->replace(pose, shape_.motion, seconds);
+    }
+    if (stress_) {
+        const auto timing = frame.clock.measureDetail("stress");
+        stress_->showOn(*system_);
     }
     if (flow_) {
         const auto timing = frame.clock.measureDetail("flow");

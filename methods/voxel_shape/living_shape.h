@@ -11,6 +11,7 @@
 #include "methods/voxel_shape/particles/shape_system.h"
 #include "methods/voxel_shape/shape.h"
 #include "methods/voxel_shape/shape_light.h"
+#include "methods/voxel_shape/shape_stress.h"
 #include "methods/voxel_shape/shape_track.h"
 
 namespace dustbench::voxel_shape {
@@ -37,6 +38,7 @@ class LivingShape {
     ShapeTrack track_;
     std::optional<ShapeSystem> system_;
     std::optional<ShapeLight> light_;
+    std::optional<ShapeStress> stress_;
     std::optional<DustFlow> flow_;
     std::optional<ShapeCollision> collision_;
 };

@@ -65,6 +65,12 @@ struct Look {
     std::uint32_t every = 4;       ///< frames
 };
 
+/// Voxels take on a colour where forces push particles away from where they were born.
+struct StressLook {
+    glm::vec3 colour{0.9f, 0.05f, 0.02f};
+    float fullMetres = 0;  ///< displacement at which a voxel shows it wholly; 0: stress is not shown
+};
+
 struct TrackKey {
     double timeSeconds = 0;
     glm::dvec3 position{0};
@@ -101,6 +107,7 @@ struct Shape {
     Impact impact;
     float windFactor = 1;  ///< share of the scene's wind
     Look look;
+    StressLook stress;
     Track track;
     std::vector<Shape> others;      ///< that are there as well; they have none themselves
     float drawnAlongPerSecond = 4;  ///< rate at which particles in another shape's voxels take on its motion

@@ -173,6 +173,18 @@ void readLook(TomlReader& file, Shape& shape) {
     table.finish();
 }
 
+void readStress(TomlReader& file, Shape& shape) {
+    if (!file.has("stress")) return;
+    TomlReader table = file.table("stress");
+    shape.stress.colour = colour(table, "colour", shape.stress.colour);
+    shape.stress.fullMetres = static_cast<float>(table.number("full_metres", 1e-4, far));
+    if (shape.look.lit)
+        throw InputError(
+            table.where() +
+            "[stress] and lit = true: got both, allowed: one of them, since either sets the voxels' colours");
+    table.finish();
+}
+
 TrackKey readKey(TomlReader& table, const TrackKey& initial) {
     TrackKey key = initial;
     key.position = vector(table, "position", far, initial.position);
@@ -286,6 +298,7 @@ Shape readShape(const std::filesystem::path& path) {
     readMotion(file, shape);
     readCollision(file, shape);
     readLook(file, shape);
+    readStress(file, shape);
     readTrack(file, shape);
     readOthers(file, path.parent_path(), shape);
     file.finish();

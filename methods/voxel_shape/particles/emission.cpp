@@ -96,7 +96,8 @@ void Emission::emit(ShapeParticles& particles, VoxelGrid& grid, const Pose& pose
                 const auto place = maths::uniform4(seed_, placeStream, serial);
                 const auto toss = maths::uniform4(seed_, velocityStream, serial);
                 const glm::vec3 within(place[0], place[1], place[2]);
-                const glm::vec3 world = pose.toWorld(lattice.origin + lattice.edgeMetres * (cell + within));
+                const glm::vec3 local = lattice.origin + lattice.edgeMetres * (cell + within);
+                const glm::vec3 world = pose.toWorld(local);
                 const glm::vec3 turning = rotationAt(voxel, lattice.edgeMetres * pose.scale * (within - 0.5f));
                 const glm::vec3 velocity =
                     pose.velocityAt(world) + pose.rotation * turning +
@@ -119,6 +120,7 @@ void Emission::emit(ShapeParticles& particles, VoxelGrid& grid, const Pose& pose
                 particles.settlingSeconds[i] = 0;
                 particles.picture[i] = std::floor(firstPictures * place[3]);
                 particles.pictureSpeed[i] = voxel.picturesPerSecond;
+                if (particles.keepsBirthplaces()) particles.birthplace[i] = local;
             }
         }
     });

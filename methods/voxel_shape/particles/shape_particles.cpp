@@ -12,7 +12,8 @@ ShapeParticles::ShapeParticles(MemoryLedger& ledger)
       place(ledger.account("particle places")),
       settlingSeconds(ledger.account("particle looks")),
       picture(ledger.account("particle looks")),
-      pictureSpeed(ledger.account("particle looks")) {
+      pictureSpeed(ledger.account("particle looks")),
+      birthplace(ledger.account("particle births")) {
     store.keepOneColour(false);
 }
 
@@ -25,12 +26,14 @@ void ShapeParticles::resize(std::size_t count) {
     store.resize(count);
     place.resize(count);
     for (auto* column : {&settlingSeconds, &picture, &pictureSpeed}) column->resize(count);
+    if (keepsBirthplaces_) birthplace.resize(count);
 }
 
 void ShapeParticles::move(std::size_t from, std::size_t to) {
     store.move(from, to);
     place[to] = place[from];
     for (auto* column : {&settlingSeconds, &picture, &pictureSpeed}) (*column)[to] = (*column)[from];
+    if (keepsBirthplaces_) birthplace[to] = birthplace[from];
 }
 
 std::uint64_t ShapeParticles::hash() const {

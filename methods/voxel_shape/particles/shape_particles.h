@@ -1,8 +1,10 @@
 // The particles of a shape as a structure of arrays: those of particles/ParticleStore, and what voxels ask for besides.
 //
-// Memory: 76 bytes a particle. Units: m, m/s, s; `radius` is a puff's. Frame: world. Colours: linear RGB, as seen.
-// Owns: its columns, on a ledger. Threads: const access from any; writers on disjoint ranges.
+// Memory: 76 bytes a particle, 88 with places of birth. Units: m, m/s, s; `radius` is a puff's. Frame: world. Colours:
+// linear RGB, as seen. Owns: its columns, on a ledger. Threads: const access from any; writers on disjoint ranges.
 #pragma once
+
+#include <glm/glm.hpp>
 
 #include "methods/kit/particles/particle_store.h"
 
@@ -19,12 +21,19 @@ struct ShapeParticles {
     void resize(std::size_t count);
     void move(std::size_t from, std::size_t to);
     [[nodiscard]] std::uint64_t hash() const;
+    /// Before any particle is born.
+    void keepBirthplaces() { keepsBirthplaces_ = true; }
+    [[nodiscard]] bool keepsBirthplaces() const { return keepsBirthplaces_; }
 
     particles::ParticleStore store;       ///< `age` counts from when a particle left the shape, and is 0 in it
     LedgerVector<std::uint32_t> place;    ///< index of its voxel
     LedgerVector<float> settlingSeconds;  ///< left until it looks as its voxel says
     LedgerVector<float> picture;          ///< of an animated texture, as many as have been shown
     LedgerVector<float> pictureSpeed;     ///< pictures a second
+    LedgerVector<glm::vec3> birthplace;   ///< in the shape's own frame; empty unless kept
+
+ private:
+    bool keepsBirthplaces_ = false;
 };
 
 }  // namespace dustbench::voxel_shape
