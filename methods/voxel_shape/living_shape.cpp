@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "methods/voxel_shape/particles/field_flow.h"
 #include "methods/voxel_shape/shape_builder.h"
 
 namespace dustbench::voxel_shape {
@@ -15,6 +16,7 @@ void LivingShape::prepare(MemoryLedger& ledger, const scene::Scene& scene, gpu::
     if (shape_.look.lit) light_.emplace(ledger, system_->grid(), scene.lights);
     if (shape_.stress.fullMetres > 0) stress_.emplace(ledger, *system_, shape_.stress);
     if (shape_.dustDrawsPerSecond > 0) flow_.emplace(ledger);
+    if (!shape_.flow.files.empty()) field_.emplace(shape_.flow.files, shape_.flow.field);
     if (shape_.collides && !scene.solids.empty()) {
         double scale = 0;
         for (const TrackKey& key : shape_.track.keys) scale = std::max(scale, key.scale);
@@ -56,6 +58,12 @@ void LivingShape::step(const Frame& frame) {
         const auto timing = frame.clock.measureDetail("flow");
         flow_->drawAlong(*system_, frame.dust, 1 - std::exp(-shape_.dustDrawsPerSecond * seconds));
     }
+    if (field_) {
+        const auto timing = frame.clock.measureDetail("flow");
+        const double since = shape_.flow.fromSeconds ? *shape_.flow.fromSeconds - field_->firstSeconds() : 0;
+        drawAlong(system_->particles().store, *field_, frame.state.timeSeconds - since,
+                  1 - std::exp(-shape_.flow.drawsPerSecond * seconds));
+    }
 }
 
 void LivingShape::requireNumberHeld() const {
@@ -68,7 +76,9 @@ void LivingShape::requireNumberHeld() const {
 }
 
 MemoryReport LivingShape::memory() const {
-    return collision_ ? collision_->memory() : MemoryReport();
+    MemoryReport report = collision_ ? collision_->memory() : MemoryReport();
+    if (field_) report.push_back({"flow", field_->bytes(), 0});
+    return report;
 }
 
 }  // namespace dustbench::voxel_shape

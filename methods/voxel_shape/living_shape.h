@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "methods/contract/method.h"
+#include "methods/kit/volumes/vector_series.h"
 #include "methods/voxel_shape/collision/shape_collision.h"
 #include "methods/voxel_shape/particles/dust_flow.h"
 #include "methods/voxel_shape/particles/shape_system.h"
@@ -40,6 +41,7 @@ class LivingShape {
     std::optional<ShapeLight> light_;
     std::optional<ShapeStress> stress_;
     std::optional<DustFlow> flow_;
+    std::optional<volumes::VectorSeries> field_;
     std::optional<ShapeCollision> collision_;
 };
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,14 @@ struct Look {
     std::uint32_t every = 4;       ///< frames
 };
 
+/// A flow from files that draws particles along.
+struct FlowField {
+    std::vector<std::filesystem::path> files;  ///< empty: none
+    std::string field = "velocity";
+    float drawsPerSecond = 4;           ///< rate at which particles take on its velocity
+    std::optional<double> fromSeconds;  ///< simulated time at which the series begins; empty: that of its files
+};
+
 /// Voxels take on a colour where forces push particles away from where they were born.
 struct StressLook {
     glm::vec3 colour{0.9f, 0.05f, 0.02f};
@@ -108,6 +117,7 @@ struct Shape {
     float windFactor = 1;  ///< share of the scene's wind
     Look look;
     StressLook stress;
+    FlowField flow;
     Track track;
     std::vector<Shape> others;      ///< that are there as well; they have none themselves
     float drawnAlongPerSecond = 4;  ///< rate at which particles in another shape's voxels take on its motion

@@ -6,6 +6,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/meshes/mesh_file.h"
 #include "methods/kit/meshes/open_edges.h"
+#include "methods/kit/volumes/vector_series.h"
 #include "methods/voxel_shape/voxels/solid_fill.h"
 
 namespace dustbench::voxel_shape {
@@ -173,6 +174,20 @@ void readLook(TomlReader& file, Shape& shape) {
     table.finish();
 }
 
+void readFlow(TomlReader& file, const std::filesystem::path& folder, Shape& shape) {
+    if (!file.has("flow")) return;
+    TomlReader table = file.table("flow");
+    for (const std::string& name : table.texts("files")) {
+        const auto found = volumes::matchingFiles(folder / name);
+        shape.flow.files.insert(shape.flow.files.end(), found.begin(), found.end());
+    }
+    if (shape.flow.files.empty()) throw InputError(table.where("files") + "key 'files': expected one file or more");
+    shape.flow.field = table.text("field", shape.flow.field);
+    shape.flow.drawsPerSecond = number(table, "draws_per_second", 0, 1000, shape.flow.drawsPerSecond);
+    if (table.has("from_seconds")) shape.flow.fromSeconds = table.number("from_seconds", -1e5, 1e5);
+    table.finish();
+}
+
 void readStress(TomlReader& file, Shape& shape) {
     if (!file.has("stress")) return;
     TomlReader table = file.table("stress");
@@ -299,6 +314,7 @@ Shape readShape(const std::filesystem::path& path) {
     readCollision(file, shape);
     readLook(file, shape);
     readStress(file, shape);
+    readFlow(file, path.parent_path(), shape);
     readTrack(file, shape);
     readOthers(file, path.parent_path(), shape);
     file.finish();
