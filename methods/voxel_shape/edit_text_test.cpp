@@ -110,6 +110,7 @@ TEST(EditText, SavedAsAShapeFileAndAsVoxelsIsTheSameShape) {
         EXPECT_LT(std::stoi(table[1][2]), 512);
     }
     EXPECT_FALSE(fs::exists(folder.path() / "shapes/side.vti")) << "showing and saving a shape writes --save alone";
+    EXPECT_EQ(readShape(toml).savedVoxels, "") << "the edited shape leaves the other's voxels alone";
     MemoryLedger ledger;
     const VoxelGrid fromText = voxelsOf(ledger, toml), fromVoxels = readVoxels(ledger, vti);
     expectSame(fromText, fromVoxels);

@@ -13,7 +13,10 @@ namespace {
 VoxelGrid greySphere(MemoryLedger& ledger) {
     const scene::Mesh sphere = sphereMesh(1, 40);
     VoxelGrid grid(ledger, surfaceVoxels(sphere, latticeAround(sphere, 40)), Voxel());
-    for (const std::uint32_t i : grid.active()) grid.voxels()[i].colour = PackedColour({0.5f, 0.5f, 0.5f, 0.4f});
+    for (const std::uint32_t i : grid.active()) {
+        grid.voxels()[i].colour = PackedColour({0.5f, 0.5f, 0.5f, 0.4f});
+        grid.voxels()[i].fadingColour = PackedColour({0.25f, 0.25f, 0.25f, 0.1f});
+    }
     return grid;
 }
 
@@ -34,6 +37,7 @@ void expectLitFrom(const VoxelGrid& grid, const glm::vec3& direction) {
         if (height > 0.9f) front = std::max(front, shown);
         if (height < -0.3f) back = std::min(back, shown);
         EXPECT_NEAR(grid.voxels()[i].colour.colour().a, 0.4f, 1e-4f);
+        EXPECT_NEAR(grid.voxels()[i].fadingColour.colour().r, shown / 2, 1e-4f) << "half as bright, in the same light";
     }
     EXPECT_NEAR(front, 0.5f * (0.2f + 0.8f), 0.01f);
     EXPECT_NEAR(back, 0.5f * 0.2f, 0.01f);

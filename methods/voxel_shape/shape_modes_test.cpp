@@ -83,6 +83,41 @@ TEST(ShapeModes, OfThePaperTakeItsSlicesAndItsLaw) {
     EXPECT_GT(paper.second, 8100u);
 }
 
+TEST(ShapeModes, OfThePaperIsTheLawOfTheOtherShapesToo) {
+    const TestFolder folder;
+    folder.write("drifting.toml",
+                 "description = \"\"\nparticles = 2000\n[grid]\ncells = [8, 8, 8]\nedge_metres = 0.25\n"
+                 "[motion]\nbirth_speed = 0.4\n[place]\nfollow = \"world\"\n");
+    const auto both =
+        folder.write("both.toml",
+                     "description = \"\"\nparticles = 64\n[grid]\ncells = [4, 4, 4]\nedge_metres = 0.25\n[place]\n"
+                     "follow = \"world\"\nposition = [9, 0, 0]\n[[also]]\nshape = \"drifting.toml\"\n");
+    const auto insideAfter = [&](const char* mode) {
+        Moment moment;
+        const auto method = presetWith({{"shape", both.c_str()}, {"mode", mode}});
+        moment.run(*method, 90);
+        return std::get<std::int64_t>(*moment.fact(*method, "inside"));
+    };
+    EXPECT_LE(insideAfter("fixed"), 2064);
+    EXPECT_GT(insideAfter("paper"), 2200) << "the first shape alone stands still and holds its 64";
+}
+
+TEST(ShapeModes, ANumberIsHeldToItsVeryMargin) {
+    const TestFolder folder;
+    Shape shape = readShape(ballFile(folder, "[motion]\nbirth_speed = 0.1\nfill_seconds = 0.1\n"));
+    const auto insideWithin = [&](double margin) {
+        Moment moment;
+        shape.heldWithin = margin;
+        const auto method = std::make_unique<VoxelShape>(shape);
+        moment.run(*method, 60);
+        return std::get<std::int64_t>(*moment.fact(*method, "inside"));
+    };
+    const double off = 1 - static_cast<double>(insideWithin(0)) / 4000;
+    ASSERT_GT(off, 1e-3);
+    EXPECT_NO_THROW((void)insideWithin(1.01 * off));
+    EXPECT_THROW((void)insideWithin(0.99 * off), std::runtime_error);
+}
+
 TEST(ShapeModes, OfThePaperCannotFillASolid) {
     const std::string message = inputError([] { (void)presetWith({{"shape", "ball"}, {"mode", "paper"}}); });
     EXPECT_NE(message.find("needs voxeliser=conservative"), std::string::npos) << message;

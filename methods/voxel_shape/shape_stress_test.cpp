@@ -94,6 +94,15 @@ TEST(ShapeStress, OfAShapeAtConstantVelocityIsNoneAndOfAnAcceleratedOneItsLag) {
     EXPECT_NEAR(pushed.stress.displacements()[1], lag, 0.04f * lag) << "a few have left, newborn came for them";
 }
 
+TEST(ShapeStress, OfParticlesAtRestIsNoneWhoeverDiesBesideThem) {
+    Pair pair(0.2f, Force::linear, {-40, 0, 0}, 0.1f);
+    for (Voxel& voxel : pair.system.grid().voxels()) voxel.lifetimeSeconds = 0.05f;
+    pair.run([](int) { return Pose(); });
+    EXPECT_GT(pair.stress.displacements()[0], 0.01f);
+    EXPECT_LT(pair.stress.displacements()[1], 1e-4f);
+    EXPECT_GT(pair.system.particles().store.serial.back(), 20000u) << "many have died and were replaced";
+}
+
 TEST(ShapeStress, ShowsItsColourWhollyFromItsFullDisplacementOn) {
     Pair pair(400, Force::linear, {0.3f, 0, 0.4f}, 0.01f);
     pair.run([](int) { return Pose(); });

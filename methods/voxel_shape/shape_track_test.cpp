@@ -45,14 +45,14 @@ TEST(ShapeTrack, TakesTheWayBackToItsFirstKeyForAJump) {
     }
 }
 
-TEST(ShapeTrack, GivesAPlaceBesideAVehicleTheVelocityOfThatMoment) {
-    Track track;
-    track.keys = {{0, {-3, 1, 2}, 0.4, 1}};
+/// The velocity of a track beside a vehicle on a circle, against the difference of its places.
+void expectVelocityOfItsMoment(const Track& track, int firstStep) {
     ShapeTrack beside(track);
     const double radius = 30, acceleration = 3;
     for (int step = 0; step < 240; ++step) {
         const double time = step * dt, h = 1e-4;
         const Pose pose = beside.advance(onCircle(radius, acceleration, time), dt);
+        if (step < firstStep) continue;
         ShapeTrack before(track), after(track);
         const glm::dvec3 difference = glm::dvec3(after.advance(onCircle(radius, acceleration, time + h), h).position) -
                                       glm::dvec3(before.advance(onCircle(radius, acceleration, time - h), h).position);
@@ -60,6 +60,18 @@ TEST(ShapeTrack, GivesAPlaceBesideAVehicleTheVelocityOfThatMoment) {
         const double turnIsLate = step == 0 ? 0 : acceleration / radius * dt / 2 * 3.7;
         EXPECT_LT(glm::distance(difference / (2 * h), glm::dvec3(pose.velocity)), turnIsLate + 0.03) << step;
     }
+}
+
+TEST(ShapeTrack, GivesAPlaceBesideAVehicleTheVelocityOfThatMoment) {
+    Track track;
+    track.keys = {{0, {-3, 1, 2}, 0.4, 1}};
+    expectVelocityOfItsMoment(track, 0);
+}
+
+TEST(ShapeTrack, GivesAWayBesideAVehicleItsVelocityInTheWorld) {
+    Track track;
+    track.keys = {{0, {-3, 1, 2}, 0.4, 1}, {4.5, {3, 1.5, 1}, 0.4, 1}};
+    expectVelocityOfItsMoment(track, 1);  // before 0 it is the way's end
 }
 
 }  // namespace

@@ -50,6 +50,32 @@ TEST(Crossing, DrawsAlongThoseParticlesAloneThatAreInTheOthersVoxels) {
     EXPECT_NEAR(static_cast<double>(met), 1250, 100) << "a quarter of the block";
 }
 
+TEST(Crossing, GivesTheVelocityOfTheOthersMatterWhereTheParticleIs) {
+    ShapeSystem still = blockAt({}, 1);
+    Pose pose = movingAt({0.4f, 0.1f, 0}, {1, 0, 0});
+    pose.angularVelocity = {0, 3, 1};
+    pose.growth = 0.5f;
+    const scene::Mesh sphere = sphereMesh(0.7f, 24);
+    ShapeSystem ball(ledger(), surfaceVoxels(sphere, latticeAround(sphere, 12)), Voxel(), 2);
+    ball.grid().shareOut(1000);
+    ball.grid().voxels()[ball.grid().active().front()].setSwitchedOff(true);
+    ball.step(pose, {}, dt);
+    drawAlong(still, ball, 0.5f);
+    const particles::ParticleStore& s = still.particles().store;
+    const Lattice& lattice = ball.grid().lattice();
+    int drawn = 0, inItsBox = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const glm::ivec3 cell(glm::floor(lattice.toVoxels(pose.toLocal(s.position(i)))));
+        const bool box = lattice.contains(cell), on = box && ball.grid().at(cell).isOn();
+        const glm::vec3 expected = on ? 0.5f * pose.velocityAt(s.position(i)) : glm::vec3(0);
+        ASSERT_LT(glm::distance(glm::vec3(s.velocityX[i], s.velocityY[i], s.velocityZ[i]), expected), 1e-5f);
+        drawn += on;
+        inItsBox += box;
+    }
+    EXPECT_GT(drawn, 100);
+    EXPECT_GT(inItsBox - drawn, 100) << "in the hollow, in the corners, in the voxel that is off";
+}
+
 TEST(Crossing, LeavesAloneWhoMovesAsTheOtherDoes) {
     ShapeSystem one = blockAt(movingAt({0, 0, 0}, {3, 1, 0}), 1);
     const ShapeSystem other = blockAt(movingAt({0.5f, 0, 0}, {3, 1, 0}), 2);
