@@ -107,6 +107,7 @@ TEST_F(Dustbench, HelpAndListsGoToStdout) {
     for (const char* text : {"\"id\": \"force/wind\"", "\"part_kind\": \"force\"", "\"part\": \"wind\"",
                              "\"name\": \"gust_speed\"", "\"unit\": \"m/s\""})
         EXPECT_THAT(wind, HasSubstr(text));
+    EXPECT_THAT(call("list scenes relief_wall --json").out, HasSubstr("\"panels\": 2"));
     EXPECT_THAT(call("list suites --json").out, HasSubstr("\"id\": \"carr2006-fig5\""));
     EXPECT_THAT(call("env --json").out, HasSubstr("\"gl_renderer\""));
 }

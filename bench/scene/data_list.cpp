@@ -21,11 +21,15 @@ std::string descriptionOr(const Read& read) {
 
 std::vector<DataEntry> listScenes() {
     std::vector<DataEntry> entries;
-    for (const std::string& id : files::listData("scenes", ".toml"))
-        entries.push_back({id, descriptionOr([&] {
-                               const auto file = files::findData("scene", "scenes", id, ".toml");
-                               return files::TomlReader::parseFile(file).text("description");
-                           })});
+    for (const std::string& id : files::listData("scenes", ".toml")) {
+        DataEntry entry{id, ""};
+        entry.description = descriptionOr([&] {
+            auto file = files::TomlReader::parseFile(files::findData("scene", "scenes", id, ".toml"));
+            entry.panels = static_cast<std::int64_t>(file.tables("panel").size());
+            return file.text("description");
+        });
+        entries.push_back(std::move(entry));
+    }
     return entries;
 }
 

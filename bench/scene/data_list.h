@@ -1,6 +1,7 @@
 // Lists the scenes and drives in data/, each with a one-line description.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@ namespace dustbench::bench {
 struct DataEntry {
     std::string id;
     std::string description;  ///< for an unreadable file: the reason
+    std::int64_t panels = 0;  ///< of a scene
 };
 
 /// Sorted by id; the description is a key of the scene file.

@@ -6,6 +6,7 @@
 
 #include "bench/scene/car_model.h"
 #include "bench/scene/height_image.h"
+#include "bench/scene/panel_table.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_reader.h"
@@ -213,6 +214,8 @@ SceneFile readScene(const std::filesystem::path& file) {
     readVehicle(root, result.scene);
     readCameras(root, result.cameras);
     for (TomlReader& table : root.tables("solid")) readSolid(table, folder, result);
+    for (TomlReader& table : root.tables("panel"))
+        result.scene.panels.push_back(readPanel(table, file, result.scene, result.files));
     root.finish();
     return result;
 }

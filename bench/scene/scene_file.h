@@ -1,4 +1,5 @@
-// Reads a scene from TOML: ground, solids, light, wind, vehicle, cameras. `data/scenes/plain.toml` documents the keys.
+// Reads a scene from TOML: ground, solids, panels, light, wind, vehicle, cameras. `data/scenes/plain.toml` documents
+// the keys.
 //
 // Units in the file: SI, degrees; colours linear RGB.
 #pragma once

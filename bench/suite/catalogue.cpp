@@ -75,7 +75,7 @@ std::vector<CatalogueItem> listParts() {
 std::vector<CatalogueItem> fromData(const std::string& kind, const std::vector<DataEntry>& entries) {
     std::vector<CatalogueItem> items;
     items.reserve(entries.size());
-    for (const DataEntry& entry : entries) items.push_back({kind, entry.id, entry.description, "", ""});
+    for (const DataEntry& entry : entries) items.push_back({kind, entry.id, entry.description, "", "", {}, entry.panels});
     return items;
 }
 
@@ -131,6 +131,7 @@ std::string catalogueJson(const std::vector<CatalogueItem>& items) {
             entry.cells.emplace_back("part_kind", item.id.substr(0, slash));
             entry.cells.emplace_back("part", item.id.substr(slash + 1));
         }
+        if (item.kind == "scenes") entry.cells.emplace_back("panels", item.panels);
         if (!item.summary.empty()) entry.cells.emplace_back("summary", item.summary);
         if (!item.source.empty()) entry.cells.emplace_back(item.kind == "suites" ? "paper" : "source", item.source);
         listed.push_back(std::move(entry));

@@ -1,6 +1,7 @@
 // Lists what this build and its data provide, for `dustbench list` and its JSON.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct CatalogueItem {
     std::string summary;
     std::string source;                   ///< key in data/references.bib, for a part with section; or empty
     std::vector<Parameter> parameters{};  ///< of a part: the keys of its table
+    std::int64_t panels = 0;              ///< of a scene
 };
 
 /// `methods scenes drives suites experiments metrics parts`

@@ -4,6 +4,10 @@
 
 namespace dustbench::scene {
 
+glm::dmat4 panelToWorld(const Panel& panel, const SceneState& state) {
+    return panel.parent == Panel::Parent::vehicle ? state.vehicle.toWorld() * panel.toParent : panel.toParent;
+}
+
 glm::vec3 dustColour(const Scene& scene) {
     // The cloud scatters incident light with albedo ϖ, isotropically (phase 1/4π). A white surface facing the sun reads
     // `sun`, so single scattering shows ϖ·sun/4; the sky is all around and shows ϖ·ambient. Half of the scattered light

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,28 @@ struct VehicleModel {
     Solid wheel;  ///< axis along +Z, centred on its hub; the outer face looks to +Z (the right side)
 };
 
+/// The texels of a relief as they are at the start of a run. Row 0 is the lowest.
+struct Relief {
+    int columns = 0, rows = 0;
+    std::vector<float> depth;       ///< 0 at the face, 1 at the panel's greatest depth
+    std::vector<glm::vec3> colour;  ///< linear RGB, 0..1
+};
+
+/// A plate whose face has a relief.
+///
+/// Frame: the panel's. The face is the plane z = 0 and looks towards +z; its centre is the origin; x runs along the
+/// columns and y along the rows. The plate reaches from z = −depthMetres to z = 0.
+struct Panel {
+    enum class Parent { world, vehicle };
+
+    std::string name;
+    Parent parent = Parent::world;
+    glm::dmat4 toParent{1};  ///< rotation and translation; metres
+    glm::dvec2 sizeMetres{1};
+    double depthMetres = 0.05;
+    std::shared_ptr<const Relief> relief;
+};
+
 struct Scene {
     std::string id;
     Terrain terrain;
@@ -38,6 +61,7 @@ struct Scene {
     glm::vec3 wind{0};                  ///< m/s, world
     std::vector<Solid> solids;          ///< besides the vehicle
     std::vector<SolidPose> solidPoses;  ///< of `solids`
+    std::vector<Panel> panels;
     std::optional<VehicleModel> vehicle;
     glm::vec3 dustAlbedo{0.64f, 0.54f, 0.42f};
 };
@@ -46,6 +70,9 @@ struct SceneState {
     double timeSeconds = 0;
     VehicleState vehicle;
 };
+
+/// From the panel's frame to the world at this moment.
+[[nodiscard]] DUSTBENCH_API glm::dmat4 panelToWorld(const Panel& panel, const SceneState& state);
 
 /// The colour (linear RGB) that a cloud of dust shows: its albedo, lit by sky and sun from all sides.
 [[nodiscard]] glm::vec3 dustColour(const Scene& scene);

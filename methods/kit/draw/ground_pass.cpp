@@ -9,6 +9,7 @@
 
 #include "draw_shaders.h"
 #include "methods/kit/draw/ground_texture.h"
+#include "methods/kit/draw/shadow_map.h"
 #include "methods/kit/gpu/draw_call.h"
 
 namespace dustbench::draw {
@@ -23,16 +24,15 @@ constexpr float trackHalfWidthMetres = 2.7f;
 constexpr std::array<float, 13> trackCutsMetres{-4096, -1024, -256, -64, -16, -4, 0, 4, 16, 64, 256, 1024, 4096};
 
 std::map<std::string, std::string> definitions(const scene::Scene& scene, bool track, bool shaded) {
-    std::map<std::string, std::string> result{
+    std::map<std::string, std::string> result = shadowCasters(scene);
+    result.insert({
         {"DETAIL_TILES", std::to_string(patchTileMetres / detailTileMetres)},
         {"TILES_PER_METRE", std::to_string(1 / patchTileMetres)},
         {"PATCH_SCALE", std::to_string(255.0 / 128)},
-    };
+    });
     if (!scene.terrain.isFlat()) result.emplace("RELIEF", "1");
     if (track) result.emplace("TRACK", "1");
     if (shaded) result.emplace("SHADED", "1");
-    if (scene.vehicle) result.emplace("VEHICLE", "1");
-    if (!scene.solids.empty()) result.emplace("SOLIDS", "1");
     return result;
 }
 

@@ -12,6 +12,7 @@
 #include "draw_shaders.h"
 #include "methods/kit/draw/ground_pass.h"
 #include "methods/kit/draw/opaque_moment.h"
+#include "methods/kit/draw/panel_pass.h"
 #include "methods/kit/draw/shadow_footprint.h"
 #include "methods/kit/draw/shadow_map.h"
 #include "methods/kit/draw/solid_mesh.h"
@@ -32,11 +33,15 @@ constexpr float bodyGloss = 1;
 constexpr float wheelGloss = 0.1f;
 constexpr float solidGloss = 0.1f;
 
-std::map<std::string, std::string> casters(const scene::Scene& scene) {
-    std::map<std::string, std::string> result;
-    if (scene.vehicle) result.emplace("VEHICLE", "1");
-    if (!scene.solids.empty()) result.emplace("SOLIDS", "1");
-    return result;
+std::map<std::string, std::string> onPanels(std::map<std::string, std::string> definitions) {
+    definitions.emplace("PANEL", "1");
+    return definitions;
+}
+
+gpu::Program solidProgramOf(gpu::Device& device, std::string_view label,
+                            const std::map<std::string, std::string>& definitions) {
+    using namespace draw_shaders;
+    return {device, label, {opaque_moment_glsl, opaque_shadow_glsl, opaque_solid_vert, opaque_solid_frag}, definitions};
 }
 
 glm::mat4 moved(glm::mat4 matrix, const glm::dvec3& by) {
@@ -59,6 +64,7 @@ struct PlacedSolid {
     glm::mat4 toWorld;
     glm::dvec3 centre;
     double radiusMetres;
+    bool castsOnly = false;  ///< drawn elsewhere
 
     [[nodiscard]] bool touches(const glm::dvec3& place, double reachMetres) const {
         return glm::distance(place, centre) - radiusMetres < reachMetres;
@@ -80,14 +86,19 @@ glm::vec4 with(const glm::vec3& colour, float fourth = 0) {
 }  // namespace
 
 struct OpaqueScene::State {
-    State(const scene::Scene& shown, gpu::Device& device, int width, int height);
+    State(const scene::Scene& shown, gpu::Device& device, int width, int height, ScenePanels panelsShown);
 
-    void aimVehicleShadow(const glm::dvec3& eye, const scene::VehiclePoses& poses);
+    void placeSolids(gpu::Device& device);
+    void place(const std::shared_ptr<const SolidMesh>& shape, const scene::Mesh& mesh, const glm::dmat4& toWorld,
+               bool castsOnly);
+    void aimVehicleShadow(const glm::dvec3& eye, const scene::VehiclePoses& poses,
+                          const scene::VehicleState& vehicleToEye);
     void aimSolidShadow(const glm::dvec3& eye);
     void findFootprints(const glm::dvec3& eye, const scene::VehiclePoses& poses);
     void describe(const scene::View& view, const scene::VehicleState& vehicle);
     void drawSolids(const glm::dvec3& eye);
     void drawVehicle(const scene::VehiclePoses& poses);
+    void drawPanels(const glm::dvec3& eye, const scene::VehicleState& vehicleToEye);
 
     const scene::Scene& scene;
     gpu::Texture colour;
@@ -95,6 +106,8 @@ struct OpaqueScene::State {
     gpu::Framebuffer target;
 
     GroundPass ground;
+    PanelPass panels;
+    bool panelsSeen;
     std::vector<PlacedSolid> solids;
     std::optional<SolidMesh> body;
     std::optional<SolidMesh> wheel;
@@ -103,6 +116,7 @@ struct OpaqueScene::State {
 
     gpu::Program casterProgram;
     gpu::Program solidProgram;
+    std::optional<gpu::Program> panelProgram;
     gpu::Program skyProgram;
     gpu::VertexArray noVertices;
     gpu::Buffer momentBlock;
@@ -112,46 +126,61 @@ struct OpaqueScene::State {
     std::vector<GroundRectangle> footprints;
 };
 
-OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& device, int width, int height)
+OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& device, int width, int height,
+                          ScenePanels panelsShown)
     : scene(shown),
       colour(gpu::Texture::make2D(device, "scene colour", gpu::Format::rgba16F, width, height)),
       depth(gpu::Texture::make2D(device, "scene depth", gpu::Format::depth32F, width, height)),
       target(device, "scene", &colour, &depth),
       ground(device, shown),
+      panels(device, shown),
+      panelsSeen(panelsShown == ScenePanels::flat && !panels.empty()),
       casterProgram(device, "shadow caster", {draw_shaders::opaque_caster_vert, draw_shaders::opaque_caster_frag}),
-      solidProgram(device, "solid",
-                   {draw_shaders::opaque_moment_glsl, draw_shaders::opaque_shadow_glsl, draw_shaders::opaque_solid_vert,
-                    draw_shaders::opaque_solid_frag},
-                   casters(shown)),
+      solidProgram(solidProgramOf(device, "solid", shadowCasters(shown))),
       skyProgram(device, "sky",
                  {draw_shaders::opaque_moment_glsl, draw_shaders::opaque_sky_vert, draw_shaders::opaque_sky_frag}),
       noVertices(device),
       momentBlock(device, "scene moment", sizeof(OpaqueMoment)) {
     if (scene.solidPoses.size() != scene.solids.size())
         throw std::invalid_argument("OpaqueScene: every solid needs its pose");
+    if (panelsSeen) panelProgram.emplace(solidProgramOf(device, "panel", onPanels(shadowCasters(shown))));
     const glm::vec3 toSun = scene.lights.toSun;
     if (scene.vehicle) {
         body.emplace(device, scene.vehicle->body);
         wheel.emplace(device, scene.vehicle->wheel);
         // The wheels extend slightly beyond the body, below and ahead.
-        const double reach = static_cast<double>(body->radiusMetres()) + 2 * static_cast<double>(wheel->radiusMetres());
-        vehicleShadow.emplace(device, "vehicle shadow", vehicleShadowTexels, reach, toSun);
+        const double ofCar = static_cast<double>(body->radiusMetres()) + 2 * static_cast<double>(wheel->radiusMetres());
+        const double ofPanels = panels.reachOnVehicleMetres() + static_cast<double>(glm::length(body->centre()));
+        vehicleShadow.emplace(device, "vehicle shadow", vehicleShadowTexels, std::max(ofCar, ofPanels), toSun);
     }
+    placeSolids(device);
+    joinOverlapping(solidFootprints);
+    if (!solids.empty()) solidShadow.emplace(device, "solid shadow", solidShadowTexels, solidShadowReachMetres, toSun);
+}
+
+void OpaqueScene::State::placeSolids(gpu::Device& device) {
     std::map<const scene::Mesh*, std::shared_ptr<const SolidMesh>> shapes;
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
         std::shared_ptr<const SolidMesh>& shape = shapes[scene.solids[i].mesh.get()];
         if (!shape) shape = std::make_shared<const SolidMesh>(device, scene.solids[i]);
-        const SolidMesh& mesh = *shape;
-        const glm::mat4& toWorld = scene.solidPoses[i].toWorld;
-        const glm::dvec3 centre(toWorld * glm::vec4(mesh.centre(), 1));
-        const double radius = static_cast<double>(mesh.radiusMetres() * glm::length(glm::vec3(toWorld[0])));
-        const std::vector<GroundRectangle> pieces =
-            shadowFootprints(*scene.solids[i].mesh, toWorld, toSun, scene.terrain, solidMarginMetres);
-        solidFootprints.insert(solidFootprints.end(), pieces.begin(), pieces.end());
-        solids.push_back({shape, toWorld, centre, radius});
+        place(shape, *scene.solids[i].mesh, scene.solidPoses[i].toWorld, false);
     }
-    joinOverlapping(solidFootprints);
-    if (!solids.empty()) solidShadow.emplace(device, "solid shadow", solidShadowTexels, solidShadowReachMetres, toSun);
+    for (const scene::Panel& panel : scene.panels) {
+        if (panel.parent != scene::Panel::Parent::world) continue;
+        const auto plate = std::make_shared<const scene::Mesh>(panelPlate(panel));
+        place(std::make_shared<const SolidMesh>(device, scene::Solid{panel.name, plate}), *plate, panel.toParent, true);
+    }
+}
+
+void OpaqueScene::State::place(const std::shared_ptr<const SolidMesh>& shape, const scene::Mesh& mesh,
+                               const glm::dmat4& toWorld, bool castsOnly) {
+    const glm::mat4 pose(toWorld);
+    const glm::dvec3 centre(pose * glm::vec4(shape->centre(), 1));
+    const double radius = static_cast<double>(shape->radiusMetres() * glm::length(glm::vec3(pose[0])));
+    const std::vector<GroundRectangle> pieces =
+        shadowFootprints(mesh, pose, scene.lights.toSun, scene.terrain, solidMarginMetres);
+    solidFootprints.insert(solidFootprints.end(), pieces.begin(), pieces.end());
+    solids.push_back({shape, pose, centre, radius, castsOnly});
 }
 
 void OpaqueScene::State::aimSolidShadow(const glm::dvec3& eye) {
@@ -169,7 +198,8 @@ void OpaqueScene::State::aimSolidShadow(const glm::dvec3& eye) {
     }
 }
 
-void OpaqueScene::State::aimVehicleShadow(const glm::dvec3& eye, const scene::VehiclePoses& poses) {
+void OpaqueScene::State::aimVehicleShadow(const glm::dvec3& eye, const scene::VehiclePoses& poses,
+                                          const scene::VehicleState& vehicleToEye) {
     vehicleShadow->aim(eye + glm::dvec3(poses.body.toWorld * glm::vec4(body->centre(), 1)));
     const glm::mat4 toLight = vehicleShadow->eyeToLight(eye);
     const gpu::DrawState state{.depthTest = true, .depthWrite = true};
@@ -180,6 +210,7 @@ void OpaqueScene::State::aimVehicleShadow(const glm::dvec3& eye, const scene::Ve
         casterProgram.set("toLight", toLight * pose.toWorld);
         wheel->draw(casterProgram, state);
     }
+    panels.castFromVehicle(vehicleToEye, toLight, casterProgram);
 }
 
 void OpaqueScene::State::findFootprints(const glm::dvec3& eye, const scene::VehiclePoses& poses) {
@@ -229,6 +260,7 @@ void OpaqueScene::State::describe(const scene::View& view, const scene::VehicleS
 void OpaqueScene::State::drawSolids(const glm::dvec3& eye) {
     solidProgram.set("gloss", solidGloss);
     for (const PlacedSolid& solid : solids) {
+        if (solid.castsOnly) continue;
         if (!mayBeSeen(now.eyeToClip, glm::vec3(solid.centre - eye), static_cast<float>(solid.radiusMetres))) continue;
         solidProgram.set("toEye", moved(solid.toWorld, -eye));
         solid.mesh->draw(solidProgram, {.depthTest = true, .depthWrite = true});
@@ -247,8 +279,13 @@ void OpaqueScene::State::drawVehicle(const scene::VehiclePoses& poses) {
     }
 }
 
-OpaqueScene::OpaqueScene(const scene::Scene& scene, gpu::Device& device, int width, int height)
-    : state_(std::make_unique<State>(scene, device, width, height)) {}
+void OpaqueScene::State::drawPanels(const glm::dvec3& eye, const scene::VehicleState& vehicleToEye) {
+    for (gpu::Program* program : {&solidProgram, &*panelProgram}) program->set("gloss", solidGloss);
+    panels.draw(eye, vehicleToEye, solidProgram, *panelProgram);
+}
+
+OpaqueScene::OpaqueScene(const scene::Scene& scene, gpu::Device& device, int width, int height, ScenePanels panels)
+    : state_(std::make_unique<State>(scene, device, width, height, panels)) {}
 
 OpaqueScene::~OpaqueScene() = default;
 
@@ -257,10 +294,11 @@ void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view) 
         throw std::invalid_argument("OpaqueScene: the view's size is not the one given at construction");
     State& own = *state_;
     const glm::dvec3& eye = view.camera.eye;
+    const scene::VehicleState vehicleToEye = relativeTo(state.vehicle, eye);
     scene::VehiclePoses poses;
     if (own.body) {
-        poses = scene::vehiclePoses(*own.scene.vehicle, relativeTo(state.vehicle, eye));
-        own.aimVehicleShadow(eye, poses);
+        poses = scene::vehiclePoses(*own.scene.vehicle, vehicleToEye);
+        own.aimVehicleShadow(eye, poses, vehicleToEye);
     }
     if (own.solidShadow) own.aimSolidShadow(eye);
     own.describe(view, state.vehicle);
@@ -273,6 +311,7 @@ void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view) 
     own.ground.draw(eye, own.now.eyeToClip, own.footprints);
     own.drawSolids(eye);
     if (own.body) own.drawVehicle(poses);
+    if (own.panelsSeen) own.drawPanels(eye, vehicleToEye);
     // Drawn last, so that the depth test skips the sky's shader behind other surfaces.
     gpu::draw(own.skyProgram, own.noVertices, {.depthTest = true}, gpu::Primitives::triangles, 3);
 }

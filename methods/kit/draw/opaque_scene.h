@@ -1,4 +1,4 @@
-// Draws the opaque scene: sky and sun, textured ground, solids, the vehicle with its wheels, and shadows.
+// Draws the opaque scene: sky and sun, textured ground, solids, panels, the vehicle with its wheels, and shadows.
 //
 // Units: linear colour, scene metres. Depth: reversed, 32-bit float. Owns: its colour and depth targets.
 #pragma once
@@ -11,9 +11,13 @@
 
 namespace dustbench::draw {
 
+/// How the scene's panels appear: flat, or not at all because a method draws them. They cast shadows either way.
+enum class ScenePanels { flat, hidden };
+
 class DUSTBENCH_API OpaqueScene {
  public:
-    OpaqueScene(const scene::Scene& scene, gpu::Device& device, int width, int height);
+    OpaqueScene(const scene::Scene& scene, gpu::Device& device, int width, int height,
+                ScenePanels panels = ScenePanels::flat);
     ~OpaqueScene();
     OpaqueScene(const OpaqueScene&) = delete;
     OpaqueScene& operator=(const OpaqueScene&) = delete;

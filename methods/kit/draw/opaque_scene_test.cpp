@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "methods/kit/draw/opaque_test_scene.h"
@@ -299,6 +300,72 @@ TEST_F(OpaqueSceneTest, RefusesAViewOfAnotherSizeAndSolidsWithoutPoses) {
     EXPECT_THROW(opaque.draw({}, test::viewFrom({1, 2, 3}, {0, 0, 0}, 48, 64)), std::invalid_argument);
     scene.solids = {test::boxSolid({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};
     EXPECT_THROW(OpaqueScene(scene, device_, 64, 48), std::invalid_argument);
+}
+
+scene::Scene withPanel() {
+    scene::Scene scene = test::underAHighSun();
+    auto relief = std::make_shared<scene::Relief>();
+    relief->columns = 2;
+    relief->rows = 2;
+    relief->depth.assign(4, 0.5f);
+    relief->colour = {{0.8f, 0.1f, 0.1f}, {0.1f, 0.8f, 0.1f}, {0.1f, 0.1f, 0.8f}, {0.8f, 0.8f, 0.1f}};
+    scene::Panel panel;
+    panel.name = "board";
+    panel.sizeMetres = {2, 2};
+    panel.depthMetres = 0.1;
+    panel.toParent[3] = {0, 1.5, 0, 1};
+    panel.relief = relief;
+    scene.panels.push_back(panel);
+    return scene;
+}
+
+TEST_F(OpaqueSceneTest, PanelsShowTheirColoursWithTheFirstRowBelow) {
+    const scene::Scene scene = withPanel();
+    const scene::View view = test::viewFrom({0, 1.5, 4}, {0, 1.5, 0}, 160, 120);
+    const Pictures got = draw(scene, {}, view);
+    const auto strongest = [&](int x, int y) {
+        const glm::vec4& pixel = got.colour.at(x, y);
+        return pixel.r > pixel.g && pixel.r > pixel.b ? 'r' : pixel.g > pixel.b ? 'g' : 'b';
+    };
+    EXPECT_EQ(strongest(62, 78), 'r');  // lower left
+    EXPECT_EQ(strongest(98, 78), 'g');
+    EXPECT_EQ(strongest(62, 42), 'b');
+    EXPECT_GT(std::min(got.colour.at(98, 42).r, got.colour.at(98, 42).g), 2 * got.colour.at(98, 42).b);  // yellow
+    const glm::dvec3 ray = rayOf(view, 80, 60);
+    EXPECT_NEAR(got.depthAt(80, 60), depthOf(view, ray, -4 / ray.z), 1e-5);
+}
+
+TEST_F(OpaqueSceneTest, HiddenPanelsAreNotSeenButCastShadows) {
+    const scene::Scene scene = withPanel();
+    scene::Scene bare = scene;
+    bare.panels.clear();
+    const scene::View view = test::viewFrom({6, 5, 8}, {-0.7, 0, -0.7}, 160, 120);
+    OpaqueScene hidden(scene, device_, 160, 120, ScenePanels::hidden);
+    hidden.draw({}, view);
+    const pictures::Image with = readBack(hidden.colour());
+    const Pictures without = draw(bare, {}, view), flat = draw(scene, {}, view);
+    EXPECT_EQ(hidden.depth().readFloats(), without.depths);
+    EXPECT_NE(flat.depths, without.depths);
+    int darker = 0;
+    for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 160; ++x)
+            darker += brightness(with.at(x, y)) < 0.8f * brightness(without.colour.at(x, y)) ? 1 : 0;
+    EXPECT_GT(darker, 100);
+}
+
+TEST_F(OpaqueSceneTest, AVehiclesPanelGoesAlongWithIt) {
+    scene::Scene scene = withPanel();
+    scene.vehicle = test::boxVehicle();
+    scene.panels[0].parent = scene::Panel::Parent::vehicle;
+    scene.panels[0].toParent[3] = {1.5, 2.5, 0, 1};
+    for (const double x : {0.0, 37.0}) {
+        const scene::SceneState state = test::vehicleAt(scene, x, 2);
+        const scene::View view = test::viewFrom({x + 1.5, 2.5, 6}, {x + 1.5, 2.5, 2}, 160, 120);
+        const Pictures got = draw(scene, state, view);
+        EXPECT_GT(got.colour.at(62, 78).r, 2 * got.colour.at(62, 78).g) << x;
+        const glm::dvec3 ray = rayOf(view, 80, 60);
+        EXPECT_NEAR(got.depthAt(80, 60), depthOf(view, ray, -4 / ray.z), 1e-5) << x;
+    }
 }
 
 }  // namespace

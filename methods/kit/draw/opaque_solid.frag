@@ -4,6 +4,9 @@ layout(location = 1) in vec3 outwards;
 layout(location = 2) in vec3 diffuse;
 
 uniform float gloss;
+#ifdef PANEL
+layout(binding = 4) uniform sampler2D picture;  // `diffuse` is the place in it
+#endif
 
 layout(location = 0) out vec4 colour;
 
@@ -16,7 +19,12 @@ void main() {
     float facing = max(dot(normal, toSun.xyz), 0.0);
     float lit = facing > 0.0 ? sunShare(fromEye, normal, 2.5) : 0.0;
     vec3 around = mix(groundLight.rgb, ambient.rgb, 0.5 + 0.5 * normal.y);
-    vec3 body = diffuse * (sun.rgb * (facing * lit) + around);
+#ifdef PANEL
+    vec3 albedo = texture(picture, diffuse.xy).rgb;
+#else
+    vec3 albedo = diffuse;
+#endif
+    vec3 body = albedo * (sun.rgb * (facing * lit) + around);
 
     // Schlick: F = F0 + (1 − F0)(1 − cos θ)⁵, with F0 = 0.04 for lacquer and glass.
     float grazing = 1.0 - dot(normal, towardsEye);

@@ -1,5 +1,6 @@
 #include "methods/kit/draw/shadow_map.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dustbench::draw {
@@ -14,6 +15,15 @@ glm::dmat3 lightAxes(const glm::dvec3& toSun) {
 }
 
 }  // namespace
+
+std::map<std::string, std::string> shadowCasters(const scene::Scene& scene) {
+    std::map<std::string, std::string> result;
+    const bool panels = std::ranges::any_of(
+        scene.panels, [](const scene::Panel& panel) { return panel.parent == scene::Panel::Parent::world; });
+    if (scene.vehicle) result.emplace("VEHICLE", "1");
+    if (panels || !scene.solids.empty()) result.emplace("SOLIDS", "1");
+    return result;
+}
 
 ShadowMap::ShadowMap(gpu::Device& device, std::string_view label, int texels, double radiusMetres,
                      const glm::vec3& toSun)

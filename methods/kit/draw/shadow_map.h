@@ -4,13 +4,19 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <map>
+#include <string>
 #include <string_view>
 
+#include "methods/contract/scene.h"
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/gpu/framebuffer.h"
 #include "methods/kit/gpu/texture.h"
 
 namespace dustbench::draw {
+
+/// Definitions for shaders that include opaque_shadow.glsl: which maps the scene has.
+[[nodiscard]] std::map<std::string, std::string> shadowCasters(const scene::Scene& scene);
 
 class ShadowMap {
  public:

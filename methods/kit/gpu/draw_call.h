@@ -21,9 +21,9 @@ struct DrawState {
 
 enum class Primitives { triangles, triangleStrip, points, lines };
 
-void draw(const Program& program, const VertexArray& vertices, const DrawState& state, Primitives primitives,
-          int vertexCount, int instances = 1);
-void drawIndexed(const Program& program, const VertexArray& vertices, const DrawState& state, Primitives primitives,
-                 int indexCount, int instances = 1);
+DUSTBENCH_API void draw(const Program& program, const VertexArray& vertices, const DrawState& state,
+                        Primitives primitives, int vertexCount, int instances = 1);
+DUSTBENCH_API void drawIndexed(const Program& program, const VertexArray& vertices, const DrawState& state,
+                               Primitives primitives, int indexCount, int instances = 1);
 
 }  // namespace dustbench::gpu

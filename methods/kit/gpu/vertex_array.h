@@ -13,7 +13,7 @@ namespace dustbench::gpu {
 
 enum class Advance { perVertex, perInstance };
 
-class VertexArray {
+class DUSTBENCH_API VertexArray {
  public:
     VertexArray() = default;
     explicit VertexArray(Device& device);

@@ -1,0 +1,14 @@
+// The plate of a panel as a box of twelve triangles, from the vertex number alone.
+uniform mat4 panelToClip;
+uniform vec3 plate;  // half width, half height, depth; metres
+
+out vec3 place;  // in the panel's frame
+
+// Corners of a cube as one triangle strip: bit k of each word is the side of vertex k along x, y and z.
+const ivec3 strip = ivec3(0x287a, 0x02af, 0x31e3);
+
+void main() {
+    vec3 side = vec3(strip >> gl_VertexID & 1);
+    place = vec3((2.0 * side.xy - 1.0) * plate.xy, (side.z - 1.0) * plate.z);
+    gl_Position = panelToClip * vec4(place, 1.0);
+}

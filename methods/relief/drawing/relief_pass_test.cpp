@@ -1,0 +1,208 @@
+// The picture of a relief against the oracle, surface_hit.h, pixel by pixel.
+#include "methods/relief/drawing/relief_pass.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "methods/kit/draw/read_back.h"
+#include "methods/kit/draw/test_canvas.h"
+#include "methods/kit/maths/srgb.h"
+#include "methods/relief/drawing/scene_with_reliefs.h"
+#include "methods/relief/surface/surface_hit.h"
+
+namespace dustbench::relief {
+namespace {
+
+constexpr int width = 120, height = 90;
+
+/// Random hills, or needles: single texels that stand out of a plane above the bottom, which floats would meet or not.
+std::shared_ptr<const scene::Relief> reliefOf(int columns, int rows, bool needles, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> any(0, 1);
+    auto relief = std::make_shared<scene::Relief>();
+    relief->columns = columns;
+    relief->rows = rows;
+    for (int i = 0; i < columns * rows; ++i)
+        relief->depth.push_back(needles ? (any(random) < 0.03f ? 0.0f : 0.95f) : any(random));
+    relief->colour.assign(relief->depth.size(), glm::vec3(0.5f));
+    return relief;
+}
+
+struct Shown {
+    std::vector<float> depth;  ///< rows from the bottom
+    pictures::Image colour;
+};
+
+class ReliefPassTest : public testing::Test {
+ protected:
+    ReliefPassTest() {
+        scene_.lights.hazePerMetre = 0;
+        panel_.sizeMetres = {2, 1.5};
+        panel_.depthMetres = 0.3;
+        panel_.toParent = glm::rotate(glm::translate(glm::dmat4(1), {3, 1.5, -2}), 0.7, {0.2, 1, 0.1});
+        panel_.relief = reliefOf(37, 29, false, 4);
+    }
+
+    /// From a place in the panel's frame.
+    scene::View viewFrom(const glm::dvec3& eye, const glm::dvec3& target = {0, 0, -0.15}) const {
+        scene::View view;
+        view.width = width;
+        view.height = height;
+        view.camera.eye = glm::dvec3(panel_.toParent * glm::dvec4(eye, 1));
+        view.camera.target = glm::dvec3(panel_.toParent * glm::dvec4(target, 1));
+        view.camera.nearMetres = 0.01;
+        return view;
+    }
+
+    Shown show(const scene::View& view, const ReliefStyle& style) {
+        MemoryLedger ledger;
+        WornSurface surface(*panel_.relief, ledger);
+        const DepthPyramid pyramid(surface.depths(), ledger);
+        ReliefPass pass(device_, scene_, panel_, pyramid, style);
+        pass.upload(surface, pyramid, surface.takeChanged());
+        gpu::Texture far = gpu::Texture::make2D(device_, "far", gpu::Format::depth32F, width, height);
+        far.write(std::span<const float>(std::vector<float>(width * height, 0.0f)));
+        SceneWithReliefs target(device_, width, height);
+        target.begin(far);
+        pass.draw(view, panel_.toParent);
+        return {target.layer().sceneDepth().readFloats(), draw::readBack(target.layer().colour())};
+    }
+
+    /// Reversed depth of the first point of the ray through a pixel; 0: nothing there.
+    double expectedDepth(const DepthMap& map, const scene::View& view, int x, int y) const {
+        const glm::dmat4 toPanel = glm::inverse(panel_.toParent);
+        const glm::dvec3 eye(toPanel * glm::dvec4(view.camera.eye, 1));
+        const glm::dvec3 ray(view.rayDirection(x + 0.5, y + 0.5));
+        const glm::dvec3 way(toPanel * glm::dvec4(ray, 0));
+        const glm::dvec3 low(-panel_.sizeMetres / 2.0, -panel_.depthMetres), high(panel_.sizeMetres / 2.0, 0);
+        const glm::dvec3 a = (low - eye) / way, b = (high - eye) / way;
+        const glm::dvec3 near = glm::min(a, b), far = glm::max(a, b);
+        const double enter = std::max({near.x, near.y, near.z, 0.0}), leave = std::min({far.x, far.y, far.z});
+        if (enter >= leave) return 0;
+        const auto texels = [&](double t) {
+            const glm::dvec3 at = eye + t * way;
+            return glm::dvec3((at.x / panel_.sizeMetres.x + 0.5) * map.columns() - 0.5,
+                              (at.y / panel_.sizeMetres.y + 0.5) * map.rows() - 0.5, -at.z / panel_.depthMetres);
+        };
+        const auto share = firstHit(map, texels(enter), texels(leave));
+        if (!share) return 0;
+        const double distance = enter + *share * (leave - enter);
+        const glm::dvec3 axis = glm::normalize(view.camera.target - view.camera.eye);
+        return view.camera.nearMetres / (distance * glm::dot(axis, ray));
+    }
+
+    struct Compared {
+        int seen = 0, missed = 0, differ = 0;
+    };
+    Compared compare(const scene::View& view, const ReliefStyle& style) {
+        MemoryLedger ledger;
+        const DepthMap map(*panel_.relief, ledger);
+        const Shown shown = show(view, style);
+        Compared result;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const double expected = expectedDepth(map, view, x, y);
+                const double got =
+                    static_cast<double>(shown.depth[static_cast<std::size_t>((height - 1 - y) * width + x)]);
+                if (expected > 0) ++result.seen;
+                if (expected > 0 && got == 0) ++result.missed;
+                // A millimetre of three metres, and as much again for a ray that grazes a hill's top.
+                else if (std::abs(got - expected) > 1e-3 * std::max(got, expected))
+                    ++result.differ;
+            }
+        return result;
+    }
+
+    gpu::Device& device_ = draw::TestCanvas::device();
+    scene::Scene scene_;
+    scene::Panel panel_;
+};
+
+TEST_F(ReliefPassTest, TheSafeMarchShowsWhatTheOracleSeesFromAllSides) {
+    for (const bool needles : {false, true})
+        for (const glm::dvec3& eye :
+             {glm::dvec3(0, 0, 2), glm::dvec3(1.5, 0.4, 0.5), glm::dvec3(-2, 1, 0.15), glm::dvec3(0.3, -1.6, 0.05),
+              glm::dvec3(2.5, 0.1, -0.1), glm::dvec3(0.4, 0.2, -2), glm::dvec3(0.1, 0.05, 0.2)}) {
+            panel_.relief = reliefOf(37, 29, needles, 9);
+            const Compared found = compare(viewFrom(eye), {});
+            EXPECT_GT(found.seen, 300) << eye.x << ' ' << eye.y << ' ' << eye.z;
+            // Rays along an edge of plate or hill fall to either side in floats.
+            EXPECT_LE(found.missed + found.differ, found.seen / 100) << eye.x << ' ' << eye.y << ' ' << eye.z;
+        }
+}
+
+TEST_F(ReliefPassTest, ThePapersMarchMissesNeedlesThatTheSafeOneFinds) {
+    panel_.relief = reliefOf(64, 48, true, 2);
+    const scene::View grazing = viewFrom({1.6, 0.2, 0.12});
+    ReliefStyle paper;
+    paper.march = March::paper;
+    const Compared byPaper = compare(grazing, paper), bySafe = compare(grazing, {});
+    EXPECT_GT(byPaper.missed + byPaper.differ, 5 * (bySafe.missed + bySafe.differ + 1));
+}
+
+TEST_F(ReliefPassTest, ThePapersMarchConvergesToTheOracleWithItsSteps) {
+    const scene::View view = viewFrom({0.8, 0.3, 0.9});
+    int last = width * height;
+    for (const int steps : {8, 32, 512}) {
+        ReliefStyle style;
+        style.march = March::paper;
+        style.linearSteps = steps;
+        style.binarySteps = 12;
+        const Compared found = compare(view, style);
+        EXPECT_LT(found.missed + found.differ, last) << steps;
+        last = found.missed + found.differ;
+    }
+    EXPECT_LT(last, 60);
+}
+
+TEST_F(ReliefPassTest, AFlatReliefIsLitLikeAPlane) {
+    auto flat = std::make_shared<scene::Relief>();
+    flat->columns = flat->rows = 8;
+    flat->depth.assign(64, 0.5f);
+    flat->colour.assign(64, glm::vec3(0.5f));
+    panel_.relief = flat;
+    const glm::dvec3 normal(panel_.toParent[2]);
+    scene_.lights.toSun = glm::vec3(glm::normalize(normal + glm::dvec3(0, 0.3, 0)));
+    const Shown shown = show(viewFrom({0, 0, 2}, {0, 0, 0}), {});
+    const scene::Lights& lights = scene_.lights;
+    const float facing = glm::dot(lights.toSun, glm::vec3(normal));
+    const glm::vec3 ground = 0.52f * scene_.dustAlbedo * (lights.sun * std::max(lights.toSun.y, 0.0f) + lights.ambient);
+    const glm::vec3 around = glm::mix(ground, lights.ambient, 0.5f + 0.5f * static_cast<float>(normal.y));
+    const float albedo = maths::decodeSrgb(188.0f / 255);  // 0.5 as eight bits store it
+    const glm::vec3 expected = albedo * (lights.sun * facing + around);
+    const glm::vec4 got = shown.colour.at(width / 2, height / 2);
+    EXPECT_LT(glm::distance(glm::vec3(got), expected), 2e-3f);
+    EXPECT_EQ(got.a, 1.0f);
+}
+
+TEST_F(ReliefPassTest, ARidgeShadesTheGroundBehindIt) {
+    auto ridge = std::make_shared<scene::Relief>();
+    ridge->columns = 40;
+    ridge->rows = 4;
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 40; ++column) ridge->depth.push_back(column == 20 ? 0.0f : 1.0f);
+    ridge->colour.assign(160, glm::vec3(0.5f));
+    panel_.relief = ridge;
+    scene_.lights.toSun = glm::vec3(glm::normalize(glm::dmat3(panel_.toParent) * glm::dvec3(1, 0, 0.6)));
+    ReliefStyle unshaded;
+    unshaded.shadow = false;
+    const scene::View view = viewFrom({0, 0, 2});
+    const Shown with = show(view, {}), without = show(view, unshaded);
+    const auto darker = [&](double x) {
+        const glm::vec4 clip = view.worldToClip() * glm::vec4(panel_.toParent * glm::dvec4(x, 0, -0.3, 1));
+        const int column = static_cast<int>((clip.x / clip.w * 0.5f + 0.5f) * width);
+        return with.colour.at(column, height / 2).r < without.colour.at(column, height / 2).r - 0.05f;
+    };
+    EXPECT_TRUE(darker(-0.15));  // the ridge is 0.3 m high: its shadow is 0.5 m long
+    EXPECT_TRUE(darker(-0.35));
+    EXPECT_FALSE(darker(-0.7));
+    EXPECT_FALSE(darker(0.3));
+}
+
+}  // namespace
+}  // namespace dustbench::relief

@@ -1,0 +1,99 @@
+#include "methods/relief/living_relief.h"
+
+#include <cmath>
+
+namespace dustbench::relief {
+namespace {
+
+constexpr float marginMetres = 1e-3f;  // floats of a kilometre are exact to 6e-5 m; the exact test follows
+
+/// The distance of a point from the plane z = 0 of a pose.
+struct FacePlane {
+    explicit FacePlane(const glm::dmat4& pose)
+        : normal(pose[2]), offset(static_cast<float>(glm::dot(glm::dvec3(pose[2]), glm::dvec3(pose[3])))) {}
+
+    [[nodiscard]] float distance(float x, float y, float z) const {
+        return normal.x * x + normal.y * y + normal.z * z - offset;
+    }
+
+    glm::vec3 normal;
+    float offset;
+};
+
+}  // namespace
+
+LivingRelief::LivingRelief(const scene::Scene& scene, const scene::Panel& panel, const ReliefSettings& settings,
+                           gpu::Device& device, MemoryLedger& ledger)
+    : panel_(panel),
+      settings_(settings),
+      surface_(*panel.relief, ledger),
+      pyramid_(surface_.depths(), ledger),
+      particles_(panel, ledger),
+      picture_(device, scene, panel, pyramid_, settings.style) {}
+
+void LivingRelief::create(const Frame& frame, SerialSet& taken) {
+    toWorld_ = scene::panelToWorld(panel_, frame.state);
+    const glm::dmat4 before = toWorldBefore_.value_or(toWorld_);
+    toWorldBefore_ = toWorld_;
+    frame_ = PanelFrame(before, toWorld_, frame.stepSeconds);
+
+    const FacePlane planeBefore(before), planeNow(toWorld_);
+    const Puffs& dust = frame.dust;
+    const auto dt = static_cast<float>(frame.stepSeconds);
+    for (std::size_t i = 0; i < dust.x.size(); ++i) {
+        if (planeNow.distance(dust.x[i], dust.y[i], dust.z[i]) > marginMetres) continue;
+        const float earlier = planeBefore.distance(
+            dust.x[i] - dust.velocityX[i] * dt, dust.y[i] - dust.velocityY[i] * dt, dust.z[i] - dust.velocityZ[i] * dt);
+        if (earlier > -marginMetres) enter(dust, i, frame.stepSeconds, taken);
+    }
+}
+
+void LivingRelief::enter(const Puffs& dust, std::size_t i, double stepSeconds, SerialSet& taken) {
+    const glm::dvec3 velocity(dust.velocityX[i], dust.velocityY[i], dust.velocityZ[i]);
+    const glm::dvec3 place(dust.x[i], dust.y[i], dust.z[i]);
+    const glm::dvec3 from = frame_.toPanelBefore(place - velocity * stepSeconds);
+    const Moving now = frame_.toPanel({place, velocity});
+    if (!(from.z > 0 && now.place.z <= 0) || taken.contains(dust.serial[i])) return;
+    const glm::dvec3 entry = glm::mix(from, now.place, from.z / (from.z - now.place.z));
+    if (std::abs(entry.x) > panel_.sizeMetres.x / 2 || std::abs(entry.y) > panel_.sizeMetres.y / 2) return;
+    particles_.add({glm::vec3(entry.x, entry.y, 0), glm::vec3(now.velocity)}, {dust.radius[i], dust.opacity[i]},
+                   dust.serial[i]);
+    taken.insert(dust.serial[i]);
+}
+
+void LivingRelief::move(double stepSeconds) {
+    const glm::vec3 gravity(frame_.directionToPanel({0, -static_cast<double>(settings_.gravity), 0}));
+    particles_.step(surface_.depths(),
+                    {settings_.motion, gravity, static_cast<float>(stepSeconds), settings_.maximumAgeSteps});
+}
+
+void LivingRelief::age() {
+    impacts_.clear();
+    for (const SurfaceHit& hit : particles_.hits())
+        impacts_.push_back(impactOf(hit, settings_.ageing, particles_.texels(), panel_.depthMetres));
+    hits_ += impacts_.size();
+    if (settings_.search == Search::gather)
+        surface_.gather(impacts_);
+    else
+        surface_.scatter(impacts_);
+    if (settings_.ageing.model == AgeingModel::deposit)
+        surface_.layOn();
+    else
+        surface_.takeOff();
+}
+
+void LivingRelief::upload() {
+    const TexelRectangle changed = surface_.takeChanged();
+    pyramid_.update(surface_.depths(), changed);
+    picture_.upload(surface_, pyramid_, changed);
+}
+
+void LivingRelief::addTo(maths::Hash& hash) const {
+    for (const std::span<const std::uint32_t> column :
+         {surface_.depths().depths(), surface_.hits(), surface_.worn(), surface_.laid()})
+        hash.add(column);
+    hash.add(particles_.places());
+    hash.add(particles_.velocities());
+}
+
+}  // namespace dustbench::relief

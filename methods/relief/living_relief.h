@@ -1,0 +1,75 @@
+// One panel with its relief: what enters it, moves in it, hits it and wears it.
+//
+// Units: m, m/s. Owns: surface, particles and their picture. Threads: the OpenGL thread; steps use the current oneTBB
+// arena. Source: Bergeron, 3 (create, move, collide, age the surface, draw it).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "methods/contract/method.h"
+#include "methods/kit/maths/hash.h"
+#include "methods/kit/memory/memory_ledger.h"
+#include "methods/relief/ageing.h"
+#include "methods/relief/drawing/relief_pass.h"
+#include "methods/relief/particles/panel_frame.h"
+#include "methods/relief/particles/relief_particles.h"
+#include "methods/relief/particles/serial_set.h"
+#include "methods/relief/surface/depth_pyramid.h"
+#include "methods/relief/surface/worn_surface.h"
+
+namespace dustbench::relief {
+
+/// How a surface finds what hit it: each texel looks at each hit, or each hit writes its texels.
+enum class Search { gather, scatter };
+inline constexpr Choices<Search> searches{{"gather", Search::gather}, {"scatter", Search::scatter}};
+
+struct ReliefSettings {
+    MotionLaw motion = MotionLaw::fixed;
+    float gravity = 9.8f;  ///< m/s²
+    float maximumAgeSteps = 600;
+    AgeingSettings ageing;
+    Search search = Search::scatter;
+    ReliefStyle style;
+};
+
+class LivingRelief {
+ public:
+    /// `scene` and the panel in it outlive this.
+    LivingRelief(const scene::Scene& scene, const scene::Panel& panel, const ReliefSettings& settings,
+                 gpu::Device& device, MemoryLedger& ledger);
+
+    /// Takes the dust that went through the face in this step and is not in `taken`, and adds it there.
+    void create(const Frame& frame, SerialSet& taken);
+    void move(double stepSeconds);
+    void age();
+    void upload();
+
+    void draw(const scene::View& view) { picture_.draw(view, toWorld_); }
+
+    [[nodiscard]] const WornSurface& surface() const { return surface_; }
+    [[nodiscard]] const ReliefParticles& particles() const { return particles_; }
+    [[nodiscard]] const glm::dmat4& toWorld() const { return toWorld_; }
+    [[nodiscard]] std::uint64_t hits() const { return hits_; }
+    [[nodiscard]] std::size_t gpuBytes() const { return picture_.gpuBytes(); }
+    void addTo(maths::Hash& hash) const;
+
+ private:
+    void enter(const Puffs& dust, std::size_t i, double stepSeconds, SerialSet& taken);
+
+    const scene::Panel& panel_;
+    ReliefSettings settings_;
+    WornSurface surface_;
+    DepthPyramid pyramid_;
+    ReliefParticles particles_;
+    ReliefPass picture_;
+    glm::dmat4 toWorld_{1};
+    std::optional<glm::dmat4> toWorldBefore_;
+    PanelFrame frame_;
+    std::vector<Impact> impacts_;
+    std::uint64_t hits_ = 0;
+};
+
+}  // namespace dustbench::relief

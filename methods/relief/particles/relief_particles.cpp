@@ -1,0 +1,98 @@
+#include "methods/relief/particles/relief_particles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "methods/kit/parallel/for_each_block.h"
+#include "methods/relief/surface/surface_hit.h"
+
+namespace dustbench::relief {
+namespace {
+
+constexpr std::size_t blockSize = 4096;
+
+/// The share of the way at which it leaves the plate: by a rim or by the face. 1 or more: it does not.
+double exitShare(const glm::dvec3& from, const glm::dvec3& way, const glm::dvec2& halfSize) {
+    double share = HUGE_VAL;
+    for (int axis = 0; axis < 2; ++axis)
+        if (way[axis] != 0)
+            share = std::min(share, (std::copysign(halfSize[axis], way[axis]) - from[axis]) / way[axis]);
+    if (way.z > 0) share = std::min(share, -from.z / way.z);
+    return std::max(share, 0.0);
+}
+
+}  // namespace
+
+TexelFrame::TexelFrame(const scene::Panel& panel)
+    : scale_(panel.relief->columns / panel.sizeMetres.x, panel.relief->rows / panel.sizeMetres.y,
+             -1 / panel.depthMetres),
+      offset_(0.5 * panel.relief->columns - 0.5, 0.5 * panel.relief->rows - 0.5, 0) {}
+
+glm::dvec3 TexelFrame::normal(const glm::dvec2& slope) const {
+    return glm::normalize(glm::dvec3(-slope.x * scale_.x / scale_.z, -slope.y * scale_.y / scale_.z, 1));
+}
+
+ReliefParticles::ReliefParticles(const scene::Panel& panel, MemoryLedger& ledger)
+    : halfSize_(panel.sizeMetres / 2.0),
+      texels_(panel),
+      places_(ledger.account("relief particles")),
+      velocities_(ledger.account("relief particles")),
+      looks_(ledger.account("relief particles")),
+      serials_(ledger.account("relief particles")),
+      fates_(ledger.account("relief particles")),
+      hits_(ledger.account("relief particle hits")) {}
+
+void ReliefParticles::add(const Motion& motion, const ParticleLook& look, std::uint64_t serial) {
+    places_.emplace_back(motion.place, 0.0f);
+    velocities_.emplace_back(motion.velocity, 0.0f);
+    looks_.push_back(look);
+    serials_.push_back(serial);
+}
+
+ReliefParticles::Fate ReliefParticles::advance(std::size_t i, const DepthMap& surface, const StepSettings& settings) {
+    glm::vec4& place = places_[i];
+    glm::vec4& velocity = velocities_[i];
+    place.w += 1;
+    const glm::dvec3 from(place);
+    const Motion now =
+        moved(settings.law, {glm::vec3(place), glm::vec3(velocity)}, settings.gravity, place.w, settings.stepSeconds);
+    const glm::dvec3 way = glm::dvec3(now.place) - from;
+    const double exit = exitShare(from, way, halfSize_);
+    const double within = std::min(exit, 1.0);
+    velocity = glm::vec4(now.velocity, 0);
+    if (!std::isfinite(way.x + way.y + way.z)) return gone;
+    const glm::dvec3 start = texels_.toTexels(from), end = texels_.toTexels(from + within * way);
+    if (const auto share = firstHit(surface, start, end)) {
+        place = glm::vec4(glm::vec3(from + *share * within * way), place.w);
+        return hit;
+    }
+    place = glm::vec4(now.place, place.w);
+    return exit < 1 || place.w >= settings.maximumAgeSteps ? gone : lives;
+}
+
+void ReliefParticles::step(const DepthMap& surface, const StepSettings& settings) {
+    fates_.resize(size());
+    parallel::forEachBlock(size(), blockSize, [&](std::size_t first, std::size_t count) {
+        for (std::size_t i = first; i < first + count; ++i) fates_[i] = advance(i, surface, settings);
+    });
+    hits_.clear();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < fates_.size(); ++i) {
+        if (fates_[i] == hit) {
+            const glm::dvec3 texels = texels_.toTexels(glm::dvec3(places_[i]));
+            hits_.push_back({glm::vec3(texels), glm::vec3(velocities_[i]),
+                             glm::vec3(texels_.normal(surface.slopeAt(texels.x, texels.y))), looks_[i], serials_[i]});
+        }
+        if (fates_[i] != lives) continue;
+        places_[kept] = places_[i];
+        velocities_[kept] = velocities_[i];
+        looks_[kept] = looks_[i];
+        serials_[kept++] = serials_[i];
+    }
+    places_.resize(kept);
+    velocities_.resize(kept);
+    looks_.resize(kept);
+    serials_.resize(kept);
+}
+
+}  // namespace dustbench::relief

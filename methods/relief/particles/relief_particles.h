@@ -1,0 +1,87 @@
+// The particles within one relief: moved, collided with its surface, aged.
+//
+// A particle lives from its entry through the face until it hits the surface, leaves the plate or reaches its maximum
+// age. Columns are those of the paper's two textures: place and age, velocity.
+//
+// Units: m, m/s; ages in steps. Frame: the panel's. Owns: its columns, booked on a ledger.
+// Threads: `step` uses the current oneTBB arena; results do not depend on the number of threads.
+// Source: Bergeron, 3.1 to 3.3.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "methods/contract/scene.h"
+#include "methods/relief/particles/relief_motion.h"
+#include "methods/relief/surface/depth_map.h"
+
+namespace dustbench::relief {
+
+/// From the panel's frame to (u, v, depth) of its relief.
+class TexelFrame {
+ public:
+    explicit TexelFrame(const scene::Panel& panel);
+
+    [[nodiscard]] glm::dvec3 toTexels(const glm::dvec3& place) const { return place * scale_ + offset_; }
+    [[nodiscard]] glm::dvec3 toMetres(const glm::dvec3& texels) const { return (texels - offset_) / scale_; }
+    /// Unit normal of the surface, in the panel's frame, for its slope in texels.
+    [[nodiscard]] glm::dvec3 normal(const glm::dvec2& slope) const;
+    [[nodiscard]] double texelAreaSquareMetres() const { return 1 / (scale_.x * scale_.y); }
+    [[nodiscard]] double texelsPerMetre() const { return scale_.x; }
+
+ private:
+    glm::dvec3 scale_, offset_;
+};
+
+struct ParticleLook {
+    float radius = 0, opacity = 0;
+};
+
+/// The end of a particle on the surface.
+struct SurfaceHit {
+    glm::vec3 texels;    ///< u, v, depth
+    glm::vec3 velocity;  ///< m/s
+    glm::vec3 normal;    ///< of the surface, unit
+    ParticleLook look;
+    std::uint64_t serial;
+};
+
+struct StepSettings {
+    MotionLaw law = MotionLaw::fixed;
+    glm::vec3 gravity{0, -9.8f, 0};  ///< m/s²
+    float stepSeconds = 1.0f / 60;
+    float maximumAgeSteps = 600;
+};
+
+class ReliefParticles {
+ public:
+    ReliefParticles(const scene::Panel& panel, MemoryLedger& ledger);
+
+    /// A newborn at its entry; it moves from the next step on.
+    void add(const Motion& motion, const ParticleLook& look, std::uint64_t serial);
+    /// Moves all, collides each along its whole way and removes what has ended. Hits are in the order of the particles.
+    void step(const DepthMap& surface, const StepSettings& settings);
+
+    [[nodiscard]] std::span<const SurfaceHit> hits() const { return hits_; }  ///< of the last step
+    [[nodiscard]] std::size_t size() const { return places_.size(); }
+    [[nodiscard]] std::span<const glm::vec4> places() const { return places_; }          ///< w: age in steps
+    [[nodiscard]] std::span<const glm::vec4> velocities() const { return velocities_; }  ///< w: not used
+    [[nodiscard]] std::span<const ParticleLook> looks() const { return looks_; }
+    [[nodiscard]] const TexelFrame& texels() const { return texels_; }
+
+ private:
+    enum Fate : std::uint8_t { lives, hit, gone };
+    [[nodiscard]] Fate advance(std::size_t i, const DepthMap& surface, const StepSettings& settings);
+
+    glm::dvec2 halfSize_;
+    TexelFrame texels_;
+    LedgerVector<glm::vec4> places_, velocities_;
+    LedgerVector<ParticleLook> looks_;
+    LedgerVector<std::uint64_t> serials_;
+    LedgerVector<std::uint8_t> fates_;
+    LedgerVector<SurfaceHit> hits_;
+};
+
+}  // namespace dustbench::relief

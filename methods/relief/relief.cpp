@@ -1,0 +1,202 @@
+#include "methods/relief/relief.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "methods/contract/errors.h"
+#include "methods/contract/volume.h"
+
+namespace dustbench::relief {
+namespace {
+
+constexpr float grainOpacity = 0.95f;
+
+double shareOf(std::uint64_t part, std::uint64_t whole) {
+    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+}
+
+}  // namespace
+
+Relief::Relief(const Settings& settings) : settings_(settings) {}
+
+void Relief::prepare(const scene::Scene& scene, const RunSetup&, gpu::Device& device) {
+    device_ = &device;
+    for (const scene::Panel& panel : scene.panels)
+        reliefs_.emplace_back(scene, panel, settings_.relief, device, ledger_);
+    dust_.emplace(device, draw::BillboardStyle{});
+    grains_.emplace(device, draw::BillboardStyle{});
+}
+
+void Relief::update(const Frame& frame) {
+    {
+        const auto timing = frame.clock.measure(Stage::simulate);
+        simulate(frame);
+    }
+    const auto timing = frame.clock.measure(Stage::upload);
+    for (LivingRelief& relief : reliefs_) relief.upload();
+    uploadDust(frame.dust, glm::vec3(frame.view.camera.eye));
+    uploadGrains();
+}
+
+void Relief::simulate(const Frame& frame) {
+    {
+        const auto detail = frame.clock.measureDetail("create");
+        if (!frame.dust.serial.empty()) taken_.forgetBelow(*std::ranges::min_element(frame.dust.serial));
+        for (LivingRelief& relief : reliefs_) relief.create(frame, taken_);
+    }
+    {
+        const auto detail = frame.clock.measureDetail("move and collide");
+        for (LivingRelief& relief : reliefs_) relief.move(frame.stepSeconds);
+    }
+    const auto detail = frame.clock.measureDetail("age");
+    for (LivingRelief& relief : reliefs_) relief.age();
+}
+
+/// What went into a relief is not drawn outside of it.
+void Relief::uploadDust(const Puffs& dust, const glm::vec3& eye) {
+    const auto order = sort_.farToNear(draw::SortKind::radix, {dust.x, dust.y, dust.z}, eye);
+    const auto seen = [&](std::uint32_t i) { return !taken_.contains(dust.serial[i]); };
+    const auto count = static_cast<std::size_t>(std::ranges::count_if(order, seen));
+    const draw::InstanceLayout layout = dust_->layout(!dust.uniformColour);
+    float* value = dust_->map(count, layout).data();
+    for (const std::uint32_t i : order) {
+        if (!seen(i)) continue;
+        for (const float each : {dust.x[i], dust.y[i], dust.z[i], dust.radius[i], dust.opacity[i]}) *value++ = each;
+        if (layout.coloured)
+            for (const float each : {dust.red[i], dust.green[i], dust.blue[i]}) *value++ = each;
+    }
+    dust_->unmap();
+}
+
+void Relief::uploadGrains() {
+    std::size_t count = 0;
+    for (const LivingRelief& relief : reliefs_) count += relief.particles().size();
+    float* value = grains_->map(count, grains_->layout(false)).data();
+    for (const LivingRelief& relief : reliefs_)
+        for (const glm::vec4& place : relief.particles().places()) {
+            const glm::vec3 world(relief.toWorld() * glm::dvec4(glm::dvec3(place), 1));
+            for (const float each : {world.x, world.y, world.z, settings_.grainMetres, grainOpacity}) *value++ = each;
+        }
+    grains_->unmap();
+}
+
+void Relief::draw(const Frame& frame, gpu::Layer& layer) {
+    if (!target_ || target_->width() != layer.width() || target_->height() != layer.height())
+        target_.emplace(*device_, layer.width(), layer.height());
+    target_->begin(layer.sceneDepth());
+    {
+        const auto detail = frame.clock.measureDetail("reliefs");
+        for (LivingRelief& relief : reliefs_) relief.draw(frame.view);
+    }
+    {
+        const auto detail = frame.clock.measureDetail("particles");
+        grains_->draw(frame.view, frame.dust.colourOfAll, target_->layer());
+        dust_->draw(frame.view, frame.dust.colourOfAll, target_->layer());
+    }
+    target_->copyTo(layer);
+}
+
+void Relief::volume(const Frame& frame, VolumeVisitor& visitor) const {
+    visitor.puffs(frame.dust);
+}
+
+void Relief::report(const Frame&, Facts& facts) const {
+    std::uint64_t hits = 0, initial = 0, takenOff = 0, laidOn = 0, present = 0;
+    for (const LivingRelief& relief : reliefs_) {
+        hits += relief.hits();
+        initial += relief.surface().initialVolume();
+        takenOff += relief.surface().takenOffVolume();
+        laidOn += relief.surface().laidOnVolume();
+    }
+    facts.tell("hits", static_cast<std::int64_t>(hits));
+    facts.tell("worn_share", shareOf(takenOff, initial));
+    if (!facts.wants("mass_error")) return;
+    for (const LivingRelief& relief : reliefs_) present += relief.surface().presentVolume();
+    const std::uint64_t expected = initial - takenOff + laidOn;
+    facts.tell("mass_error", shareOf(std::max(present, expected) - std::min(present, expected), initial));
+}
+
+MemoryReport Relief::memory() const {
+    MemoryReport report;
+    for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
+    std::size_t reliefs = 0;
+    for (const LivingRelief& relief : reliefs_) reliefs += relief.gpuBytes();
+    report.push_back({"reliefs", 0, reliefs});
+    if (target_) report.push_back({"picture", 0, target_->gpuBytes()});
+    if (dust_) report.push_back({"billboards", 0, dust_->gpuBytes() + grains_->gpuBytes()});
+    return report;
+}
+
+std::int64_t Relief::primitives() const {
+    return dust_ ? static_cast<std::int64_t>(dust_->count() + grains_->count()) : 0;
+}
+
+std::optional<std::uint64_t> Relief::stateHash() const {
+    maths::Hash hash;
+    for (const LivingRelief& relief : reliefs_) relief.addTo(hash);
+    return hash.value();
+}
+
+MethodInfo describe() {
+    MethodInfo info;
+    info.title = "Reliefs worn by dust";
+    info.summary =
+        "Dust that hits the scene's panels moves within their reliefs, hits their surface and wears it away.";
+    info.source = "Bergeron";
+    info.drawsPanels = true;
+    info.parameters
+        .choice("motion", MotionLaw::fixed, motionLaws,
+                "paper: displacement over the whole age is added in each step, so that it compounds; fixed: over the "
+                "step")
+        .choice("ageing", AgeingModel::crater, ageingModels,
+                "what a hit does: paper: the texel falls to the bottom and turns white; scalar: it falls by `scalar`; "
+                "crater: a pit whose volume follows from energy and angle; deposit: the particle stays")
+        .choice("search", Search::scatter, searches,
+                "gather: each texel looks at each hit, as in the paper; scatter: each hit writes its texels; the same "
+                "result")
+        .choice("march", March::safe, marches,
+                "paper: linear, then binary steps, which may miss thin things; safe: misses nothing")
+        .integer("linear_steps", 15, 1, 1000, "", "of march=paper")
+        .integer("binary_steps", 5, 0, 30, "", "of march=paper")
+        .boolean("shadow", true, "let the relief throw shadows on itself")
+        .real("scalar", 0.1, 0, 1, "", "share of the depth by which a hit lowers a texel under ageing=scalar")
+        .real("mass_kilograms", 0.05, 0, 1000, "kg", "of a particle")
+        .real("hardness", 1e4, 1, 1e12, "J/m³", "energy that breaks off a volume under ageing=crater")
+        .real("density", 1500, 1, 1e5, "kg/m³", "of what is laid on under ageing=deposit")
+        .real("gravity", 9.8, 0, 1000, "m/s²", "within the relief")
+        .integer("maximum_age", 600, 1, 1'000'000, "steps", "after which a particle in the relief ends")
+        .real("grain_metres", 0.006, 0.0001, 1, "m", "radius at which a particle is drawn within the relief");
+    info.facts = {
+        {"hits", "hits", FactOver::lastFrame, "particles that hit the surface of a relief since the start"},
+        {"worn_share", "share", FactOver::lastFrame, "volume taken off the reliefs, of their volume at the start"},
+        {"mass_error", "share", FactOver::lastFrame,
+         "difference of the reliefs' volume from what was there, less what was taken off, plus what was laid on; of "
+         "the "
+         "volume at the start"}};
+    info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
+        Settings settings;
+        ReliefSettings& relief = settings.relief;
+        relief.motion = values.choice("motion", motionLaws);
+        relief.ageing.model = values.choice("ageing", ageingModels);
+        relief.ageing.scalar = values.real("scalar");
+        relief.ageing.massKilograms = values.real("mass_kilograms");
+        relief.ageing.hardnessJoulesPerCubicMetre = values.real("hardness");
+        relief.ageing.densityKilogramsPerCubicMetre = values.real("density");
+        relief.search = values.choice("search", searches);
+        relief.style.march = values.choice("march", marches);
+        relief.style.linearSteps = static_cast<int>(values.integer("linear_steps"));
+        relief.style.binarySteps = static_cast<int>(values.integer("binary_steps"));
+        relief.style.shadow = values.boolean("shadow");
+        relief.style.whiteHits = relief.ageing.model == AgeingModel::paper;
+        relief.gravity = static_cast<float>(values.real("gravity"));
+        relief.maximumAgeSteps = static_cast<float>(values.integer("maximum_age"));
+        settings.grainMetres = static_cast<float>(values.real("grain_metres"));
+        return std::make_unique<Relief>(settings);
+    };
+    info.cannotTake = [](const scene::Scene& scene) {
+        return scene.panels.empty() ? std::string("needs a scene with panels, such as relief_wall") : std::string();
+    };
+    return info;
+}
+
+}  // namespace dustbench::relief

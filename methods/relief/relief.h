@@ -1,0 +1,57 @@
+// Reliefs that dust wears away: particles enter a panel through its face, move within it, hit its surface and age it.
+//
+// Source: Bergeron. Departs: particles come from the shared dust, and are seen within the relief; both stood there as
+// future work.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "methods/contract/method.h"
+#include "methods/kit/draw/billboards.h"
+#include "methods/kit/draw/depth_sort.h"
+#include "methods/relief/drawing/scene_with_reliefs.h"
+#include "methods/relief/living_relief.h"
+
+namespace dustbench::relief {
+
+struct Settings {
+    ReliefSettings relief;
+    float grainMetres = 0.006f;  ///< radius at which a particle is drawn within a relief
+};
+
+class Relief final : public Method {
+ public:
+    explicit Relief(const Settings& settings);
+
+    void prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) override;
+    void update(const Frame& frame) override;
+    void draw(const Frame& frame, gpu::Layer& layer) override;
+
+    void volume(const Frame& frame, VolumeVisitor& visitor) const override;
+    void report(const Frame& frame, Facts& facts) const override;
+    [[nodiscard]] MemoryReport memory() const override;
+    [[nodiscard]] std::int64_t primitives() const override;
+    [[nodiscard]] std::optional<std::uint64_t> stateHash() const override;
+    [[nodiscard]] bool wantsPreroll() const override { return true; }
+
+ private:
+    void simulate(const Frame& frame);
+    void uploadDust(const Puffs& dust, const glm::vec3& eye);
+    void uploadGrains();
+
+    Settings settings_;
+    MemoryLedger ledger_;
+    SerialSet taken_{ledger_};
+    draw::DepthSort sort_{ledger_};
+    std::deque<LivingRelief> reliefs_;
+    std::optional<SceneWithReliefs> target_;
+    std::optional<draw::Billboards> dust_, grains_;
+    gpu::Device* device_ = nullptr;
+};
+
+[[nodiscard]] MethodInfo describe();
+
+}  // namespace dustbench::relief

@@ -1,0 +1,173 @@
+// The whole method: dust that flies at a panel.
+#include "methods/relief/relief.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+
+#include "methods/kit/draw/read_back.h"
+#include "methods/kit/draw/test_canvas.h"
+#include "methods/kit/particles/particle_store.h"
+
+namespace dustbench::relief {
+namespace {
+
+constexpr int width = 96, height = 72;
+constexpr double dt = 1.0 / 60;
+
+/// A wall of 4 m by 3 m at z = 0 that looks towards +z.
+scene::Scene wallScene(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> any(0, 1);
+    auto relief = std::make_shared<scene::Relief>();
+    relief->columns = 64;
+    relief->rows = 48;
+    for (int i = 0; i < 64 * 48; ++i) relief->depth.push_back(any(random));
+    relief->colour.assign(relief->depth.size(), glm::vec3(0.1f, 0.5f, 0.1f));
+    scene::Panel panel;
+    panel.name = "wall";
+    panel.sizeMetres = {4, 3};
+    panel.depthMetres = 0.1;
+    panel.relief = relief;
+    scene::Scene scene;
+    scene.panels.push_back(panel);
+    return scene;
+}
+
+/// Dust that starts before the wall and flies at it, each with its own velocity; it goes on behind, as the shared dust
+/// does.
+class DustRain {
+ public:
+    DustRain(int count, unsigned seed) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<float> any(-1, 1);
+        store_.resize(static_cast<std::size_t>(count));
+        for (std::size_t i = 0; i < store_.size(); ++i) {
+            store_.serial[i] = i;
+            store_.x[i] = 3 * any(random), store_.y[i] = 2 * any(random), store_.z[i] = 0.1f + 0.1f * (any(random) + 1);
+            store_.velocityX[i] = any(random), store_.velocityY[i] = any(random);
+            store_.velocityZ[i] = -2 - any(random);
+            store_.age[i] = 1, store_.lifetime[i] = 10, store_.radius[i] = 0.05f, store_.opacity[i] = 0.5f;
+        }
+    }
+    void step() {
+        for (std::size_t i = 0; i < store_.size(); ++i) {
+            store_.x[i] += store_.velocityX[i] * static_cast<float>(dt);
+            store_.y[i] += store_.velocityY[i] * static_cast<float>(dt);
+            store_.z[i] += store_.velocityZ[i] * static_cast<float>(dt);
+        }
+    }
+    /// Particles that went through the wall's face.
+    [[nodiscard]] int through() const {
+        int count = 0;
+        for (std::size_t i = 0; i < store_.size(); ++i) {
+            const float t = store_.z[i] / store_.velocityZ[i];
+            const float x = store_.x[i] - t * store_.velocityX[i], y = store_.y[i] - t * store_.velocityY[i];
+            count += store_.z[i] <= 0 && std::abs(x) <= 2 && std::abs(y) <= 1.5f ? 1 : 0;
+        }
+        return count;
+    }
+    [[nodiscard]] Puffs puffs() const { return store_; }
+
+ private:
+    MemoryLedger ledger_;
+    particles::ParticleStore store_{ledger_};
+};
+
+class ReliefTest : public testing::Test {
+ protected:
+    struct Outcome {
+        std::int64_t hits;
+        double worn, massError;
+        std::uint64_t hash;
+        std::int64_t primitives;
+        pictures::Image picture;
+    };
+
+    Outcome run(const std::map<std::string, std::string>& parameters, int steps = 40, unsigned seed = 1) {
+        const MethodInfo info = describe();
+        ParameterValues values(info.parameters);
+        for (const auto& [name, value] : parameters) values.set(name, value);
+        const auto method = info.create(values);
+        const scene::Scene scene = wallScene(seed);
+        method->prepare(scene, {}, draw::TestCanvas::device());
+        draw::TestCanvas canvas(width, height, {0.4, 0.3, 4}, {-0.1, -0.1, -1});
+        DustRain rain(800, seed);
+        const scene::SceneState state;
+        const StageClock untimed;
+        const auto frame = [&](int index) { return Frame{index, dt, state, rain.puffs(), canvas.view, untimed}; };
+        for (int index = 0; index < steps; ++index) {
+            rain.step();
+            method->update(frame(index));
+        }
+        through_ = rain.through();
+        Facts facts(info.facts, FactOver::lastFrame);
+        method->report(frame(steps), facts);
+        const auto picture = canvas.picture([&](gpu::Layer& layer) { method->draw(frame(steps), layer); });
+        return {std::get<std::int64_t>(*facts.value("hits")),
+                std::get<double>(*facts.value("worn_share")),
+                std::get<double>(*facts.value("mass_error")),
+                *method->stateHash(),
+                method->primitives(),
+                picture};
+    }
+
+    int through_ = 0;
+};
+
+TEST_F(ReliefTest, EachParticleThatEntersHitsAndNoneTwice) {
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        const Outcome outcome = run({{"ageing", "scalar"}, {"scalar", "0"}}, 60, seed);
+        EXPECT_GT(through_, 200);
+        // Those within centimetres of the rim may leave by it.
+        EXPECT_LE(outcome.hits, through_);
+        EXPECT_GE(outcome.hits, through_ * 97 / 100);
+        EXPECT_EQ(outcome.primitives, 800 - through_);  // what went in is not drawn behind the wall
+    }
+}
+
+TEST_F(ReliefTest, HitsWearTheWallAndKeepTheMass) {
+    for (const char* model : {"paper", "scalar", "crater"}) {
+        const Outcome outcome = run({{"ageing", model}});
+        EXPECT_GT(outcome.worn, 0) << model;
+        EXPECT_LT(outcome.massError, 1e-6) << model;
+    }
+    const Outcome laid = run({{"ageing", "deposit"}});
+    EXPECT_EQ(laid.worn, 0);
+    EXPECT_GT(laid.hits, 0);
+    EXPECT_LT(laid.massError, 1e-6);
+}
+
+TEST_F(ReliefTest, GatherAndScatterEndInTheSameState) {
+    for (const char* model : {"paper", "crater", "deposit"})
+        EXPECT_EQ(run({{"ageing", model}, {"search", "gather"}}, 12).hash,
+                  run({{"ageing", model}, {"search", "scatter"}}, 12).hash)
+            << model;
+    EXPECT_NE(run({{"ageing", "crater"}}, 12).hash, run({{"ageing", "deposit"}}, 12).hash);
+}
+
+TEST_F(ReliefTest, WornAndFreshWallsLookDifferent) {
+    const Outcome fresh = run({{"ageing", "scalar"}, {"scalar", "0"}}), worn = run({{"ageing", "paper"}});
+    int different = 0, opaque = 0;
+    for (std::size_t i = 0; i < fresh.picture.pixels.size(); ++i) {
+        opaque += worn.picture.pixels[i].a == 1.0f ? 1 : 0;
+        different += glm::distance(glm::vec3(fresh.picture.pixels[i]), glm::vec3(worn.picture.pixels[i])) > 0.1f;
+    }
+    EXPECT_GT(opaque, width * height / 3);
+    EXPECT_GT(different, 50);
+}
+
+TEST(ReliefMethod, NeedsAPanel) {
+    const MethodInfo info = describe();
+    EXPECT_TRUE(info.drawsPanels);
+    EXPECT_NE(info.cannotTake(scene::Scene{}), "");
+    EXPECT_EQ(info.cannotTake(wallScene(1)), "");
+}
+
+}  // namespace
+}  // namespace dustbench::relief

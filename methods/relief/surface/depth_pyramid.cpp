@@ -1,0 +1,48 @@
+#include "methods/relief/surface/depth_pyramid.h"
+
+#include <algorithm>
+
+namespace dustbench::relief {
+
+DepthPyramid::DepthPyramid(const DepthMap& map, MemoryLedger& ledger) : blocks_(ledger.account("relief pyramid")) {
+    std::size_t offset = 0;
+    for (int columns = map.columns() + 1, rows = map.rows() + 1;; columns = (columns + 1) / 2, rows = (rows + 1) / 2) {
+        levels_.push_back({offset, columns, rows});
+        offset += static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+        if (columns == 1 && rows == 1) break;
+    }
+    blocks_.resize(offset);
+    update(map, {0, 0, map.columns(), map.rows()});
+}
+
+void DepthPyramid::update(const DepthMap& map, const TexelRectangle& changed) {
+    if (changed.empty()) return;
+    const Level& finest = levels_.front();
+    TexelRectangle blocks{changed.firstColumn, changed.firstRow, changed.endColumn + 1, changed.endRow + 1};
+    for (int row = blocks.firstRow; row < blocks.endRow; ++row)
+        for (int column = blocks.firstColumn; column < blocks.endColumn; ++column)
+            blocks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(finest.columns) +
+                    static_cast<std::size_t>(column)] =
+                static_cast<float>(std::min({map.at(column - 1, row - 1), map.at(column, row - 1),
+                                             map.at(column - 1, row), map.at(column, row)}));
+    for (std::size_t k = 1; k < levels_.size(); ++k) {
+        blocks = {blocks.firstColumn / 2, blocks.firstRow / 2, (blocks.endColumn + 1) / 2, (blocks.endRow + 1) / 2};
+        updateLevel(levels_[k - 1], levels_[k], blocks);
+    }
+}
+
+void DepthPyramid::updateLevel(const Level& finer, const Level& level, const TexelRectangle& blocks) {
+    const auto at = [&](int column, int row) {
+        const int i = std::min(column, finer.columns - 1), j = std::min(row, finer.rows - 1);
+        return blocks_[finer.offset + static_cast<std::size_t>(j) * static_cast<std::size_t>(finer.columns) +
+                       static_cast<std::size_t>(i)];
+    };
+    for (int row = blocks.firstRow; row < blocks.endRow; ++row)
+        for (int column = blocks.firstColumn; column < blocks.endColumn; ++column)
+            blocks_[level.offset + static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
+                    static_cast<std::size_t>(column)] =
+                std::min({at(2 * column, 2 * row), at(2 * column + 1, 2 * row), at(2 * column, 2 * row + 1),
+                          at(2 * column + 1, 2 * row + 1)});
+}
+
+}  // namespace dustbench::relief

@@ -1,0 +1,39 @@
+// The depth nearest to the face within each block of a relief, by halving: what a march skips without missing anything.
+//
+// Patch (i, j) lies between the texels (i − 1, j − 1) and (i, j), clamped at the rim: a relief of n texels has n + 1
+// patches a side. A block of level k holds 2ᵏ × 2ᵏ patches; the last level has one block.
+//
+// Units: shares of the depth. Owns: its levels, one after the other, booked on a ledger. Threads: one writer.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "methods/relief/surface/worn_surface.h"
+
+namespace dustbench::relief {
+
+class DepthPyramid {
+ public:
+    struct Level {
+        std::size_t offset;  ///< of its first block
+        int columns, rows;
+    };
+
+    DepthPyramid(const DepthMap& map, MemoryLedger& ledger);
+
+    /// Brings the blocks over the changed texels up to date.
+    void update(const DepthMap& map, const TexelRectangle& changed);
+
+    [[nodiscard]] std::span<const Level> levels() const { return levels_; }
+    [[nodiscard]] std::span<const float> blocks() const { return blocks_; }
+
+ private:
+    void updateLevel(const Level& finer, const Level& level, const TexelRectangle& blocks);
+
+    std::vector<Level> levels_;
+    LedgerVector<float> blocks_;
+};
+
+}  // namespace dustbench::relief

@@ -1,0 +1,27 @@
+// One hit of a particle on a relief, and the depth that it adds to a texel.
+//
+// Units: u, v in texels; depths in steps of DepthMap. Threads: pure.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace dustbench::relief {
+
+struct Impact {
+    float u = 0, v = 0;       ///< texels
+    float radiusTexels = 0;   ///< of what is changed; 0: the nearest texel alone
+    std::uint32_t depth = 0;  ///< change at the middle
+};
+
+/// h(ρ) = h₀·(1 − ρ²/r²): a paraboloid about the hit, or one texel. Whole steps, so that sums do not depend on the
+/// order of the hits.
+[[nodiscard]] inline std::uint32_t changeAt(const Impact& impact, int column, int row) {
+    const float du = static_cast<float>(column) - impact.u, dv = static_cast<float>(row) - impact.v;
+    if (impact.radiusTexels <= 0)
+        return std::lround(impact.u) == column && std::lround(impact.v) == row ? impact.depth : 0;
+    const float share = 1 - (du * du + dv * dv) / (impact.radiusTexels * impact.radiusTexels);
+    return share > 0 ? static_cast<std::uint32_t>(static_cast<double>(share) * impact.depth) : 0;
+}
+
+}  // namespace dustbench::relief
