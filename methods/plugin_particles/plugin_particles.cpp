@@ -106,8 +106,9 @@ void PluginParticles::makePicture(System& system) {
 }
 
 void PluginParticles::applyChanges(const Frame& frame) {
-    if (applied_ == changes_.size() || frame.index < 0) return;
-    // A change at a frame's very begin belongs to it, however its time is rounded: to a thousandth of a step.
+    if (applied_ == changes_.size()) return;
+    // Negative during preroll and warm-up. A change at a frame's very begin belongs to it, however its time is rounded:
+    // to a thousandth of a step.
     const double now = (static_cast<double>(frame.index) + 1e-3) * frame.stepSeconds;
     std::vector<std::string> names;
     for (const System& system : systems_) names.push_back(system.name);
