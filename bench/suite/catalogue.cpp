@@ -75,7 +75,8 @@ std::vector<CatalogueItem> listParts() {
 std::vector<CatalogueItem> fromData(const std::string& kind, const std::vector<DataEntry>& entries) {
     std::vector<CatalogueItem> items;
     items.reserve(entries.size());
-    for (const DataEntry& entry : entries) items.push_back({kind, entry.id, entry.description, "", "", {}, entry.panels});
+    for (const DataEntry& entry : entries)
+        items.push_back({kind, entry.id, entry.description, "", "", {}, entry.panels});
     return items;
 }
 
