@@ -100,6 +100,7 @@ void checkPlace(const scene::Panel& panel, const scene::Scene& scene, const std:
 bool overlap(const scene::Panel& one, const scene::Panel& other) {
     const Box a = boxOf(one), b = boxOf(other);
     std::vector<glm::dvec3> axes;
+    axes.reserve(15);
     for (const glm::dvec3& edge : a.half) axes.push_back(glm::normalize(edge));
     for (const glm::dvec3& edge : b.half) axes.push_back(glm::normalize(edge));
     for (std::size_t i = 0; i < 3; ++i)

@@ -111,6 +111,7 @@ void PluginParticles::applyChanges(const Frame& frame) {
     // to a thousandth of a step.
     const double now = (static_cast<double>(frame.index) + 1e-3) * frame.stepSeconds;
     std::vector<std::string> names;
+    names.reserve(systems_.size());
     for (const System& system : systems_) names.push_back(system.name);
     for (; applied_ < changes_.size() && changes_[applied_].seconds <= now; ++applied_)
         apply(changes_[applied_], names,
@@ -168,12 +169,14 @@ std::int64_t PluginParticles::primitives() const {
 
 std::optional<std::uint64_t> PluginParticles::stateHash() const {
     std::vector<std::uint64_t> hashes;
+    hashes.reserve(systems_.size());
     for (const System& system : systems_) hashes.push_back(system.particles.stateHash());
     return particles::stateHash(now_, hashes);
 }
 
 std::vector<KeptFile> PluginParticles::files() const {
     std::vector<particles::NamedPartsView> views;
+    views.reserve(systems_.size());
     for (const System& system : systems_) views.push_back({system.name, system.particles.parts()});
     return {{"systems.toml", particles::systemsToToml(views)}};
 }

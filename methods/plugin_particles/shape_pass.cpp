@@ -14,7 +14,7 @@ std::unique_ptr<ShapePass> makePass(gpu::Device& device, const particles::Look& 
             return makeObjectPass(device, look, lights);
         case particles::Primitive::puff:
         case particles::Primitive::sprites:
-        case particles::Primitive::aa_sprites:
+        case particles::Primitive::movingSprites:
             break;
     }
     return makeSpritePass(device, look);

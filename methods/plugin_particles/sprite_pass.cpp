@@ -23,7 +23,7 @@ std::optional<draw::PuffTextures> picturesOf(gpu::Device& device, const Look& lo
 draw::BillboardStyle styleOf(const Look& look) {
     return {.facing = look.primitive == Primitive::puff ? draw::Facing::viewpoint : draw::Facing::viewplane,
             .additive = look.blending == particles::Blending::additive,
-            .moving = look.primitive == Primitive::aa_sprites};
+            .moving = look.primitive == Primitive::movingSprites};
 }
 
 class SpritePass final : public ShapePass {
@@ -70,7 +70,7 @@ void SpritePass::upload(const Drawn& drawn) {
     colourOfAll_ = p.colourOfAll;
     const draw::InstanceLayout layout = billboards_.layout(!p.uniformColour);
     const std::uint64_t frames = pictures_ ? static_cast<std::uint64_t>(pictures_->frames()) : 1;
-    const bool moving = look_.primitive == Primitive::aa_sprites;
+    const bool moving = look_.primitive == Primitive::movingSprites;
     fill(billboards_.map(p.size(), layout), layout.floats, drawn, [&](float* value, std::size_t i) {
         for (const float next : {p.x[i], p.y[i], p.z[i], p.radius[i], p.opacity[i]}) *value++ = next;
         if (pictures_) *value++ = static_cast<float>(p.serial[i] % frames);
@@ -85,7 +85,7 @@ void SpritePass::upload(const Drawn& drawn) {
 }
 
 void SpritePass::draw(const scene::View& view, const gpu::Layer& layer) {
-    if (look_.primitive != Primitive::aa_sprites) return billboards_.draw(view, colourOfAll_, layer);
+    if (look_.primitive != Primitive::movingSprites) return billboards_.draw(view, colourOfAll_, layer);
     if (blend_) return drawMean(view, layer);
     for (int copy = 0; copy < look_.copies; ++copy)
         billboards_.drawCopy(view, colourOfAll_, layer, {backOf(copy), shareOf(copy)});

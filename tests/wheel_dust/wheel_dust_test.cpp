@@ -72,7 +72,7 @@ TEST(WheelDust, HasTheStateOfTheSharedDust) {
 }
 
 TEST(WheelDust, HasAStateOfItsOwnWhereTheSystemDiffers) {
-    const Cell cell = cells.front();
+    const Cell& cell = cells.front();
     Running run("plugin_particles", cell, {{"system", DUSTBENCH_SOURCE_DIR "/tests/wheel_dust/slow_dust.toml"}});
     run.step(60);
     EXPECT_GT(run.method().primitives(), 50);

@@ -28,7 +28,7 @@ class GroundPass {
     void draw(const glm::dvec3& eye, const glm::mat4& eyeToClip, std::span<const GroundRectangle> shaded);
 
     /// Mean albedo of the ground.
-    [[nodiscard]] static glm::vec3 albedo(const scene::Scene& scene);
+    [[nodiscard]] DUSTBENCH_API static glm::vec3 albedo(const scene::Scene& scene);
 
  private:
     void place(gpu::Program& program, const glm::dvec3& eye, bool withTrack);

@@ -30,12 +30,6 @@ glm::vec3 cornerOf(const scene::Panel& panel, int bits) {
             (bits & 4) != 0 ? 0.0 : -panel.depthMetres};
 }
 
-glm::vec3 meanColour(const scene::Relief& relief) {
-    glm::dvec3 sum(0);
-    for (const glm::vec3& colour : relief.colour) sum += glm::dvec3(colour);
-    return glm::vec3(sum / static_cast<double>(relief.colour.size()));
-}
-
 /// The face, with the place in the picture instead of a colour.
 scene::Mesh faceOf(const scene::Panel& panel) {
     scene::Mesh mesh;
@@ -48,7 +42,15 @@ SolidMesh meshOf(gpu::Device& device, const scene::Panel& panel, scene::Mesh mes
     return {device, {panel.name, std::make_shared<const scene::Mesh>(std::move(mesh))}};
 }
 
-gpu::Texture pictureOf(gpu::Device& device, const scene::Relief& relief) {
+}  // namespace
+
+glm::vec3 meanColour(const scene::Relief& relief) {
+    glm::dvec3 sum(0);
+    for (const glm::vec3& colour : relief.colour) sum += glm::dvec3(colour);
+    return glm::vec3(sum / static_cast<double>(relief.colour.size()));
+}
+
+gpu::Texture colourTexture(gpu::Device& device, std::string_view label, const scene::Relief& relief) {
     std::vector<std::uint8_t> bytes;
     bytes.reserve(4 * relief.colour.size());
     for (const glm::vec3& colour : relief.colour) {
@@ -56,13 +58,11 @@ gpu::Texture pictureOf(gpu::Device& device, const scene::Relief& relief) {
             bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * maths::encodeSrgb(colour[i]))));
         bytes.push_back(255);
     }
-    gpu::Texture picture = gpu::Texture::make2D(device, "panel picture", gpu::Format::srgba8, relief.columns,
-                                                relief.rows, gpu::Filter::mipmapped);
+    gpu::Texture picture =
+        gpu::Texture::make2D(device, label, gpu::Format::srgba8, relief.columns, relief.rows, gpu::Filter::mipmapped);
     picture.write(bytes);
     return picture;
 }
-
-}  // namespace
 
 scene::Mesh panelPlate(const scene::Panel& panel) {
     scene::Mesh mesh;
@@ -81,7 +81,7 @@ PanelPass::PanelPass(gpu::Device& device, const scene::Scene& scene) {
     panels_.reserve(scene.panels.size());
     for (const scene::Panel& panel : scene.panels)
         panels_.push_back({panel, meshOf(device, panel, panelPlate(panel)), meshOf(device, panel, faceOf(panel)),
-                           pictureOf(device, *panel.relief)});
+                           colourTexture(device, "panel picture", *panel.relief)});
 }
 
 void PanelPass::draw(const glm::dvec3& eye, const scene::VehicleState& vehicle, gpu::Program& plates,

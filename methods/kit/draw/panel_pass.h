@@ -3,6 +3,7 @@
 // Units: metres. Owns: meshes and pictures of the panels.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "methods/contract/scene.h"
@@ -12,6 +13,11 @@
 #include "methods/kit/gpu/texture.h"
 
 namespace dustbench::draw {
+
+[[nodiscard]] DUSTBENCH_API glm::vec3 meanColour(const scene::Relief& relief);
+/// The relief's colours as eight bits, sRGB encoded, with mipmaps.
+[[nodiscard]] DUSTBENCH_API gpu::Texture colourTexture(gpu::Device& device, std::string_view label,
+                                                       const scene::Relief& relief);
 
 /// The plate's back and rims, in the panel's frame and in the relief's mean colour; its face is open.
 [[nodiscard]] scene::Mesh panelPlate(const scene::Panel& panel);

@@ -67,6 +67,7 @@ double medianSeconds(Bodies3& bodies, bool byTree) {
     return medianOf("",
                     [&] {
                         std::vector<double> seconds;
+                        seconds.reserve(repetitions);
                         for (int k = 0; k < repetitions; ++k)
                             seconds.push_back(secondsOf([&] {
                                 byTree ? bodies.pullTree(onePercentAngle) : bodies.pullPairs(0, bodies.x.size());

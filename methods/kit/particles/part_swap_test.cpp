@@ -46,7 +46,7 @@ std::uint64_t swapped(ParticleSystem& system, PartKind kind, const std::string& 
         at += 2;
         EXPECT_TRUE(isFinite(system.store())) << kindName(kind) << ": " << first << ", " << second;
     }
-    EXPECT_FALSE(system.parts().missing().size());
+    EXPECT_TRUE(system.parts().missing().empty());
     return system.stateHash();
 }
 

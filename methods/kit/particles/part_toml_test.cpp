@@ -135,6 +135,7 @@ std::string systemsErrorOf(const std::string& toml) {
 
 std::string saved(const std::vector<NamedParts>& systems) {
     std::vector<NamedPartsView> views;
+    views.reserve(systems.size());
     for (const NamedParts& each : systems) views.push_back({each.name, *each.parts});
     return systemsToToml(views);
 }

@@ -11,7 +11,7 @@
 namespace dustbench::particles {
 
 /// The shapes that a file can request.
-enum class Primitive { puff, points, lines, hybrid, sprites, aa_sprites, objects };
+enum class Primitive { puff, points, lines, hybrid, sprites, movingSprites, objects };
 
 enum class Blending {
     alpha,     ///< C = α·C_particle + (1 − α)·C, sorted far to near

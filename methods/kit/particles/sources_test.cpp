@@ -61,6 +61,7 @@ std::vector<glm::dvec3> velocitiesOf(const std::string& velocity, std::uint64_t 
 
 std::vector<double> mapped(const std::vector<glm::dvec3>& vectors, const std::function<double(const glm::dvec3&)>& f) {
     std::vector<double> values;
+    values.reserve(vectors.size());
     for (const glm::dvec3& v : vectors) values.push_back(f(v));
     return values;
 }
@@ -220,6 +221,7 @@ TEST(NestedVelocity, FixedIsUniformOnTheZoneAndPaperIsNot) {
         // The paper's: ((β − βmin)/(βmax − βmin))² is uniform, the cosine is not.
         const auto paper = mapped(velocitiesOf(angles + ", mode = \"paper\"", seed), cosine);
         std::vector<double> shares;
+        shares.reserve(paper.size());
         for (const double c : paper) shares.push_back(std::pow((std::acos(c) * 180 / pi - 20) / 40, 2));
         expectUniform(shares, 0, 1);
         EXPECT_GT(test::distance(paper, [&](double c) { return (c - outer) / (inner - outer); }), 0.05);
@@ -277,7 +279,8 @@ TEST(Bursts, AreBornWithinTheirDurationWhateverTheStep) {
             ASSERT_GE(all.size(), 4200u - 1);
             ASSERT_LE(all.size(), 4900u);
             for (std::size_t k = 0; k < 4199; ++k) {
-                const double since = all[k] - 1.5 * static_cast<double>(k / 700);
+                const std::size_t burst = k / 700;
+                const double since = all[k] - 1.5 * static_cast<double>(burst);
                 ASSERT_NEAR(since, duration * static_cast<double>(k % 700 + 1) / 700, 1e-6) << k;
             }
         }

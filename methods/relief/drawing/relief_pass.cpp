@@ -5,15 +5,15 @@
 #include <map>
 #include <string>
 
+#include "methods/kit/draw/ground_pass.h"
+#include "methods/kit/draw/panel_pass.h"
 #include "methods/kit/gpu/draw_call.h"
-#include "methods/kit/maths/srgb.h"
 #include "relief_drawing_shaders.h"
 
 namespace dustbench::relief {
 namespace {
 
 constexpr int stripVertices = 14;
-constexpr float packedGround = 0.52f;  // albedo of the ground, as a share of the dust's
 
 std::map<std::string, std::string> definitions(const ReliefStyle& style, const scene::Relief& relief) {
     std::map<std::string, std::string> result{{"MOST_BLOCKS", std::to_string(16 * (relief.columns + relief.rows))}};
@@ -30,25 +30,6 @@ std::uint8_t toByte(float share) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
 }
 
-gpu::Texture colourTexture(gpu::Device& device, const scene::Relief& relief) {
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(4 * relief.colour.size());
-    for (const glm::vec3& colour : relief.colour) {
-        for (int i = 0; i < 3; ++i) bytes.push_back(toByte(maths::encodeSrgb(colour[i])));
-        bytes.push_back(255);
-    }
-    auto texture = gpu::Texture::make2D(device, "relief colours", gpu::Format::srgba8, relief.columns, relief.rows,
-                                        gpu::Filter::mipmapped);
-    texture.write(bytes);
-    return texture;
-}
-
-glm::vec3 meanColour(const scene::Relief& relief) {
-    glm::dvec3 sum(0);
-    for (const glm::vec3& colour : relief.colour) sum += glm::dvec3(colour);
-    return glm::vec3(sum / static_cast<double>(relief.colour.size()));
-}
-
 }  // namespace
 
 ReliefPass::ReliefPass(gpu::Device& device, const scene::Scene& scene, const scene::Panel& panel,
@@ -62,12 +43,12 @@ ReliefPass::ReliefPass(gpu::Device& device, const scene::Scene& scene, const sce
                definitions(style, *panel.relief)),
       noVertices_(device),
       depths_(device, "relief depths", panel.relief->depth.size() * sizeof(float)),
-      colours_(colourTexture(device, *panel.relief)),
+      colours_(draw::colourTexture(device, "relief colours", *panel.relief)),
       marks_(gpu::Texture::make2D(device, "relief marks", gpu::Format::rgba8, panel.relief->columns, panel.relief->rows,
                                   gpu::Filter::mipmapped)),
       depthValues_(panel.relief->depth.size()),
       markValues_(4 * panel.relief->depth.size()),
-      plateColour_(meanColour(*panel.relief)) {
+      plateColour_(draw::meanColour(*panel.relief)) {
     if (style.march == March::paper) return;
     std::vector<glm::ivec4> levels;
     for (const DepthPyramid::Level& level : pyramid.levels())
@@ -100,7 +81,7 @@ void ReliefPass::setLight(const glm::dmat4& panelToWorld) {
     const glm::dmat3 toPanel = glm::transpose(glm::dmat3(panelToWorld));
     const scene::Lights& lights = scene_.lights;
     const glm::vec3 ground =
-        packedGround * scene_.dustAlbedo * (lights.sun * std::max(lights.toSun.y, 0.0f) + lights.ambient);
+        draw::GroundPass::albedo(scene_) * (lights.sun * std::max(lights.toSun.y, 0.0f) + lights.ambient);
     program_.set("toSun", glm::vec3(glm::normalize(toPanel * glm::dvec3(lights.toSun))));
     program_.set("worldUp", glm::vec3(toPanel * glm::dvec3(0, 1, 0)));
     program_.set("sun", lights.sun);

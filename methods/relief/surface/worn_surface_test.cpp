@@ -21,6 +21,7 @@ std::vector<Impact> randomImpacts(int count, int columns, int rows, unsigned see
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> share(0, 1);
     std::vector<Impact> impacts;
+    impacts.reserve(static_cast<std::size_t>(count));
     for (int n = 0; n < count; ++n)
         impacts.push_back({share(random) * static_cast<float>(columns) - 0.5f,
                            share(random) * static_cast<float>(rows) - 0.5f, n % 3 == 0 ? 0.0f : 4 * share(random),

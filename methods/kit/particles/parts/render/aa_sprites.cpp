@@ -6,7 +6,7 @@ namespace dustbench::particles::parts::render::aa_sprites {
 namespace {
 
 struct Traits {
-    static constexpr Primitive primitive = Primitive::aa_sprites;
+    static constexpr Primitive primitive = Primitive::movingSprites;
 
     static void declare(ParameterSet& set) {
         declarePicture(set);
