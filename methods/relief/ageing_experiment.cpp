@@ -49,7 +49,7 @@ Finding growth(const char* quantity, Search search, bool overTexels, std::uint64
         for (const int side : sides)
             for (const int hits : counts) {
                 sizes.push_back(overTexels ? static_cast<double>(side) * side : hits);
-                seconds.push_back(agingSeconds(search, side, hits, seed + static_cast<std::uint64_t>(round), 3));
+                seconds.push_back(ageingSeconds(search, side, hits, seed + static_cast<std::uint64_t>(round), 3));
             }
         exponents.push_back(growthExponent(sizes, seconds));
     }
@@ -109,7 +109,7 @@ std::vector<Finding> hitTexels(std::uint64_t seed) {
 
 }  // namespace
 
-double agingSeconds(Search search, int side, int hits, std::uint64_t seed, int repetitions) {
+double ageingSeconds(Search search, int side, int hits, std::uint64_t seed, int repetitions) {
     const std::vector<Impact> impacts = randomImpacts(side, hits, seed, DepthMap::bottom / 1000);
     MemoryLedger ledger;
     WornSurface surface(flatRelief(side), ledger);

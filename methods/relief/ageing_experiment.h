@@ -13,7 +13,7 @@
 namespace dustbench::relief::ageing {
 
 /// The shortest of `repetitions` times to age a surface of side × side texels by `hits` random hits, in seconds.
-[[nodiscard]] double agingSeconds(Search search, int side, int hits, std::uint64_t seed, int repetitions);
+[[nodiscard]] double ageingSeconds(Search search, int side, int hits, std::uint64_t seed, int repetitions);
 
 /// The slope of log(seconds) over log(size) by least squares.
 [[nodiscard]] double growthExponent(const std::vector<double>& sizes, const std::vector<double>& seconds);
