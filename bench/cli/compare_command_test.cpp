@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "bench/cli/called_program.h"
+#include "bench/results/method_time.h"
 #include "methods/kit/files/csv.h"
 #include "methods/kit/pictures/image.h"
 
@@ -17,6 +18,7 @@ class CompareCommand : public Dustbench {
         Dustbench::SetUp();
         if (std::ranges::none_of(methods(), [](const MethodInfo& info) { return info.id == "billboard"; }))
             GTEST_SKIP() << "no billboards here";
+        if (!bench::findBaseline()) GTEST_SKIP() << "no null method here";
     }
     [[nodiscard]] Called compare(const std::string& more) const {
         return call(fmt::format("compare --out '{}' {}", out(), more));
@@ -31,16 +33,19 @@ TEST_F(CompareCommand, WritesMetricsSummaryAndContactSheetAndGoesOnWhereItWas) {
     ASSERT_EQ(first.code, 0) << first.err;
     EXPECT_THAT(first.out, AllOf(HasSubstr("psnr_db"), HasSubstr("billboard soft=on"), HasSubstr("UNRESOLVED")));
     const auto summary = files::CsvTable::parseFile(fs::path(out()) / "summary.csv");
-    ASSERT_EQ(summary.rows(), 4u);
-    for (std::size_t row = 0; row < 4; ++row)
-        EXPECT_EQ(summary.cell(row, "flip").empty(), summary.cell(row, "repetition") != "1");
+    ASSERT_EQ(summary.rows(), 6u);
+    for (std::size_t row = 0; row < 6; ++row) {
+        const bool isNull = summary.cell(row, "method") == bench::baselineMethod;
+        EXPECT_EQ(summary.cell(row, "flip").empty(), isNull || summary.cell(row, "repetition") != "1");
+        EXPECT_EQ(summary.cell(row, "method_ms_median").empty(), isNull);
+    }
     const pictures::Image sheet = pictures::readImage(fs::path(out()) / "contact_sheet.png");
     EXPECT_GT(sheet.width, 5 * 400);
     EXPECT_GT(sheet.height, 5 * 300);
 
     const Called again = compare(both);
     EXPECT_EQ(again.code, 0);
-    EXPECT_THAT(again.err, HasSubstr("4 existing"));
+    EXPECT_THAT(again.err, HasSubstr("6 existing"));
     EXPECT_EQ(again.out, first.out);
 }
 
@@ -56,8 +61,8 @@ TEST_F(CompareCommand, ShowsAMethodWithASimulationOfItsOwnBesideTheJudged) {
     EXPECT_GT(sheet.width, 4 * 400);
     EXPECT_LT(sheet.width, 5 * 400);
     const auto summary = files::CsvTable::parseFile(fs::path(out()) / "summary.csv");
-    ASSERT_EQ(summary.rows(), 2u);
-    for (std::size_t row = 0; row < 2; ++row)
+    ASSERT_EQ(summary.rows(), 3u);
+    for (std::size_t row = 0; row < 3; ++row)
         EXPECT_TRUE(fs::exists(fs::path(out()) / summary.cell(row, "FILE_image")));
 }
 

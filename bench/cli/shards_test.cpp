@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "bench/cli/called_program.h"
+#include "bench/results/method_time.h"
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::cli {
@@ -16,7 +17,7 @@ class Shards : public Dustbench {
         Dustbench::SetUp();
         std::ofstream(folder_ / "its own.toml") << fmt::format(
             "title = \"Two clouds\"\nmethods = [\"{}\"]\nsizes = [\"64x48\"]\nframes = 2\nwarmup = 0\nrepetitions = 2\n"
-            "[parameters]\npreroll = 0.1\nparticles = [50, 100]\n",
+            "baseline = false\n[parameters]\npreroll = 0.1\nparticles = [50, 100]\n",
             methods().front().id);
         suite_ = fmt::format("suite '{}/its own.toml'", folder_.string());
     }
@@ -68,6 +69,16 @@ TEST_F(Shards, BadInputIsOneLineAndExitCodeThree) {
         EXPECT_EQ(std::ranges::count(called.err, '\n'), 1) << called.err;
     }
     EXPECT_FALSE(fs::exists(folder_ / "m"));
+}
+
+TEST_F(Shards, TheScriptForSlurmCountsTheRunsOfTheNullMethod) {
+    if (!bench::findBaseline() || methods().front().id == bench::baselineMethod)
+        GTEST_SKIP() << "no null method here, or no other";
+    std::ofstream(folder_ / "timed.toml") << fmt::format(
+        "methods = [\"{}\"]\nrepetitions = 2\n[parameters]\nparticles = [50, 100, 150]\n", methods().front().id);
+    const Called called = call(fmt::format("suite '{}/timed.toml' --slurm 2 --out o", folder_.string()));
+    ASSERT_EQ(called.code, 0) << called.err;
+    EXPECT_THAT(called.out, HasSubstr("12 runs in 2 shards, 8 in the"));
 }
 
 TEST_F(Shards, TheScriptForSlurmRunsAShardAndSubmitsItselfAndTheMerge) {

@@ -17,6 +17,7 @@
 #include "bench/results/disk_need.h"
 #include "bench/results/freshness.h"
 #include "bench/results/stored_folder.h"
+#include "bench/suite/baselines.h"
 #include "bench/suite/shard.h"
 #include "bench/suite/suite.h"
 #include "methods/contract/errors.h"
@@ -50,10 +51,11 @@ int printSlurmScript(const SuiteOptions& options, const bench::Suite& suite, dou
     job.shards = static_cast<int>(options.slurmShards);
     job.timeoutSeconds = timeoutSeconds;
     job.cooldownSeconds = cooldownSeconds;
+    const bench::Suite whole = bench::withBaselines(suite);
     std::vector<std::size_t> cells(options.slurmShards + 1, 0);
-    for (const int shard : bench::shardOfCells(suite, job.shards)) ++cells[static_cast<std::size_t>(shard)];
+    for (const int shard : bench::shardOfCells(whole, job.shards)) ++cells[static_cast<std::size_t>(shard)];
     const auto repetitions = static_cast<std::size_t>(suite.repetitions);
-    job.runs = suite.cells.size() * repetitions;
+    job.runs = whole.cells.size() * repetitions;
     job.maximumRunsOfShard = *std::ranges::max_element(cells) * repetitions;
     if (const auto empty = std::count(cells.begin() + 1, cells.end(), 0U); empty > 0)
         std::cerr << fmt::format("note: {} of {} shards have no runs: runs of one world stay together\n", empty,

@@ -13,6 +13,7 @@
 #include "bench/report/published_points.h"
 #include "bench/report/run_groups.h"
 #include "bench/results/measured_on.h"
+#include "bench/results/method_time.h"
 #include "bench/results/summary.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
@@ -43,6 +44,7 @@ void readRuns(const fs::path& folder, ReportData& data) {
             data.problems.push_back(fmt::format("left out: {}", fault.what()));
         }
     }
+    addMethodTimes(data.runs);
     if (data.runs.empty()) data.problems.push_back("the folder 'runs' holds no run");
 }
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "bench/results/summary.h"
+#include "bench/suite/baselines.h"
 #include "bench/suite/catalogue.h"
 #include "bench/suite/cell_results.h"
 #include "bench/suite/suite.h"
@@ -210,7 +211,8 @@ std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun&
                 const std::vector<const StoredRun*> found = runsOf(suite, repetitions, runs);
                 // Runs common to both forms are shown once.
                 if (std::ranges::all_of(found, [&](const StoredRun* run) { return placed.contains(run); })) continue;
-                placed.insert(found.begin(), found.end());
+                const std::vector<const StoredRun*> all = runsOf(withBaselines(suite), repetitions, runs);
+                placed.insert(all.begin(), all.end());
                 RunGroup group = makeGroup(found, machines);
                 group.id = quick ? file.id + "-quick" : file.id;
                 group.suite = file.id;

@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "bench/results/method_time.h"
 #include "bench/results/summary.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
@@ -48,6 +49,7 @@ ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)) {
     try {
         cleanUp();
         readRuns();
+        addMethodTimes(runs_);
     } catch (const fs::filesystem_error& failure) {
         close(lock_);
         throw cannotWrite(folder_, failure.code().message());
@@ -135,7 +137,8 @@ void ResultsFolder::discard(const std::string& runId) {
     fs::remove_all(hidden(runId), error);
 }
 
-void ResultsFolder::writeSummary() const {
+void ResultsFolder::writeSummary() {
+    addMethodTimes(runs_);
     std::set<std::string> parameters;
     for (const auto& [id, run] : runs_)
         for (const auto& [name, text] : run.parameters) parameters.insert(name);

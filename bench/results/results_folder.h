@@ -38,8 +38,9 @@ class ResultsFolder {
     void place(const std::string& runId);
     void discard(const std::string& runId);
 
-    /// Writes all runs, one row each, ordered by id; p.… columns are the union of all parameters.
-    void writeSummary() const;
+    /// Writes all runs with their method times (method_time.h), one row each, ordered by id; p.… columns are the union
+    /// of all parameters.
+    void writeSummary();
 
  private:
     [[nodiscard]] std::filesystem::path hidden(const std::string& runId) const;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/results/method_time.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::bench {
@@ -23,6 +24,7 @@ StoredRuns readStoredRuns(const fs::path& folder) {
         runs.emplace(name, std::move(run));
     }
     if (error) throw InputError(fmt::format("'{}': cannot be read: {}", folder.string(), error.message()));
+    addMethodTimes(runs);
     return runs;
 }
 

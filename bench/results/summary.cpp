@@ -68,7 +68,8 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "energy_cpu_j",
                                  "energy_gpu_j",
                                  "frame_ms_min",
-                                 "flip_mask"})
+                                 "flip_mask",
+                                 "method_ms_median"})
             list.emplace_back(name);
         for (const MethodFact& fact : methodFacts()) list.push_back(fact.info.name);
         return list;

@@ -1,7 +1,5 @@
 #include "bench/suite/cell_groups.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -11,15 +9,6 @@
 
 namespace dustbench::bench {
 namespace {
-
-/// Scene, drive, size, seed and the world's parameters.
-std::string worldKey(const RunSpec& spec) {
-    std::string key =
-        fmt::format("{}\n{}\n{}x{}\n{}\n", spec.scene, spec.drive, spec.size.width, spec.size.height, spec.seed);
-    for (const auto& [name, text] : spec.parameters)
-        if (isOfTheWorld(name)) key += fmt::format("{}={}\n", name, text);
-    return key;
-}
 
 /// Disjoint sets of cells (union-find); each set is identified by its first cell.
 class CellGroups {

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "bench/suite/baselines.h"
 #include "bench/suite/cell_groups.h"
 #include "methods/contract/errors.h"
 
@@ -48,7 +49,7 @@ std::vector<int> shardOfCells(const Suite& suite, int count) {
 }
 
 Suite partOf(const Suite& suite, Shard shard) {
-    const std::vector<int> shards = shardOfCells(suite, shard.count);
+    const std::vector<int> shards = shardOfCells(withBaselines(suite), shard.count);
     Suite part = suite;
     part.cells.clear();
     part.comparisons.clear();
@@ -59,7 +60,7 @@ Suite partOf(const Suite& suite, Shard shard) {
 
 std::vector<PlannedRun> planRuns(const Suite& suite, Shard shard) {
     std::set<std::string> mine;
-    for (const PlannedRun& cell : partOf(suite, shard).cells)
+    for (const PlannedRun& cell : withBaselines(partOf(suite, shard)).cells)
         for (int repetition = 1; repetition <= suite.repetitions; ++repetition)
             mine.insert(runId(inRepetition(cell.spec, repetition)));
     std::vector<PlannedRun> plan = planRuns(suite);

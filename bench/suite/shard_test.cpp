@@ -14,6 +14,7 @@ namespace {
 constexpr const char* methodsInWorlds = R"(
 methods = ["billboard", "octree_search"]
 sizes = ["64x48", "96x72"]
+baseline = false
 repetitions = 3
 [parameters]
 particles = [100, 200, 300]

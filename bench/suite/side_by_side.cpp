@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "bench/results/method_time.h"
 #include "bench/scene/world.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
@@ -62,6 +63,7 @@ Suite sideBySideSuite(const std::vector<std::string>& variants, const ParameterT
     Suite suite;
     suite.id = "compare";
     suite.repetitions = repetitions;
+    suite.baseline = true;
     std::set<std::string> seen;
     std::vector<ComparedSide> sides;
     for (std::size_t i = 0; i < parsed.size(); ++i) {
@@ -83,8 +85,12 @@ Suite sideBySideSuite(const std::vector<std::string>& variants, const ParameterT
         suite.title += (i ? ", " : "") + sides.back().label;
         suite.cells.push_back(std::move(cell));
     }
-    for (std::size_t i = 1; i < sides.size(); ++i)
-        suite.comparisons.push_back({sides[i], sides.front(), {"frame_ms_median"}, ""});
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+        PlannedComparison comparison{sides[i], sides.front(), {"frame_ms_median"}, ""};
+        if (sides[i].method != baselineMethod && sides.front().method != baselineMethod)
+            comparison.columns.emplace_back("method_ms_median");
+        suite.comparisons.push_back(std::move(comparison));
+    }
     return suite;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "bench/suite/baselines.h"
 #include "bench/suite/cell_groups.h"
 #include "bench/suite/paper.h"
 #include "bench/suite/suite_draft.h"
@@ -87,6 +88,9 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     for (const Exception& exception : draft.exceptions)
         if (leaveOut(exception, suite.cells) == 0 && wholeFile)
             throw InputError(exception.where + "except: leaves nothing out, no cell has these values");
+    // Without repetitions there is no interval, so such a suite is not about time.
+    suite.baseline =
+        draft.baseline.value_or(suite.repetitions > 1 || !suite.comparisons.empty() || !suite.fits.empty());
     if (suite.cells.empty()) throw InputError("suite: nothing is left of it by its exceptions");
     for (const PlannedComparison& comparison : suite.comparisons) (void)matchCells(suite, comparison);
     for (const PlannedFit& fit : suite.fits) (void)cellsByLoad(suite, fit);
@@ -208,7 +212,8 @@ RunSpec inRepetition(RunSpec cell, int repetition) {
     return cell;
 }
 
-std::vector<PlannedRun> planRuns(const Suite& suite) {
+std::vector<PlannedRun> planRuns(const Suite& cellsOnly) {
+    const Suite suite = withBaselines(cellsOnly);
     std::vector<PlannedRun> plan;
     const auto add = [&plan](PlannedRun run, int repetition) {
         if (run.repetitions > 0 && repetition > run.repetitions) return;

@@ -33,6 +33,7 @@ struct Suite {
     std::vector<PlannedRun> cells;  ///< one repetition each
     int repetitions = 1;
     Order order = Order::interleaved;
+    bool baseline = false;        ///< the null method runs in every world too (baselines.h)
     double timeoutSeconds = 600;  ///< limit of one run
     double cooldownSeconds = 0;   ///< pause between two runs
     std::vector<PlannedComparison> comparisons;
@@ -46,6 +47,7 @@ struct Suite {
 
 /// A cell's run; repetitions count from 1. Only the first has metrics: pictures do not depend on the repetition.
 [[nodiscard]] RunSpec inRepetition(RunSpec cell, int repetition);
+/// All runs in order, those of the null method among them (baselines.h).
 [[nodiscard]] std::vector<PlannedRun> planRuns(const Suite& suite);
 
 /// One list of values per parameter, in order.

@@ -27,6 +27,14 @@ std::set<std::string> parameterNames(std::span<const PlannedRun* const> cells) {
 
 }  // namespace
 
+std::string worldKey(const RunSpec& spec) {
+    std::string key =
+        fmt::format("{}\n{}\n{}x{}\n{}\n", spec.scene, spec.drive, spec.size.width, spec.size.height, spec.seed);
+    for (const auto& [name, text] : spec.parameters)
+        if (isOfTheWorld(name)) key += fmt::format("{}={}\n", name, text);
+    return key;
+}
+
 bool isOfTheWorld(std::string_view parameter) {
     return worldParameters().find(parameter) != nullptr;
 }

@@ -26,6 +26,9 @@ struct Axis {
 /// `particles=500 speed=20`; empty values are omitted.
 [[nodiscard]] std::string labelOf(const std::vector<Axis>& axes, const RunSpec& spec);
 
+/// Scene, drive, size, seed and the world's parameters: equal for runs in the same world.
+[[nodiscard]] std::string worldKey(const RunSpec& spec);
+
 [[nodiscard]] bool isOfTheWorld(std::string_view parameter);
 
 [[nodiscard]] std::vector<const PlannedRun*> cellsOf(const Suite& suite);

@@ -237,6 +237,7 @@ void SuiteDraft::read(files::TomlReader& table) {
     suite.repetitions = static_cast<int>(table.integer("repetitions", 1, maximumRepetitions, suite.repetitions));
     suite.timeoutSeconds = table.number("timeout_s", 1, 1e6, suite.timeoutSeconds);
     suite.cooldownSeconds = table.number("cooldown_s", 0, 3600, suite.cooldownSeconds);
+    if (table.has("baseline")) baseline = table.boolean("baseline", false);
     if (table.has("order")) suite.order = table.choice("order", orders);
 
     if (table.has("parameters")) {

@@ -20,17 +20,19 @@ std::string oneDecimal(double value) {
     return std::isfinite(value) ? fmt::format("{:.1f}", value) : "";
 }
 
-Row timesHeader() {
+Row timesHeader(bool withOwn) {
     Row names{"fps", "min", "max", "frame"};
+    if (withOwn) names.emplace_back("own");
     for (const std::string_view stage : stageNames) names.emplace_back(stage);
     return names;
 }
 
-Row timesOf(const std::vector<const StoredRun*>& done) {
+Row timesOf(const std::vector<const StoredRun*>& done, bool withOwn) {
     const auto fps = numbersIn(done, "fps_avg");
     Row row;
     for (const double value : {median(fps), quantile(fps, 0), quantile(fps, 1)}) row.push_back(oneDecimal(value));
     row.push_back(fourDigits(median(numbersIn(done, "frame_ms_median"))));
+    if (withOwn) row.push_back(fourDigits(median(numbersIn(done, "method_ms_median"))));
     for (const std::string_view stage : stageNames)
         row.push_back(fourDigits(median(numbersIn(done, fmt::format("{}_ms_median", stage)))));
     return row;
@@ -114,7 +116,8 @@ std::string fourDigits(double value) {
 }
 
 TextRows tabulate(const Suite& suite, const StoredRuns& runs) {
-    return tabulateRuns(suite, runs, timesHeader(), timesOf);
+    return tabulateRuns(suite, runs, timesHeader(suite.baseline),
+                        [&](const auto& done) { return timesOf(done, suite.baseline); });
 }
 
 TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs) {

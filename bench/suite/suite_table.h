@@ -17,7 +17,8 @@ struct TextRows {
     std::vector<std::vector<std::string>> rows;  ///< each as long as the header
 };
 
-/// FPS (median, minimum and maximum run), frame time and stages. If the suite has one method in one setting, columns of
+/// FPS (median, minimum and maximum run), frame time, `own` (the method's own time, where the null method runs beside)
+/// and stages. If the suite has one method in one setting, columns of
 /// each row show what varies. Otherwise a row with only the world's label, `particles=500 speed=20`, heads the rows of
 /// the methods, which are labelled with their varying settings: `octree_search layout=morton`. Rows with incomplete
 /// runs are marked: `billboard (4 of 6 runs)`.

@@ -25,6 +25,7 @@ scenes = ["plain"]
 drives = ["straight", "slalom"]
 sizes = ["64x48", "128x96", "256x192"]
 repetitions = 4
+baseline = false
 frames = 50
 seed = 9
 

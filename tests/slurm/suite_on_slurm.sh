@@ -167,12 +167,12 @@ echo "merged after $SECONDS s"
 cd "$work"
 ids() { cut -d, -f1 "$1" | tail -n +2 | sort; }
 "${suite[@]}" --out "$out" --dry-run | awk '{ print $1 }' | sort > expected
-(($(wc -l < expected) == 6)) || fail "the plan has $(wc -l < expected) runs, expected 6"
+(($(wc -l < expected) == 9)) || fail "the plan has $(wc -l < expected) runs, expected 9"
 ids "$out/summary.csv" | diff expected - || fail "other rows than those of the plan"
 for shard in 1 2; do
     (($(ids "$out/shards/$shard-of-2/summary.csv" | wc -l) > 0)) || fail "shard $shard had nothing to do"
 done
 "${suite[@]}" --out "$out" > table 2> again
-grep -q "6 existing" again || fail "the merged folder is not taken as complete: $(cat again)"
+grep -q "9 existing" again || fail "the merged folder is not taken as complete: $(cat again)"
 grep -q "Two methods in three worlds" table || fail "no table of the merged folder"
 echo "all is well after $SECONDS s"

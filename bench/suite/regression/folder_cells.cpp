@@ -7,9 +7,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
-
-#include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {
@@ -59,20 +56,9 @@ std::string FolderCell::valueOf(const std::string& name) const {
 }
 
 CellIdentity identityOf(const StoredRun& run) {
-    const auto key = run.provenance.find("key");
-    if (key == run.provenance.end() || key->second.empty())
-        throw InputError(fmt::format("run '{}': has no provenance.key, which says what was measured", run.runId));
     static const std::set<std::string> leftOut{"repetition", "metrics", "metric_reference"};
-    CellIdentity identity;
-    std::istringstream lines(key->second);
-    for (std::string line; std::getline(lines, line);) {
-        const std::size_t equals = line.find('=');
-        if (equals == std::string::npos)
-            throw InputError(
-                fmt::format("run '{}': its provenance.key has the line '{}', expected name=value", run.runId, line));
-        if (std::string name = line.substr(0, equals); !leftOut.contains(name))
-            identity.emplace_back(std::move(name), line.substr(equals + 1));
-    }
+    CellIdentity identity = keyFields(run);
+    std::erase_if(identity, [](const auto& field) { return leftOut.contains(field.first); });
     return identity;
 }
 

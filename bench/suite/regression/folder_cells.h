@@ -2,9 +2,9 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "bench/results/key_fields.h"
 #include "bench/suite/cell_results.h"
 
 namespace dustbench::bench {
@@ -24,7 +24,7 @@ struct CellRuns {
 
 /// The fields that distinguish a cell, in the order of the run's key: `method`, `scene`, `drive`, `p.particles`,
 /// `frames` …
-using CellIdentity = std::vector<std::pair<std::string, std::string>>;
+using CellIdentity = KeyFields;
 
 struct FolderCell {
     CellIdentity identity;

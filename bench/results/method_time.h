@@ -1,0 +1,23 @@
+// A method's own time: what its frames take beyond those of the null method in the same world.
+//
+// Units: ms.
+#pragma once
+
+#include <string_view>
+
+#include "bench/results/stored_run.h"
+#include "methods/contract/method.h"
+
+namespace dustbench::bench {
+
+/// The method that draws nothing: its frame is the world, the opaque scene and the harness.
+inline constexpr std::string_view baselineMethod = "null_method";
+/// Null if this build has none.
+[[nodiscard]] const MethodInfo* findBaseline();
+
+/// Sets `method_ms_median` of every done run: its `frame_ms_median` less that of the null method, at its defaults, in
+/// the same world with the same frames, warm-up, threads, sync and repetition, on the same machine. Without such a run,
+/// and for the null method's own, it is empty.
+void addMethodTimes(StoredRuns& runs);
+
+}  // namespace dustbench::bench

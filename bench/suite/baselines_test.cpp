@@ -1,0 +1,148 @@
+#include "bench/suite/baselines.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "bench/results/method_time.h"
+#include "bench/suite/shard.h"
+#include "bench/suite/side_by_side.h"
+#include "bench/suite/suite_axes.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
+#include "methods/kit/testing/test_folder.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr const char* timed = R"(
+methods = ["billboard"]
+drives = ["straight", "slalom"]
+sizes = ["64x48", "128x96"]
+seed = [3, 7]
+repetitions = 3
+images = 2
+metrics = true
+volumes = "0:10:5"
+[parameters]
+particles = [100, 200]
+sort = ["none", "radix"]
+)";
+
+class Baselines : public testing::Test {
+ protected:
+    void SetUp() override {
+        for (const std::string_view id : {std::string_view("billboard"), baselineMethod})
+            if (std::ranges::none_of(methods(), [&](const MethodInfo& info) { return info.id == id; }))
+                GTEST_SKIP() << "no " << id << " here";
+    }
+    static Suite parsed(const std::string& text) { return parseSuite(text, "s", false); }
+    static std::vector<PlannedRun> addedTo(const Suite& suite) {
+        std::vector<PlannedRun> cells = withBaselines(suite).cells;
+        cells.erase(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(suite.cells.size()));
+        return cells;
+    }
+    static bool isBaseline(const PlannedRun& run) { return run.spec.method == baselineMethod; }
+};
+
+TEST_F(Baselines, RunOnceInEveryWorldWhateverTheMethodsSettings) {
+    const Suite suite = parsed(timed);
+    const std::vector<PlannedRun> added = addedTo(suite);
+    EXPECT_EQ(added.size(), 2u * 2u * 2u * 2u);  // drives, sizes, seeds, loads
+    std::set<std::string> worlds, theirs;
+    for (const PlannedRun& cell : suite.cells) worlds.insert(worldKey(cell.spec));
+    for (const PlannedRun& cell : added) {
+        EXPECT_TRUE(theirs.insert(worldKey(cell.spec)).second) << cell.label;
+        EXPECT_EQ(cell.spec.method, baselineMethod);
+        EXPECT_FALSE(cell.spec.judging);
+        EXPECT_FALSE(cell.spec.volumes);
+        EXPECT_EQ(cell.spec.imagesEvery, 0);
+        EXPECT_EQ(cell.spec.frames, suite.cells.front().spec.frames);
+        EXPECT_EQ(cell.spec.parameters.count("sort"), 0u);
+    }
+    EXPECT_EQ(theirs, worlds);
+    EXPECT_EQ(added.front().label, "drive=straight size=64x48 seed=3 particles=100");
+}
+
+TEST_F(Baselines, RunInEveryRoundBesideTheirWorld) {
+    const Suite suite = parsed(timed);
+    std::map<std::pair<std::string, int>, int> methodRuns, baselineRuns;
+    const std::vector<PlannedRun> plan = planRuns(suite);
+    EXPECT_EQ(plan.size(), (32u + 16u) * 3u);
+    for (const PlannedRun& run : plan)
+        ++(isBaseline(run) ? baselineRuns : methodRuns)[{worldKey(run.spec), run.spec.repetition}];
+    ASSERT_EQ(baselineRuns.size(), methodRuns.size());
+    for (const auto& [world, runs] : methodRuns) EXPECT_EQ(baselineRuns[world], 1);
+    // A world's three runs stand together, and take turns to be first.
+    std::set<std::size_t> places;
+    for (std::size_t i = 0; i < plan.size(); i += 3)
+        for (std::size_t j = 0; j < 3; ++j) {
+            EXPECT_EQ(worldKey(plan[i + j].spec), worldKey(plan[i].spec)) << i;
+            if (isBaseline(plan[i + j])) places.insert(j);
+        }
+    EXPECT_EQ(places.size(), 3u);
+}
+
+TEST_F(Baselines, AreLeftOutWhereNoTimeIsAskedFor) {
+    const std::string one = "methods = [\"billboard\"]\nmetrics = true\n";
+    EXPECT_TRUE(addedTo(parsed(one)).empty());
+    EXPECT_EQ(addedTo(parsed(one + "baseline = true\n")).size(), 1u);
+    EXPECT_EQ(addedTo(parsed(one + "repetitions = 2\n")).size(), 1u);
+    EXPECT_TRUE(addedTo(parsed(one + "repetitions = 2\nbaseline = false\n")).empty());
+    EXPECT_EQ(addedTo(parsed(one + "[parameters]\nparticles = [1, 2]\n[[fit]]\nagainst = \"particles\"\n"
+                                   "columns = [\"frame_ms_median\"]\n"))
+                  .size(),
+              2u);
+    // The short form decides by its own repetitions.
+    EXPECT_FALSE(parseSuite(one + "repetitions = 2\n[quick]\nrepetitions = 1\n", "s", true).baseline);
+    EXPECT_THAT(inputError([&] { (void)parsed(one + "baseline = 1\n"); }), testing::HasSubstr("baseline"));
+}
+
+TEST_F(Baselines, AreNotAddedWhereTheSuiteHasThem) {
+    const std::string text =
+        "methods = [\"null_method\", \"billboard\"]\nrepetitions = 6\n[parameters]\nspeed = [5, 9]\n";
+    EXPECT_TRUE(addedTo(parsed(text)).empty());
+    EXPECT_EQ(addedTo(parsed(text + "[method.null_method]\nwork = 5\n")).size(), 2u);
+    EXPECT_EQ(addedTo(parsed(text + "[method.null_method]\nspeed = 5\n")).size(), 1u);
+    EXPECT_TRUE(addedTo(parsed("methods = [\"null_method\"]\nrepetitions = 6\n[parameters]\nwork = [1, 2]\n")).empty());
+}
+
+TEST_F(Baselines, RepeatAsOftenAsTheMostRepeatedCellOfTheirWorld) {
+    const std::string text =
+        "methods = [\"billboard\"]\nrepetitions = 5\n[parameters]\nspeed = [5, 9]\nsort = [\"none\", \"radix\"]\n"
+        "[[except]]\nafter_repetition = 2\n[except.parameters]\nspeed = 5\n"
+        "[[except]]\nafter_repetition = 1\n[except.parameters]\nsort = \"none\"\n";
+    std::map<std::string, int> runs;
+    for (const PlannedRun& run : planRuns(parsed(text)))
+        if (isBaseline(run)) ++runs[run.spec.parameters.at("speed")];
+    EXPECT_EQ(runs, (std::map<std::string, int>{{"5", 2}, {"9", 5}}));
+}
+
+TEST_F(Baselines, StayInTheShardOfTheirWorld) {
+    const Suite suite = parsed(timed);
+    std::size_t runs = 0;
+    for (int index = 1; index <= 4; ++index) {
+        std::map<std::string, int> methodRuns, baselineRuns;
+        const std::vector<PlannedRun> plan = planRuns(suite, {index, 4});
+        runs += plan.size();
+        for (const PlannedRun& run : plan) ++(isBaseline(run) ? baselineRuns : methodRuns)[worldKey(run.spec)];
+        EXPECT_EQ(methodRuns.size(), baselineRuns.size());
+        for (const auto& [world, count] : baselineRuns) EXPECT_EQ(methodRuns.count(world), 1u) << world;
+    }
+    EXPECT_EQ(runs, planRuns(suite).size());
+}
+
+TEST_F(Baselines, RunOnceForMethodsSideBySide) {
+    const Suite suite = sideBySideSuite({"billboard", "billboard:sort=none"}, {}, {}, 2);
+    EXPECT_EQ(addedTo(suite).size(), 1u);
+    EXPECT_THAT(suite.comparisons.at(0).columns, testing::ElementsAre("frame_ms_median", "method_ms_median"));
+    const Suite withNull = sideBySideSuite({"null_method", "billboard"}, {}, {}, 2);
+    EXPECT_TRUE(addedTo(withNull).empty());
+    EXPECT_THAT(withNull.comparisons.at(0).columns, testing::ElementsAre("frame_ms_median"));
+}
+
+}  // namespace
+}  // namespace dustbench::bench
