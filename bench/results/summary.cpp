@@ -69,7 +69,11 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "energy_gpu_j",
                                  "frame_ms_min",
                                  "flip_mask",
-                                 "method_ms_median"})
+                                 "method_ms_median",
+                                 "psnr_mask_db",
+                                 "ssim_mask",
+                                 "rmse_linear_mask",
+                                 "error_max"})
             list.emplace_back(name);
         for (const MethodFact& fact : methodFacts()) list.push_back(fact.info.name);
         return list;

@@ -11,6 +11,7 @@
 
 #include "bench/measure/image/cutoff.h"
 #include "bench/measure/image/flip.h"
+#include "bench/measure/image/masked_error.h"
 #include "bench/measure/image/picture_error.h"
 #include "bench/measure/image/popping.h"
 #include "bench/measure/image/quads_per_pixel.h"
@@ -156,8 +157,17 @@ Scores scoresOf(const Flaw& flaw, int level) {
     scores["psnr_db"] = error.psnrDb;
     scores["identical"] = error.identical;
     scores["rmse_linear"] = error.rmseLinear;
-    scores["ssim"] = ssim(referenceImages[middle], images[middle]).value;
-    scores["flip"] = flip(referenceImages[middle], images[middle]).value;
+    const Measured similarity = ssim(referenceImages[middle], images[middle]);
+    const Measured seen = flip(referenceImages[middle], images[middle]);
+    scores["ssim"] = similarity.value;
+    scores["flip"] = seen.value;
+    const Mask mask = dustMask(alphas[middle], references[middle]);
+    const MaskedError masked = maskedError(referenceImages[middle], images[middle], mask);
+    scores["psnr_mask_db"] = masked.psnrDb;
+    scores["rmse_linear_mask"] = masked.rmseLinear;
+    scores["error_max"] = masked.maximum;
+    scores["ssim_mask"] = meanWithin(similarity.map, mask);
+    scores["flip_mask"] = meanWithin(seen.map, mask);
     const Plane continuum = testAlpha(trail.at(middle, 65, 64), exactly);
     scores["gaps"] = gaps(alphas[middle], continuum).value;
     scores["components"] = components(alphas[middle], continuum).parts;

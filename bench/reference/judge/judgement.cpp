@@ -17,12 +17,16 @@ struct MeanMetric {
 };
 
 /// The metrics that a run reports as a mean over its moments.
-constexpr std::array<MeanMetric, 13> means{{
+constexpr std::array<MeanMetric, 17> means{{
     {{"psnr_db", "peak signal-to-noise ratio against the exact picture, dB"}, &MomentMetrics::psnrDb},
     {{"ssim", "structural similarity to the exact picture, 1: the same"}, &MomentMetrics::ssim},
     {{"flip", "difference from the exact picture that an eye sees when the two alternate, 0: none"},
      &MomentMetrics::flip},
     {{"flip_mask", "flip where there is dust in either picture"}, &MomentMetrics::flipMask},
+    {{"psnr_mask_db", "psnr_db where there is dust in either picture, dB"}, &MomentMetrics::psnrMaskDb},
+    {{"ssim_mask", "ssim of the windows around dust in either picture"}, &MomentMetrics::ssimMask},
+    {{"rmse_linear_mask", "rmse_linear where there is dust in either picture"}, &MomentMetrics::rmseLinearMask},
+    {{"error_max", "the greatest error of a pixel with dust, linear light"}, &MomentMetrics::errorMax},
     {{"rmse_linear", "root of the mean squared difference of linear light"}, &MomentMetrics::rmseLinear},
     {{"psnr_continuum_db", "psnr_db against 64 times as many particles, dB"}, &MomentMetrics::psnrContinuumDb},
     {{"gaps", "share of the trail that is not covered"}, &MomentMetrics::gaps},

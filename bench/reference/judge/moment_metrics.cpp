@@ -2,9 +2,9 @@
 
 #include "bench/export/extinction_grid.h"
 #include "bench/measure/image/cutoff.h"
-#include "bench/measure/image/dust_alpha.h"
 #include "bench/measure/image/flip.h"
 #include "bench/measure/image/image_check.h"
+#include "bench/measure/image/masked_error.h"
 #include "bench/measure/image/picture_error.h"
 #include "bench/measure/image/quads_per_pixel.h"
 #include "bench/measure/image/self_similarity.h"
@@ -30,18 +30,6 @@ pictures::Image overScene(const pictures::Image& layer, const pictures::Image& s
     return image;
 }
 
-/// Of a map over the pixels with dust in either; none where there are none.
-std::optional<double> meanWhereDust(const Plane& map, const Plane& alpha, const Plane& exactAlpha) {
-    double sum = 0;
-    std::int64_t pixels = 0;
-    for (std::size_t i = 0; i < map.values.size(); ++i) {
-        if (alpha.values[i] <= dustAlpha && exactAlpha.values[i] <= dustAlpha) continue;
-        sum += static_cast<double>(map.values[i]);
-        ++pixels;
-    }
-    return pixels > 0 ? std::optional(sum / static_cast<double>(pixels)) : std::nullopt;
-}
-
 std::optional<double> asNumber(const std::optional<int>& value) {
     return value ? std::optional<double>(*value) : std::nullopt;
 }
@@ -65,10 +53,17 @@ JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, con
     metrics.psnrDb = error.psnrDb;
     metrics.identical = error.identical;
     metrics.rmseLinear = error.rmseLinear;
-    metrics.ssim = ssim(reference, picture).value;
+    const Mask mask = dustMask(alpha, exactAlpha);
+    const MaskedError masked = maskedError(reference, picture, mask);
+    metrics.psnrMaskDb = masked.psnrDb;
+    metrics.rmseLinearMask = masked.rmseLinear;
+    metrics.errorMax = masked.maximum;
+    const Measured similarity = ssim(reference, picture);
+    metrics.ssim = similarity.value;
+    metrics.ssimMask = meanWithin(similarity.map, mask);
     Measured flipped = flip(reference, picture);
     metrics.flip = flipped.value;
-    metrics.flipMask = meanWhereDust(flipped.map, alpha, exactAlpha);
+    metrics.flipMask = meanWithin(flipped.map, mask);
     judged.difference = std::move(flipped.map);
     metrics.psnrContinuumDb =
         pictureError(preparePicture(overScene(exact.continuum, drawn.scene), "the continuum"), picture).psnrDb;
