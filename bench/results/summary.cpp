@@ -73,7 +73,8 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "psnr_mask_db",
                                  "ssim_mask",
                                  "rmse_linear_mask",
-                                 "error_max"})
+                                 "error_max",
+                                 "volume_picture"})
             list.emplace_back(name);
         for (const MethodFact& fact : methodFacts()) list.push_back(fact.info.name);
         return list;

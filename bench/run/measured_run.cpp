@@ -192,8 +192,10 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     }
     record.summary.emplace_back("metric_reference", spec.judging->referenceText());
     timed.reset();
-    for (auto& [column, value] : summaryOf(judgeRun(spec, folder, device, record.stateHash, progress)))
-        record.summary.emplace_back(std::move(column), value);
+    const Judgement judgement = judgeRun(spec, folder, device, record.stateHash, progress);
+    for (auto& [column, value] : summaryOf(judgement)) record.summary.emplace_back(std::move(column), value);
+    if (std::string warning = volumeWarning(judgement); !warning.empty())
+        record.provenance.warnings.push_back(std::move(warning));
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "bench/measure/image/test_splatter.h"
 #include "bench/measure/image/trail_gaps.h"
 #include "bench/measure/image/volume_error.h"
+#include "bench/measure/image/volume_picture.h"
 #include "source_folder.h"
 
 namespace dustbench::bench {
@@ -178,6 +179,7 @@ Scores scoresOf(const Flaw& flaw, int level) {
     // Textures and cuts affect the picture only: the method hands over its puffs unchanged.
     Puffs handedOver = drawn;
     for (TestPuff& puff : handedOver) puff.texture = -1;
+    scores["volume_picture"] = volumePicture(alphas[middle], testAlpha(handedOver, exactly));
     const Plane grid = testDepth(handedOver, free), referenceGrid = testDepth(puffs(middle), free);
     const std::array cells{free.width, free.height, 1};
     scores["volume_error"] = volumeError({cells, referenceGrid.values}, {cells, grid.values}).value;

@@ -1,9 +1,12 @@
 #include "bench/reference/judge/judgement.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
 
+#include "bench/measure/image/volume_picture.h"
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
@@ -17,7 +20,7 @@ struct MeanMetric {
 };
 
 /// The metrics that a run reports as a mean over its moments.
-constexpr std::array<MeanMetric, 17> means{{
+constexpr std::array<MeanMetric, 18> means{{
     {{"psnr_db", "peak signal-to-noise ratio against the exact picture, dB"}, &MomentMetrics::psnrDb},
     {{"ssim", "structural similarity to the exact picture, 1: the same"}, &MomentMetrics::ssim},
     {{"flip", "difference from the exact picture that an eye sees when the two alternate, 0: none"},
@@ -37,6 +40,8 @@ constexpr std::array<MeanMetric, 17> means{{
     {{"self_similarity", "how much all primitives look alike, 0: not at all"}, &MomentMetrics::selfSimilarity},
     {{"quads_per_pixel", "primitives by pixels of dust"}, &MomentMetrics::quadsPerPixel},
     {{"volume_error", "distance of the volume from the particles' own, 0: none"}, &MomentMetrics::volumeError},
+    {{"volume_picture", "distance of the picture from that of the volume that the method reports, 0: none"},
+     &MomentMetrics::volumePicture},
 }};
 constexpr std::array<MetricInfo, 3> others{{
     {"identical", "1: every judged picture is the exact one"},
@@ -81,6 +86,16 @@ std::vector<std::pair<std::string, double>> summaryOf(const Judgement& judgement
     if (judgement.popping) cells.emplace_back("popping", *judgement.popping);
     if (judgement.poppingMax) cells.emplace_back("popping_max", *judgement.poppingMax);
     return cells;
+}
+
+std::string volumeWarning(const Judgement& judgement) {
+    for (const auto& [column, value] : summaryOf(judgement))
+        if (column == "volume_picture" && value > maximumVolumePicture)
+            return fmt::format(
+                "the method does not draw the volume that it reports: volume_picture is {:.2f}, allowed: up to {}; "
+                "volume_error is of that volume, not of the picture",
+                value, maximumVolumePicture);
+    return {};
 }
 
 std::span<const MetricInfo> metricInfos() {

@@ -25,6 +25,10 @@ struct Judgement {
 /// identical. Metrics that are never defined are omitted.
 [[nodiscard]] std::vector<std::pair<std::string, double>> summaryOf(const Judgement& judgement);
 
+/// A sentence if the run's pictures are not those of the volumes that the method reported, by the mean of
+/// `volume_picture` (bench/measure/image/volume_picture.h); else empty.
+[[nodiscard]] std::string volumeWarning(const Judgement& judgement);
+
 struct MetricInfo {
     std::string_view column;  ///< of summary.csv
     std::string_view title;   ///< a one-line description

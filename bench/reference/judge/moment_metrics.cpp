@@ -11,6 +11,8 @@
 #include "bench/measure/image/ssim.h"
 #include "bench/measure/image/trail_gaps.h"
 #include "bench/measure/image/volume_error.h"
+#include "bench/measure/image/volume_picture.h"
+#include "bench/reference/judge/reported_depths.h"
 
 namespace dustbench::bench {
 namespace {
@@ -76,6 +78,9 @@ JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, con
         selfSimilarity(alpha, exactAlpha, primitivesOnScreen(facts.volume, facts.view), facts.seed).value;
     metrics.quadsPerPixel = quadsPerPixel(facts.primitives, exactAlpha);
     metrics.volumeError = volumeErrorOf(facts.volume, facts.referenceVolume);
+    if (!facts.volume.isNothing())
+        metrics.volumePicture = volumePicture(
+            alpha, reportedAlpha(facts.volume, facts.view, distancesFromDepth(facts.view, drawn.sceneDepth)));
     return judged;
 }
 

@@ -19,7 +19,8 @@ struct MomentMetrics {
     std::optional<double> psnrMaskDb, ssimMask, rmseLinearMask, errorMax;  ///< within the mask, as flipMask
     std::optional<bool> identical;
     std::optional<double> popping;  ///< from the frame before
-    std::optional<double> gaps, components, componentsReference, cutoff, selfSimilarity, quadsPerPixel, volumeError;
+    std::optional<double> gaps, components, componentsReference, cutoff, selfSimilarity, quadsPerPixel, volumeError,
+        volumePicture;
 };
 
 /// Data for judging a moment other than its pictures.

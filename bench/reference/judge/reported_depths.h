@@ -1,0 +1,28 @@
+// The picture of a volume exactly as a method handed it over: the optical depth along every pixel's ray.
+//
+// Puffs by the closed form (depth_sum.h), voxels and grid cells as cubes of constant extinction: the sum of extinction
+// times the ray's length within each, from the eye to the opaque scene. No filter, no marching step.
+//
+// Units: metres; depth has none. Rows from the top. Threads: uses the current oneTBB arena; bit-identical at any number
+// of threads.
+#pragma once
+
+#include <vector>
+
+#include "bench/export/collected_volume.h"
+#include "bench/measure/image/plane.h"
+#include "bench/reference/opaque_distances.h"
+#include "methods/contract/view.h"
+
+namespace dustbench::bench {
+
+/// Puffs together are too low by less than 1e-6 + 4e-9 of the sum; cubes are exact up to rounding. Throws
+/// std::invalid_argument for distances that do not fit the view.
+[[nodiscard]] std::vector<double> reportedDepths(const CollectedVolume& volume, const scene::View& view,
+                                                 const OpaqueDistances& distances);
+
+/// 1 − exp(−depth) of each pixel.
+[[nodiscard]] Plane reportedAlpha(const CollectedVolume& volume, const scene::View& view,
+                                  const OpaqueDistances& distances);
+
+}  // namespace dustbench::bench
