@@ -33,7 +33,10 @@ float frameOf(const Puffs& dust, std::size_t i, Puff puff, int frames) {
 
 }  // namespace
 
-Billboard::Billboard(const Settings& settings) : settings_(settings), sort_(ledger_) {}
+Billboard::Billboard(const Settings& settings) : settings_(settings), sort_(ledger_) {
+    if (settings.opacity == draw::OpacityFrom::age)
+        byAge_.emplace(ledger_.account("opacities by age"), settings.youngOpacity);
+}
 
 void Billboard::prepare(const scene::Scene&, const RunSetup&, gpu::Device& device) {
     pictures_ = loadPictures(settings_.puff, device);
@@ -42,16 +45,17 @@ void Billboard::prepare(const scene::Scene&, const RunSetup&, gpu::Device& devic
 
 void Billboard::update(const Frame& frame) {
     const Puffs& dust = frame.dust;
+    const std::span<const float> opacity = byAge_ ? byAge_->of(dust) : dust.opacity;
     std::span<const std::uint32_t> order;
     {
         const auto timing = frame.clock.measure(Stage::sort);
         order = sort_.farToNear(settings_.sort, {dust.x, dust.y, dust.z}, glm::vec3(frame.view.camera.eye));
     }
     const auto timing = frame.clock.measure(Stage::upload);
-    upload(dust, order);
+    upload(dust, opacity, order);
 }
 
-void Billboard::upload(const Puffs& dust, std::span<const std::uint32_t> order) {
+void Billboard::upload(const Puffs& dust, std::span<const float> opacity, std::span<const std::uint32_t> order) {
     const draw::InstanceLayout layout = quads_->layout(!dust.uniformColour);
     const std::span<float> memory = quads_->map(order.size(), layout);
     const int frames = pictures_ ? pictures_->frames() : 0;
@@ -63,7 +67,7 @@ void Billboard::upload(const Puffs& dust, std::span<const std::uint32_t> order) 
             *value++ = dust.y[i];
             *value++ = dust.z[i];
             *value++ = dust.radius[i];
-            *value++ = dust.opacity[i];
+            *value++ = opacity[i];
             if (quads_->framed()) *value++ = frameOf(dust, i, settings_.puff, frames);
             if (layout.coloured) {
                 *value++ = dust.red[i];
@@ -82,7 +86,9 @@ void Billboard::draw(const Frame& frame, gpu::Layer& layer) {
 }
 
 void Billboard::volume(const Frame& frame, VolumeVisitor& visitor) const {
-    visitor.puffs(frame.dust);
+    Puffs shown = frame.dust;
+    if (byAge_) shown.opacity = byAge_->column();
+    visitor.puffs(shown);
 }
 
 MemoryReport Billboard::memory() const {
@@ -112,12 +118,21 @@ MethodInfo describe() {
             "what a quad shows: the optical model's Gaussian, one picture, one of several, or an animation over life")
         .boolean("soft", false, "let puffs end softly at the scene behind them instead of cutting them off")
         .choice("facing", draw::Facing::viewpoint, draw::facings,
-                "turn each quad to the eye, or all of them parallel to the picture");
+                "turn each quad to the eye, or all of them parallel to the picture")
+        .choice("alpha", Alpha::optical, alphas,
+                "what a puff's picture is: optical depth, or, as in the paper, a factor of the puff's opacity "
+                "(puff=gaussian then is a smoothly faded circle)");
+    draw::declareOpacity(info.parameters);
+    info.parameters.choice("mode", "fixed", {"fixed", "paper"}, "drawn by the optical model, or as the paper draws")
+        .preset("mode", "paper", {{"sort", "quicksort"}, {"puff", "texture"}, {"alpha", "plain"}, {"opacity", "age"}});
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         Settings settings;
         settings.sort = values.choice("sort", draw::sortKinds);
         settings.puff = values.choice("puff", puffs);
         settings.style.soft = values.boolean("soft");
+        settings.style.plainAlpha = values.choice("alpha", alphas) == Alpha::plain;
+        settings.opacity = values.choice("opacity", draw::opacityOrigins);
+        settings.youngOpacity = values.real("young_opacity");
         settings.style.facing = values.choice("facing", draw::facings);
         return std::make_unique<Billboard>(settings);
     };

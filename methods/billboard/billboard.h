@@ -1,14 +1,16 @@
 // Dust as sorted, camera-facing quads: the established method that the octree methods are compared with.
 //
-// Source: Carr2006, 3.1. Departs: opacity follows the optical model shared by all methods (maths/transmittance.h).
-// `puff` selects the paper's single puff picture, several pictures or an animation; `soft` fades quads out where they
-// meet opaque surfaces.
+// Source: Carr2006, 3.1. `mode=paper` draws as the paper does: quicksort, one puff picture, opacity by age alone times
+// the picture's alpha. Departs in `mode=fixed`: opacity follows the optical model shared by all methods
+// (maths/transmittance.h). `puff` selects the paper's single puff picture, several pictures or an animation; `soft`
+// fades quads out where they meet opaque surfaces.
 #pragma once
 
 #include <memory>
 #include <optional>
 
 #include "methods/contract/method.h"
+#include "methods/kit/draw/age_opacity.h"
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/depth_sort.h"
 #include "methods/kit/draw/puff_textures.h"
@@ -21,9 +23,18 @@ inline constexpr Choices<Puff> puffs{{"gaussian", Puff::gaussian},
                                      {"textures", Puff::textures},
                                      {"animated", Puff::animated}};
 
+/// How a quad's opacity follows from its picture.
+enum class Alpha {
+    optical,  ///< the picture is optical depth: Beer–Lambert law
+    plain,    ///< the picture's alpha times the puff's opacity
+};
+inline constexpr Choices<Alpha> alphas{{"optical", Alpha::optical}, {"plain", Alpha::plain}};
+
 struct Settings {
     draw::SortKind sort = draw::SortKind::radix;
     Puff puff = Puff::gaussian;
+    draw::OpacityFrom opacity = draw::OpacityFrom::dust;
+    double youngOpacity = 0.5;
     draw::BillboardStyle style;
 };
 
@@ -39,11 +50,12 @@ class Billboard final : public Method {
     [[nodiscard]] std::int64_t primitives() const override;
 
  private:
-    void upload(const Puffs& dust, std::span<const std::uint32_t> order);
+    void upload(const Puffs& dust, std::span<const float> opacity, std::span<const std::uint32_t> order);
 
     Settings settings_;
     MemoryLedger ledger_;
     draw::DepthSort sort_;
+    std::optional<draw::AgeOpacity> byAge_;
     std::optional<draw::PuffTextures> pictures_;
     std::optional<draw::Billboards> quads_;
 };

@@ -123,6 +123,41 @@ TEST(Billboard, DrawsTheSameAgainInEveryMode) {
         for (std::size_t j = 0; j < i; j += 4) EXPECT_GT(largestDifference(pictures[i], pictures[j], true), 0.01);
 }
 
+TEST(Billboard, DrawsThePapersOpacityFromAgeAlone) {
+    Moment moment(300);
+    const auto paper = prepared(moment, {{"mode", "paper"}});
+    const pictures::Image image = moment.updateAndDraw(*paper);
+    EXPECT_EQ(moment
+                  .updateAndDraw(*prepared(
+                      moment, {{"sort", "quicksort"}, {"puff", "texture"}, {"alpha", "plain"}, {"opacity", "age"}}))
+                  .pixels,
+              image.pixels);
+    EXPECT_GT(largestDifference(moment.updateAndDraw(*prepared(moment, {})), image, true), 0.05);
+    // The dust's own opacity has no effect; age does.
+    for (float& opacity : moment.dust.opacity) opacity = 0.9f;
+    EXPECT_EQ(moment.updateAndDraw(*paper).pixels, image.pixels);
+    for (float& age : moment.dust.age) age *= 0.5f;
+    EXPECT_GT(largestDifference(moment.updateAndDraw(*paper), image, true), 0.05);
+    for (float& age : moment.dust.age) age = 5;
+    for (const glm::vec4& pixel : moment.updateAndDraw(*paper).pixels) ASSERT_EQ(pixel, glm::vec4(0));
+}
+
+TEST(Billboard, TellsTheOpacityThatItDraws) {
+    class Collector final : public VolumeVisitor {
+     public:
+        void puffs(const Puffs& puffs) override { opacity.assign(puffs.opacity.begin(), puffs.opacity.end()); }
+        void grid(const GridVolume&) override { ADD_FAILURE() << "grid"; }
+        void octree(const OctreeVolume&) override { ADD_FAILURE() << "octree"; }
+        std::vector<float> opacity;
+    } collector;
+    Moment moment(100);
+    const auto method = prepared(moment, {{"mode", "paper"}, {"young_opacity", "0.8"}});
+    method->update(moment.frame());
+    method->volume(moment.frame(), collector);
+    ASSERT_EQ(collector.opacity.size(), 100u);
+    for (std::size_t i = 0; i < 100; ++i) EXPECT_NEAR(collector.opacity[i], 0.8f * (1 - moment.dust.age[i] / 5), 1e-6f);
+}
+
 TEST(Billboard, FollowsACloudThatComesAndGoes) {
     Moment empty(0), few(10), many(5'000);
     const auto method = prepared(empty, {});

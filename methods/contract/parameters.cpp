@@ -209,6 +209,27 @@ ParameterSet& ParameterSet::changes(std::string name, std::string help) {
     return add({std::move(name), ParameterType::changes, "", 0, 0, {}, "", std::move(help)});
 }
 
+ParameterSet& ParameterSet::preset(std::string_view name, std::string_view word,
+                                   const std::vector<std::pair<std::string, std::string>>& defaults) {
+    const auto choice = std::ranges::find(parameters_, name, &Parameter::name);
+    if (choice == parameters_.end() || std::ranges::find(choice->choices, word) == choice->choices.end())
+        throw std::logic_error("preset " + std::string(name) + "=" + std::string(word) + ": there is no such choice");
+    Preset preset{std::string(name), std::string(word), {}};
+    std::string listed;
+    for (const auto& [other, text] : defaults) {
+        const Parameter* parameter = find(other);
+        const auto canonical = parameter ? canonicalText(*parameter, text) : std::nullopt;
+        if (!canonical || other == name)
+            throw std::logic_error("preset " + std::string(name) + "=" + std::string(word) + ": " + other + "=" + text +
+                                   " is not allowed");
+        preset.defaults.emplace_back(other, *canonical);
+        listed.append(listed.empty() ? " (" : ", ").append(other + "=" + *canonical);
+    }
+    choice->help += "; " + preset.word + " has other defaults" + listed + ")";
+    presets_.push_back(std::move(preset));
+    return *this;
+}
+
 const Parameter* ParameterSet::find(std::string_view name) const {
     const auto found = std::ranges::find(parameters_, name, &Parameter::name);
     return found == parameters_.end() ? nullptr : &*found;
@@ -233,6 +254,19 @@ void ParameterValues::set(std::string_view name, std::string_view text) {
                          ", allowed: " + parameter->allowed() + (parameter->unit.empty() ? "" : " " + parameter->unit));
     }
     values_.find(name)->second = *canonical;
+    given_.emplace(name);
+    applyPresets();
+}
+
+void ParameterValues::applyPresets() {
+    for (const Preset& preset : declared_.presets())
+        for (const auto& [name, text] : preset.defaults)
+            if (!given_.contains(name)) values_[name] = declared_.find(name)->initial;
+    for (const Preset& preset : declared_.presets()) {
+        if (values_[preset.parameter] != preset.word) continue;
+        for (const auto& [name, text] : preset.defaults)
+            if (!given_.contains(name)) values_[name] = text;
+    }
 }
 
 const std::string& ParameterValues::value(std::string_view name, ParameterType type) const {

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "methods/contract/choices.h"
@@ -44,6 +46,12 @@ struct DUSTBENCH_API Parameter {
     [[nodiscard]] std::string allowed() const;
 };
 
+/// Other defaults, for as long as the choice `parameter` has the value `word`.
+struct Preset {
+    std::string parameter, word;
+    std::vector<std::pair<std::string, std::string>> defaults;  ///< name and canonical text
+};
+
 /// The parameters that a method (or the harness) declares, in the order of declaration.
 class DUSTBENCH_API ParameterSet {
  public:
@@ -68,13 +76,20 @@ class DUSTBENCH_API ParameterSet {
     /// Changes while the run goes on, `2.5s:NAME=VALUE;4s:…`; none by default. The command line's `--at` sets it.
     ParameterSet& changes(std::string name, std::string help);
 
+    /// Makes `word` of the choice `name` a preset: other parameters, declared before, have other defaults with it. A
+    /// value that is set explicitly wins. The choice's help lists the defaults.
+    ParameterSet& preset(std::string_view name, std::string_view word,
+                         const std::vector<std::pair<std::string, std::string>>& defaults);
+
     [[nodiscard]] const std::vector<Parameter>& all() const { return parameters_; }
+    [[nodiscard]] const std::vector<Preset>& presets() const { return presets_; }
     [[nodiscard]] const Parameter* find(std::string_view name) const;
 
  private:
     ParameterSet& add(Parameter parameter);
 
     std::vector<Parameter> parameters_;
+    std::vector<Preset> presets_;
 };
 
 /// A value for every parameter of a set, always within its declaration.
@@ -84,7 +99,8 @@ class DUSTBENCH_API ParameterValues {
     /// The defaults.
     explicit ParameterValues(const ParameterSet& declared);
 
-    /// Throws InputError with the parameter, the value received and the values allowed.
+    /// Throws InputError with the parameter, the value received and the values allowed. The order of calls for
+    /// different parameters does not matter.
     void set(std::string_view name, std::string_view text);
 
     [[nodiscard]] std::int64_t integer(std::string_view name) const;
@@ -108,9 +124,11 @@ class DUSTBENCH_API ParameterValues {
  private:
     [[nodiscard]] const std::string& value(std::string_view name, ParameterType type) const;
     [[nodiscard]] const std::string& choiceOf(std::string_view name, const std::vector<std::string>& words) const;
+    void applyPresets();
 
     ParameterSet declared_;
     std::map<std::string, std::string, std::less<>> values_;
+    std::set<std::string, std::less<>> given_;  ///< names that were set
 };
 
 }  // namespace dustbench

@@ -31,6 +31,51 @@ std::string errorOf(ParameterValues& values, std::string_view name, std::string_
     return "no error";
 }
 
+ParameterSet withPreset() {
+    ParameterSet set = sample();
+    set.choice("mode", "fixed", {"fixed", "paper"}, "which")
+        .preset("mode", "paper", {{"sort", "quicksort"}, {"depth", "09"}});
+    return set;
+}
+
+TEST(Parameters, TakeTheDefaultsOfAPresetUnlessTheyAreSet) {
+    ParameterValues values(withPreset());
+    EXPECT_EQ(values.choice("sort"), "radix");
+    values.set("mode", "paper");
+    EXPECT_EQ(values.choice("sort"), "quicksort");
+    EXPECT_EQ(values.canonical().at("depth"), "9");
+    EXPECT_EQ(values.real("share"), 0.5);
+    values.set("sort", "none");
+    EXPECT_EQ(values.choice("sort"), "none");
+    values.set("mode", "fixed");
+    EXPECT_EQ(values.integer("depth"), 7);
+    EXPECT_EQ(values.choice("sort"), "none");
+    EXPECT_EQ(withPreset().find("mode")->help, "which; paper has other defaults (sort=quicksort, depth=9)");
+}
+
+TEST(Parameters, TakeAPresetWhateverTheOrder) {
+    ParameterValues first(withPreset()), last(withPreset());
+    first.set("mode", "paper");
+    first.set("depth", "7");  // the default of the other mode, but said
+    last.set("depth", "7");
+    last.set("mode", "paper");
+    EXPECT_EQ(first.canonical(), last.canonical());
+    EXPECT_EQ(first.integer("depth"), 7);
+    EXPECT_EQ(first.choice("sort"), "quicksort");
+    // The whole canonical form, read again, gives itself.
+    ParameterValues again(withPreset());
+    for (const auto& [name, text] : first.canonical()) again.set(name, text);
+    EXPECT_EQ(again.canonical(), first.canonical());
+}
+
+TEST(Parameters, RefuseAPresetOfWhatIsNotDeclared) {
+    EXPECT_THROW(withPreset().preset("mode", "printed", {}), std::logic_error);
+    EXPECT_THROW(withPreset().preset("mood", "paper", {}), std::logic_error);
+    EXPECT_THROW(withPreset().preset("mode", "paper", {{"sort", "bubble"}}), std::logic_error);
+    EXPECT_THROW(withPreset().preset("mode", "paper", {{"order", "radix"}}), std::logic_error);
+    EXPECT_THROW(withPreset().preset("mode", "paper", {{"mode", "fixed"}}), std::logic_error);
+}
+
 TEST(Parameters, StartAtTheirDefaults) {
     const ParameterValues values(sample());
     EXPECT_EQ(values.integer("depth"), 7);

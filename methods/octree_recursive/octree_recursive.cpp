@@ -2,6 +2,7 @@
 #include "methods/kit/octree/brick_builder.h"
 #include "methods/kit/octree/octree_dust.h"
 #include "methods/octree_recursive/list_builder.h"
+#include "methods/octree_recursive/paper_builder.h"
 #include "methods/octree_recursive/sorting_reducer.h"
 
 namespace dustbench::octree_recursive {
@@ -13,14 +14,16 @@ MethodInfo describe() {
         "Voxels of an octree that lists of particles are split down into: one recursion that also lists the voxels.";
     info.source = "Carr2006";
     octree::declareDust(info);
-    info.parameters.choice("layout", "faithful", {"faithful", "morton"},
-                           "the paper's construction, or one of today: bricks of 16³ cells, Morton codes sorted in "
-                           "each, in parallel");
+    octree::declareLayout(info,
+                          "the paper's construction, with its cells found beforehand (lists are split by Morton codes) "
+                          "or as it is printed, or "
+                          "one of today: bricks of 16³ cells, Morton codes sorted in each, in parallel");
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
-        const bool faithful = values.choice("layout") == "faithful";
+        const std::string layout = values.choice("layout");
         return std::make_unique<octree::OctreeDust>(
-            octree::dustSettings(values), [faithful](MemoryLedger& ledger) -> std::unique_ptr<octree::OctreeBuilder> {
-                if (faithful) return std::make_unique<ListBuilder>(ledger);
+            octree::dustSettings(values), [layout](MemoryLedger& ledger) -> std::unique_ptr<octree::OctreeBuilder> {
+                if (layout == "paper") return std::make_unique<PaperBuilder>(ledger);
+                if (layout == "faithful") return std::make_unique<ListBuilder>(ledger);
                 return std::make_unique<octree::BrickBuilder<SortingReducer>>(ledger);
             });
     };

@@ -3,6 +3,7 @@
 #include "methods/kit/octree/octree_dust.h"
 #include "methods/octree_search/grid_reducer.h"
 #include "methods/octree_search/insertion_builder.h"
+#include "methods/octree_search/paper_builder.h"
 
 namespace dustbench::octree_search {
 
@@ -13,14 +14,16 @@ MethodInfo describe() {
         "Voxels of an octree that each particle is searched a place in: one pass from the root, one traversal.";
     info.source = "Carr2006";
     octree::declareDust(info);
-    info.parameters.choice("layout", "faithful", {"faithful", "morton"},
-                           "the paper's construction, or one of today: bricks of 16³ cells, a small grid each, in "
-                           "parallel");
+    octree::declareLayout(info,
+                          "the paper's construction, with its cells found beforehand (Morton codes are the paths) or "
+                          "as it is printed, or "
+                          "one of today: bricks of 16³ cells, a small grid each, in parallel");
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
-        const bool faithful = values.choice("layout") == "faithful";
+        const std::string layout = values.choice("layout");
         return std::make_unique<octree::OctreeDust>(
-            octree::dustSettings(values), [faithful](MemoryLedger& ledger) -> std::unique_ptr<octree::OctreeBuilder> {
-                if (faithful) return std::make_unique<InsertionBuilder>(ledger);
+            octree::dustSettings(values), [layout](MemoryLedger& ledger) -> std::unique_ptr<octree::OctreeBuilder> {
+                if (layout == "paper") return std::make_unique<PaperBuilder>(ledger);
+                if (layout == "faithful") return std::make_unique<InsertionBuilder>(ledger);
                 return std::make_unique<octree::BrickBuilder<GridReducer>>(ledger);
             });
     };

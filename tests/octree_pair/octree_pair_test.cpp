@@ -1,4 +1,4 @@
-// Both octree methods, both layouts: the same voxels, and the right ones.
+// Both octree methods, all layouts: the same voxels, and the right ones.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -16,9 +16,11 @@
 #include "methods/kit/octree/plain_octree.h"
 #include "methods/kit/particles/particle_store.h"
 #include "methods/octree_recursive/list_builder.h"
+#include "methods/octree_recursive/paper_builder.h"
 #include "methods/octree_recursive/sorting_reducer.h"
 #include "methods/octree_search/grid_reducer.h"
 #include "methods/octree_search/insertion_builder.h"
+#include "methods/octree_search/paper_builder.h"
 #include "tests/octree_pair/node_walk.h"
 
 namespace dustbench::octree_pair {
@@ -43,6 +45,8 @@ std::vector<NamedBuilder> allBuilders(MemoryLedger& ledger) {
     builders.push_back({"search, morton", std::make_unique<octree::BrickBuilder<octree_search::GridReducer>>(ledger)});
     builders.push_back(
         {"recursive, morton", std::make_unique<octree::BrickBuilder<octree_recursive::SortingReducer>>(ledger)});
+    builders.push_back({"search, paper", std::make_unique<octree_search::PaperBuilder>(ledger)});
+    builders.push_back({"recursive, paper", std::make_unique<octree_recursive::PaperBuilder>(ledger)});
     return builders;
 }
 
@@ -144,6 +148,35 @@ TEST(OctreePair, GivesTheSameVoxelsInEveryWayOfBuilding) {
             ASSERT_TRUE(std::ranges::equal(built.voxels(), first.voxels()));
             ASSERT_TRUE(std::ranges::equal(built.masses(), first.masses()));  // to the last bit
             ASSERT_EQ(countNodes(built), countNodes(first));
+        }
+    }
+}
+
+/// Where no cell's edge is a power of two, coordinates are rounded: alike in every way of building.
+TEST(OctreePair, GivesTheSameVoxelsInWorldsOfAnyEdge) {
+    std::mt19937_64 random(77);
+    MemoryLedger ledger;
+    ParticleStore store(ledger);
+    Octree tree(ledger), first(ledger);
+    auto builders = allBuilders(ledger);
+    for (int set = 0; set < 1000; ++set) {
+        Case made = makeCase(random, 1 + random() % 400, store);
+        const double edge = 10 + 0.37 * static_cast<double>(set);
+        made.lattice.origin *= edge / made.lattice.edgeMetres;
+        for (auto* axis : {&store.x, &store.y, &store.z})
+            for (float& place : *axis) place *= static_cast<float>(edge / made.lattice.edgeMetres);
+        made.lattice.edgeMetres = edge;
+        SCOPED_TRACE("set " + std::to_string(set) + ": " + described(made, store.size()));
+        std::int64_t clipped = 0;
+        for (const NamedBuilder& each : builders) {
+            SCOPED_TRACE(each.name);
+            const bool isFirst = &each == builders.data();
+            Octree& built = isFirst ? first : tree;
+            const std::int64_t outside = each.builder->build(store, made.lattice, made.settings, built);
+            if (isFirst) clipped = outside;
+            ASSERT_EQ(outside, clipped);
+            ASSERT_TRUE(std::ranges::equal(built.voxels(), first.voxels()));
+            ASSERT_TRUE(std::ranges::equal(built.masses(), first.masses()));
         }
     }
 }

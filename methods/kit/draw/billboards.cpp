@@ -14,6 +14,7 @@ std::map<std::string, std::string> definitions(const BillboardStyle& style, cons
     std::map<std::string, std::string> names;
     if (style.facing == Facing::viewplane) names["VIEWPLANE"] = "";
     if (style.soft) names["SOFT"] = "";
+    if (style.plainAlpha) names["PLAIN_ALPHA"] = "";
     if (style.additive) names["ADDITIVE"] = "";
     if (style.moving) names["MOVING"] = "";
     if (pictures) names["TEXTURED"] = "";

@@ -1,4 +1,5 @@
-// Opacity of a puff along the pixel's ray: α(b) = 1 − exp(−τ·exp(−b²/2s²)), premultiplied with its colour.
+// Opacity of a puff along the pixel's ray: α(b) = 1 − exp(−τ·exp(−b²/2s²)), premultiplied with its colour. PLAIN_ALPHA:
+// the puff's opacity times that of a picture or of a smoothly faded circle.
 in vec3 puff;
 flat in float nearness;
 #ifdef SOFT
@@ -58,6 +59,10 @@ void main() {
 #endif
     float depth = puff.z * texel.a;
     vec3 lit = puffColour * (shadeScale * texel.rgb);
+#elif defined(PLAIN_ALPHA)
+    float u = min(length(puff.xy), 1.0);
+    float depth = puff.z * (1.0 - u * u * (3.0 - 2.0 * u));
+    vec3 lit = puffColour;
 #else
     // On a plane at the centre's distance d, the ray at offset u passes the centre at b² = u²/(1 + u²/d²).
     float offset = dot(puff.xy, puff.xy);
@@ -67,11 +72,16 @@ void main() {
 #ifdef SOFT
     depth *= shareBeforeScene();
 #endif
-#ifdef ADDITIVE
-    float alpha = 1.0 - exp2(-depth);
-    colour = vec4(lit * (share * alpha), 0.0);
+#ifdef PLAIN_ALPHA
+    float alpha = share * depth;
+#elif defined(ADDITIVE)
+    float alpha = share * (1.0 - exp2(-depth));
 #else
     float alpha = 1.0 - exp2(-share * depth);
+#endif
+#ifdef ADDITIVE
+    colour = vec4(lit * alpha, 0.0);
+#else
     colour = vec4(lit * alpha, alpha);
 #endif
 }

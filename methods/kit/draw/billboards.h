@@ -28,6 +28,10 @@ struct BillboardStyle {
     Facing facing = Facing::viewpoint;
     /// Fades each puff out at the scene behind it, in closed form, instead of clipping it by the depth test.
     bool soft = false;
+    /// Opacity as in 2006: the puff's own, multiplied by the picture's alpha; without pictures by a circle's, which
+    /// falls smoothly from 1 at the centre to 0 at a distance of 1.5 r: 1 − 3u² + 2u³. Otherwise by the Beer–Lambert
+    /// law.
+    bool plainAlpha = false;
     /// Adds light without covering anything, as fire does: C = αC_puff + C, in any order.
     bool additive = false;
     /// Billboards have a displacement, and are drawn at any place on it: copies of a moving puff.

@@ -15,7 +15,8 @@ const int displacement = 5;
 #endif
 uniform vec4 projection;  // x and y scale, near distance, optical depth scale of the puff picture
 
-out vec3 puff;           // offset from the centre, such that |offset|² = b²/(2s²)·log2(e); optical depth
+out vec3 puff;           // offset from the centre, such that |offset|² = b²/(2s²)·log2(e); optical depth.
+                         // PLAIN_ALPHA: place on the quad, −1 to 1; opacity
 flat out float nearness;  // (offset length 1 / distance)²
 #ifdef SOFT
 out vec3 toQuad;  // eye space
@@ -69,11 +70,15 @@ void main() {
     // 1.5 r = 3s: |offset|² = 9/2·log2(e) in the middle of an edge.
     float edge = 1.5 * sqrt(2.0 * log2e);
     float depth = max(opticalDepth(values[base + 4]), 1e-30);
-#ifdef TEXTURED
+#ifdef PLAIN_ALPHA
+    puff = vec3(corner, values[base + 4]);
+#elif defined(TEXTURED)
     puff = vec3(corner, depth * projection.w);
-    frame = values[base + 5];
 #else
     puff = vec3(edge * corner, log2(depth));
+#endif
+#ifdef TEXTURED
+    frame = values[base + 5];
 #endif
 #ifdef SOFT
     toQuad = position;

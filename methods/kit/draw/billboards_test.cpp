@@ -96,6 +96,25 @@ TEST(Billboards, ShowThePuffsOpacityAlongEachRay) {
         expectPuff(canvas, canvas.draw(billboards, {puff}), puff, 1e-5);
 }
 
+TEST(Billboards, OfPlainAlphaAreCirclesThatFadeFromTheirMiddleToTheirRim) {
+    Canvas canvas;
+    Billboards billboards(Canvas::device(), {.plainAlpha = true});
+    for (const Puff& puff : {Puff{canvas.at({0, 0, -20}), 1.5f, 0.5f}, Puff{canvas.at({-5, 3, -12}), 2.0f, 0.999f},
+                             Puff{canvas.at({0.7f, -0.2f, -2}), 0.4f, 0.02f}}) {
+        const pictures::Image image = canvas.draw(billboards, {puff});
+        int drawn = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) {
+                const double u =
+                    std::min(canvas.expected(puff, x, y).planeOffset / (1.5 * static_cast<double>(puff.radius)), 1.0);
+                ASSERT_NEAR(image.at(x, y).a, static_cast<double>(puff.opacity) * (1 - 3 * u * u + 2 * u * u * u), 1e-5)
+                    << x << ',' << y;
+                drawn += u < 1 ? 1 : 0;
+            }
+        EXPECT_GT(drawn, 100);
+    }
+}
+
 TEST(Billboards, ArePremultipliedWithTheirColour) {
     Canvas canvas;
     Billboards billboards(Canvas::device(), {});

@@ -63,6 +63,10 @@ class Octree {
     /// Block 0 holds the root's children.
     [[nodiscard]] std::span<const NodeBlock> blocks() const { return {blocks_.data(), blockCount_}; }
     [[nodiscard]] int depth() const { return depth_; }
+    /// Of nodes and voxels, without memory held in reserve.
+    [[nodiscard]] std::size_t bytes() const {
+        return blocks().size_bytes() + voxels().size_bytes() + masses().size_bytes();
+    }
 
     // For builders.
 

@@ -17,6 +17,8 @@ class DUSTBENCH_API OctreeBuilder {
     /// is NaN.
     virtual std::int64_t build(const Puffs& store, const Lattice& lattice, const OctreeSettings& settings,
                                Octree& tree) = 0;
+    /// Bytes of the structure that holds the voxels of `tree`, the last one built; without what building it needed.
+    [[nodiscard]] virtual std::size_t structureBytes(const Octree& tree) const { return tree.bytes(); }
 };
 
 }  // namespace dustbench::octree

@@ -19,6 +19,11 @@ namespace {
 constexpr std::size_t voxelsPerBlock = 16'384;
 /// Keeps a billboard's opacity below 1, where the optical depth is infinite.
 constexpr float maximumOpacity = 0.99999f;
+/// Radius of a voxel's circle by its edge: that of the sphere through its corners, so that circles of neighbours leave
+/// no gap. The paper does not give it.
+constexpr float circleOfEdge = 0.8660254f;
+/// A billboard's half-side by its radius (draw/billboards.h).
+constexpr float halfSideOfRadius = 1.5f;
 /// Minimum distance between the vehicle and the faces of the world, as a fraction of the world's edge.
 constexpr double vehicleMargin = 1.0 / 8;
 
@@ -59,18 +64,36 @@ OctreeBuilder::~OctreeBuilder() = default;
 void declareDust(MethodInfo& info) {
     declareOctreeParameters(info.parameters);
     info.parameters
-        .choice("render", Render::billboards, renders,
-                "a voxel as a smoothly faded circle, as six faces, or a march through the tree along each pixel's ray")
+        .choice(
+            "render", Render::billboards, renders,
+            "a voxel as a smoothly faded circle of its optical depth, as the paper's plain circle, as six faces, or a "
+            "march through the tree along each pixel's ray")
         .choice("sort", draw::SortKind::radix, draw::sortKinds,
                 "order in which billboards and cubes are blended: far to near by the paper's quicksort or by a radix "
                 "sort, or as the tree gives them")
         .boolean("crossfade", false, "let voxels fade in and out instead of popping")
         .real("crossfade_time", 0.1, 0.001, 10, "s", "time constant of that fading")
         .real("world_edge", 128, 1, 1e5, "m", "edge of the octree's world, a cube that follows the vehicle");
+    draw::declareOpacity(info.parameters);
+    declareDustFacts(info);
+}
+
+void declareDustFacts(MethodInfo& info) {
     info.facts.push_back({"clipped", "particles", FactOver::maximumOfFrames,
                           "particles outside the method's world: maximum of the recorded frames"});
     info.facts.push_back({"mass_kept", "share", FactOver::lastFrame,
                           "share of the particles' optical mass that the method's volume holds after the last frame"});
+    info.facts.push_back(
+        {"structure_bytes", "bytes", FactOver::maximumOfFrames,
+         "bytes of the structure that holds the voxels, an octree's nodes and voxels or a grid's cells: "
+         "maximum of the recorded frames"});
+}
+
+void declareLayout(MethodInfo& info, const std::string& help) {
+    info.parameters.choice("layout", "faithful", {"faithful", "morton", "paper"}, help)
+        .choice("mode", "fixed", {"fixed", "paper"}, "shown by the optical model, or built and drawn as in the paper")
+        .preset("mode", "paper",
+                {{"layout", "paper"}, {"opacity", "age"}, {"render", "circles"}, {"sort", "quicksort"}});
 }
 
 DustSettings dustSettings(const ParameterValues& values) {
@@ -78,6 +101,8 @@ DustSettings dustSettings(const ParameterValues& values) {
     settings.tree = octreeSettings(values);
     settings.render = values.choice("render", renders);
     settings.sort = values.choice("sort", draw::sortKinds);
+    settings.opacity = values.choice("opacity", draw::opacityOrigins);
+    settings.youngOpacity = values.real("young_opacity");
     settings.crossFade = values.boolean("crossfade");
     settings.crossFadeSeconds = values.real("crossfade_time");
     settings.worldEdgeMetres = values.real("world_edge");
@@ -93,6 +118,7 @@ OctreeDust::OctreeDust(const DustSettings& settings, const MakeBuilder& makeBuil
       sort_(ledger_),
       extinctions_(ledger_.account("voxel list")),
       colours_(ledger_.account("voxel list")) {
+    if (settings.opacity == draw::OpacityFrom::age) byAge_.emplace(ledger_, settings.youngOpacity);
     if (settings.crossFade) fade_.emplace(ledger_, settings.crossFadeSeconds);
 }
 
@@ -100,7 +126,8 @@ void OctreeDust::prepare(const scene::Scene&, const RunSetup&, gpu::Device& devi
     tree_.clear(settings_.tree.depth);
     switch (settings_.render) {
         case Render::billboards:
-            billboards_.emplace(device, draw::BillboardStyle{});
+        case Render::circles:
+            billboards_.emplace(device, draw::BillboardStyle{.plainAlpha = settings_.render == Render::circles});
             break;
         case Render::cubes:
             cubes_.emplace(device);
@@ -118,13 +145,14 @@ void OctreeDust::build(const Frame& frame) {
     lattice.origin =
         octreeWorldOrigin(worldMiddle(frame.dust, frame.state.vehicle.position, settings_.worldEdgeMetres),
                           settings_.worldEdgeMetres, lattice.cellEdgeMetres(lattice.depth - settings_.tree.levels + 1));
+    const Puffs dust = byAge_ ? byAge_->of(frame.dust, lattice, settings_.tree) : frame.dust;
     {
         const auto detail = frame.clock.measureDetail("tree");
-        clipped_ = builder_->build(frame.dust, lattice, settings_.tree, tree_);
+        clipped_ = builder_->build(dust, lattice, settings_.tree, tree_);
     }
     {
         const auto detail = frame.clock.measureDetail("list");
-        cloud_.take(tree_, frame.dust, VoxelRule(frame.dust, settings_.tree.policy), lattice);
+        cloud_.take(tree_, dust, VoxelRule(dust, settings_.tree.policy), lattice);
     }
     if (!fade_) return;
     const auto detail = frame.clock.measureDetail("crossfade");
@@ -144,17 +172,19 @@ void OctreeDust::update(const Frame& frame) {
         order = sort_.farToNear(settings_.sort, {shown().x, shown().y, shown().z}, glm::vec3(frame.view.camera.eye));
     }
     const auto timing = frame.clock.measure(Stage::upload);
-    if (settings_.render == Render::billboards)
-        uploadBillboards(order);
-    else
+    if (settings_.render == Render::cubes)
         uploadCubes(order);
+    else
+        uploadBillboards(order);
 }
 
-/// r = edge/√(π/2) and τ = mass/edge²: a Gaussian puff with the voxel's mass and optical depth.
+/// r = edge/√(π/2) and τ = mass/edge²: a Gaussian puff with the voxel's mass and optical depth. As a plain circle: the
+/// opacity in its middle, and the size of the voxel.
 void OctreeDust::uploadBillboards(std::span<const std::uint32_t> order) {
     const VoxelCloud& cloud = shown();
     const draw::InstanceLayout layout = billboards_->layout(cloud.coloured());
     const std::span<float> memory = billboards_->map(order.size(), layout);
+    const float edgesPerRadius = settings_.render == Render::circles ? halfSideOfRadius / circleOfEdge : edgePerRadius;
     parallel::forEachBlock(order.size(), voxelsPerBlock, [&](std::size_t first, std::size_t count) {
         float* value = memory.data() + first * layout.floats;
         for (std::size_t k = first; k < first + count; ++k) {
@@ -162,7 +192,7 @@ void OctreeDust::uploadBillboards(std::span<const std::uint32_t> order) {
             *value++ = cloud.x[i];
             *value++ = cloud.y[i];
             *value++ = cloud.z[i];
-            *value++ = cloud.edge[i] / edgePerRadius;
+            *value++ = cloud.edge[i] / edgesPerRadius;
             *value++ = std::min(-std::expm1(-cloud.opticalDepth(i)), maximumOpacity);
             if (!layout.coloured) continue;
             *value++ = cloud.red[i];
@@ -231,6 +261,7 @@ void OctreeDust::volume(const Frame&, VolumeVisitor& visitor) const {
 
 void OctreeDust::report(const Frame& frame, Facts& facts) const {
     facts.tell("clipped", clipped_);
+    facts.tell("structure_bytes", static_cast<std::int64_t>(builder_->structureBytes(tree_)));
     if (!facts.wants("mass_kept")) return;
     if (const auto kept = massKept(frame.dust)) facts.tell("mass_kept", *kept);
 }

@@ -3,8 +3,8 @@
 // Each frame rebuilds the tree over a cube that follows the vehicle and its trail, lists its voxels, optionally
 // cross-fades them, and draws them as billboards, as cubes or by ray marching through the tree.
 //
-// Source: Carr2006, 3.2 and 3.5. Departs: opacity follows the optical model shared by all methods
-// (maths/transmittance.h).
+// Source: Carr2006, 3.2 and 3.5. `mode=paper` gives a voxel its opacity by age alone and draws it as a plain circle.
+// Departs in `mode=fixed`: opacity follows the optical model shared by all methods (maths/transmittance.h).
 #pragma once
 
 #include <memory>
@@ -18,22 +18,28 @@
 #include "methods/kit/octree/octree_builder.h"
 #include "methods/kit/octree/octree_march.h"
 #include "methods/kit/octree/voxel_cloud.h"
+#include "methods/kit/octree/voxel_opacity.h"
 
 namespace dustbench::octree {
 
 /// How voxels are drawn.
 enum class Render {
-    billboards,  ///< smoothly faded circles
+    billboards,  ///< smoothly faded circles of the voxel's optical depth
+    circles,     ///< the paper's: circles whose middle has the voxel's opacity
     cubes,       ///< six faces
     raycast,     ///< ray marching through the tree
 };
-inline constexpr Choices<Render> renders{
-    {"billboards", Render::billboards}, {"cubes", Render::cubes}, {"raycast", Render::raycast}};
+inline constexpr Choices<Render> renders{{"billboards", Render::billboards},
+                                         {"circles", Render::circles},
+                                         {"cubes", Render::cubes},
+                                         {"raycast", Render::raycast}};
 
 struct DustSettings {
     OctreeSettings tree;
     Render render = Render::billboards;
     draw::SortKind sort = draw::SortKind::radix;
+    draw::OpacityFrom opacity = draw::OpacityFrom::dust;
+    double youngOpacity = 0.5;
     bool crossFade = false;
     double crossFadeSeconds = 0.1;
     double worldEdgeMetres = 128;
@@ -41,6 +47,11 @@ struct DustSettings {
 
 /// Adds the parameters above to the method's parameters, and the facts that OctreeDust reports.
 DUSTBENCH_API void declareDust(MethodInfo& info);
+/// Adds the facts alone.
+DUSTBENCH_API void declareDustFacts(MethodInfo& info);
+/// Adds `layout`, the way of building, and `mode`, whose word `paper` is a preset of all these parameters. `help`
+/// explains the layouts.
+DUSTBENCH_API void declareLayout(MethodInfo& info, const std::string& help);
 /// Throws InputError if the values are inconsistent.
 [[nodiscard]] DUSTBENCH_API DustSettings dustSettings(const ParameterValues& values);
 
@@ -76,6 +87,7 @@ class DUSTBENCH_API OctreeDust final : public Method {
     Octree tree_;
     Octree shownTree_;  ///< tree of the faded voxels, used only for ray marching
     VoxelCloud cloud_;
+    std::optional<VoxelOpacity> byAge_;
     std::optional<CrossFade> fade_;
     const VoxelCloud* shown_ = &cloud_;
     draw::DepthSort sort_;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
 #include <set>
 #include <tuple>
@@ -13,6 +14,7 @@
 #include "methods/contract/errors.h"
 #include "methods/contract/volume.h"
 #include "methods/kit/octree/cell_kernel.h"
+#include "methods/kit/octree/particle_place.h"
 #include "methods/kit/testing/test_moment.h"
 
 namespace dustbench::octree {
@@ -177,9 +179,101 @@ TEST(OctreeDust, HandsOverItsVoxelsWithTheirMass) {
     EXPECT_EQ(static_cast<std::int64_t>(collector.count), method.primitives());
 }
 
+TEST(OctreeDust, GivesAVoxelAnOpacityByAgeAloneWhateverItsSize) {
+    class Collector final : public VolumeVisitor {
+     public:
+        void puffs(const Puffs&) override { ADD_FAILURE() << "puffs"; }
+        void grid(const GridVolume&) override { ADD_FAILURE() << "grid"; }
+        void octree(const OctreeVolume& volume) override {
+            for (const OctreeVoxel& voxel : volume.voxels) {
+                const double edge = volume.edgeMetres / static_cast<double>(1u << voxel.level);
+                const double alpha = -std::expm1(-static_cast<double>(voxel.extinctionPerMetre) * edge);
+                EXPECT_NEAR(alpha, 0.6 * (1 - static_cast<double>(voxel.ageSeconds) / 4), 1e-5);
+                levels.insert(voxel.level);
+            }
+        }
+        std::set<int> levels;
+    };
+    Moment moment(1000);
+    for (const OpacityPolicy policy : {OpacityPolicy::max, OpacityPolicy::youngest}) {
+        DustSettings settings = settingsOf(Render::circles, policy);
+        settings.opacity = draw::OpacityFrom::age;
+        settings.youngOpacity = 0.6;
+        OctreeDust method = make(settings);
+        method.prepare(moment.scene, {}, Moment::device());
+        method.update(moment.frame());
+        Collector collector;
+        method.volume(moment.frame(), collector);
+        EXPECT_EQ(collector.levels.size(), 4u);
+    }
+}
+
+TEST(VoxelOpacity, LeavesParticlesInTheirVoxels) {
+    Moment moment(1000);
+    MemoryLedger ledger;
+    VoxelOpacity byAge(ledger, 0.5);
+    for (const LevelRule rule : {LevelRule::age, LevelRule::radius}) {
+        OctreeSettings settings;
+        settings.levelRule = rule;
+        const Lattice lattice;
+        const Puffs dust = moment.dust, shown = byAge.of(dust, lattice, settings);
+        const ParticlePlace before(dust, lattice, settings), after(shown, lattice, settings);
+        std::set<int> levels;
+        for (std::size_t i = 0; i < dust.size(); ++i) {
+            ASSERT_EQ(after.level(i), before.level(i));
+            levels.insert(after.level(i));
+        }
+        EXPECT_GE(levels.size(), 2u);
+    }
+}
+
+TEST(OctreeDust, DrawsAVoxelAsAPlainCircleOfItsOpacity) {
+    Moment moment(1);
+    moment.dust.x[0] = moment.dust.z[0] = 0;
+    moment.dust.y[0] = 1;
+    moment.dust.age[0] = 1;
+    moment.dust.radius[0] = 77;  // without effect
+    moment.dust.opacity[0] = 0.01f;
+    DustSettings settings = settingsOf(Render::circles);
+    settings.opacity = draw::OpacityFrom::age;
+    settings.tree.depth = 5;
+    settings.tree.levels = 1;  // a voxel of 4 m, with its middle at 2 m
+    OctreeDust method = make(settings);
+    method.prepare(moment.scene, {}, Moment::device());
+    method.update(moment.frame());
+    const pictures::Image image = moment.draw(method);
+    const glm::dvec3 centre = glm::dvec3(2) - moment.view.camera.eye;
+    double largest = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const glm::dvec3 ray = moment.view.rayDirection(x + 0.5, y + 0.5);
+            const double cosine = glm::dot(ray, glm::normalize(centre));
+            const double offset = glm::length(centre) * std::sqrt(1 - cosine * cosine) / cosine;
+            const double u = std::min(offset / (2 * std::numbers::sqrt3), 1.0);  // half the cube's diagonal
+            ASSERT_NEAR(image.at(x, y).a, 0.375 * (1 - 3 * u * u + 2 * u * u * u), 1e-4) << x << ',' << y;
+            largest = std::max(largest, static_cast<double>(image.at(x, y).a));
+        }
+    EXPECT_NEAR(largest, 0.375, 1e-3);
+}
+
+TEST(OctreeDust, HasAPresetOfThePaper) {
+    MethodInfo info;
+    declareDust(info);
+    declareLayout(info, "how");
+    ParameterValues values(info.parameters);
+    EXPECT_EQ(values.choice("layout"), "faithful");
+    EXPECT_EQ(dustSettings(values).opacity, draw::OpacityFrom::dust);
+    values.set("mode", "paper");
+    EXPECT_EQ(values.choice("layout"), "paper");
+    const DustSettings settings = dustSettings(values);
+    EXPECT_EQ(settings.opacity, draw::OpacityFrom::age);
+    EXPECT_EQ(settings.render, Render::circles);
+    EXPECT_EQ(settings.sort, draw::SortKind::quicksort);
+}
+
 TEST(OctreeDust, DrawsTheSameAgainInEveryWay) {
     Moment moment(500);
-    for (const Render render : {Render::billboards, Render::cubes, Render::raycast})
+    for (const Render render : {Render::billboards, Render::circles, Render::cubes, Render::raycast})
         for (const bool fades : {false, true}) {
             DustSettings settings = settingsOf(render, OpacityPolicy::max);
             settings.crossFade = fades;

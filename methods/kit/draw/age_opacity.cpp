@@ -1,0 +1,19 @@
+#include "methods/kit/draw/age_opacity.h"
+
+namespace dustbench::draw {
+
+void declareOpacity(ParameterSet& parameters) {
+    parameters
+        .choice("opacity", OpacityFrom::dust, opacityOrigins,
+                "of a particle: the dust's own, or by its age alone, as in the paper")
+        .real("young_opacity", 0.5, 0, 0.999, "",
+              "opacity at birth, where opacity=age; it falls to 0 in a straight line");
+}
+
+std::span<const float> AgeOpacity::of(const Puffs& dust) {
+    column_.resize(dust.size());
+    for (std::size_t i = 0; i < dust.size(); ++i) column_[i] = opacityByAge(dust.age[i], dust.lifetime[i], young_);
+    return column_;
+}
+
+}  // namespace dustbench::draw
