@@ -1,6 +1,7 @@
 #include "bench/claims/claim.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -16,10 +17,15 @@
 namespace dustbench::bench {
 namespace {
 
-constexpr Choices<Quantity> quantities{{"none", Quantity::none},         {"ratio", Quantity::ratio},
-                                       {"share", Quantity::share},       {"growth", Quantity::growth},
-                                       {"exponent", Quantity::exponent}, {"value", Quantity::value},
-                                       {"finding", Quantity::finding}};
+constexpr Choices<Quantity> quantities{{"none", Quantity::none},       {"ratio", Quantity::ratio},
+                                       {"matched", Quantity::matched}, {"share", Quantity::share},
+                                       {"growth", Quantity::growth},   {"trend", Quantity::trend},
+                                       {"slopes", Quantity::slopes},   {"exponent", Quantity::exponent},
+                                       {"value", Quantity::value},     {"finding", Quantity::finding}};
+constexpr Choices<Chance> chances{
+    {"repetitions", Chance::repetitions}, {"seeds", Chance::seeds}, {"none", Chance::none}};
+constexpr Choices<ControlOutcome> outcomes{{"refuted", ControlOutcome::refuted},
+                                           {"confirmed", ControlOutcome::confirmed}};
 
 Selection selectionIn(files::TomlReader& table, const std::string& key) {
     return parseSelection(table.text(key), table.where(key) + "key '" + key + "'");
@@ -31,14 +37,59 @@ std::string readColumn(files::TomlReader& table, const std::string& key) {
     return name;
 }
 
-void readRange(files::TomlReader& table, Claim& claim) {
+bool needsAgainst(Quantity quantity) {
+    return quantity == Quantity::matched || quantity == Quantity::growth || quantity == Quantity::trend ||
+           quantity == Quantity::slopes || quantity == Quantity::exponent;
+}
+
+void readRange(files::TomlReader& table, Rule& rule) {
     constexpr double any = 1e300;
-    if (table.has("min")) claim.minimum = table.number("min", -any, any);
-    if (table.has("max")) claim.maximum = table.number("max", -any, any);
-    if (!claim.minimum && !claim.maximum)
+    if (table.has("min")) rule.minimum = table.number("min", -any, any);
+    if (table.has("max")) rule.maximum = table.number("max", -any, any);
+}
+
+void requireRange(const Claim& claim) {
+    const Rule& rule = claim.rule;
+    if (!rule.minimum && !rule.maximum)
         throw InputError(claim.where + "claim " + claim.id + ": got neither 'min' nor 'max', expected one");
-    if (claim.minimum && claim.maximum && *claim.minimum > *claim.maximum)
+    if (rule.minimum && rule.maximum && *rule.minimum > *rule.maximum)
         throw InputError(claim.where + "claim " + claim.id + ": 'min' is above 'max'");
+}
+
+/// Reads the data of a rule. Keys that the table lacks keep their values if `rule` has some already.
+void readData(files::TomlReader& table, Rule& rule) {
+    const auto wanted = [&](const char* key, bool missing) { return missing || table.has(key); };
+    if (rule.quantity == Quantity::finding) {
+        if (wanted("experiment", rule.experiment.empty()))
+            rule.experiment = table.choice("experiment", experimentNames());
+        if (wanted("column", rule.column.empty())) rule.column = table.text("column");
+        return;
+    }
+    if (wanted("suite", rule.suite.empty())) rule.suite = table.text("suite");
+    if (wanted("column", rule.column.empty())) rule.column = readColumn(table, "column");
+    if (table.has("per")) rule.per = readColumn(table, "per");
+    if (wanted("of", rule.of.empty())) rule.of = selectionIn(table, "of");
+    if (rule.quantity == Quantity::matched && wanted("match", rule.match.empty()))
+        rule.match = readColumn(table, "match");
+    const bool isRatio = rule.quantity == Quantity::ratio || rule.quantity == Quantity::matched;
+    if (isRatio && wanted("with", rule.with.empty())) rule.with = selectionIn(table, "with");
+    if (needsAgainst(rule.quantity) && wanted("against", rule.against.empty()))
+        rule.against = readColumn(table, "against");
+    if (rule.quantity == Quantity::share && wanted("parts", rule.parts.empty())) {
+        rule.parts = table.texts("parts");
+        if (rule.parts.empty()) throw InputError(table.where("parts") + "key 'parts': got none, expected columns");
+        for (const std::string& part : rule.parts) requireColumn(table.where("parts"), part);
+    }
+}
+
+ControlRule readControl(files::TomlReader& table, const Rule& rule) {
+    ControlRule control;
+    control.rule = rule;
+    control.why = table.text("why");
+    control.gives = table.choice("gives", outcomes);
+    readData(table, control.rule);
+    table.finish();
+    return control;
 }
 
 Claim readClaim(files::TomlReader& table) {
@@ -46,33 +97,19 @@ Claim readClaim(files::TomlReader& table) {
     claim.where = table.where();
     claim.id = table.text("id");
     claim.text = table.text("text");
-    claim.quantity = table.choice("quantity", quantities);
-    if (claim.quantity == Quantity::none) {
+    claim.rule.quantity = table.choice("quantity", quantities);
+    if (claim.rule.quantity == Quantity::none) {
         claim.missing = table.text("missing");
         table.finish();
         return claim;
     }
-    if (claim.quantity == Quantity::finding) {
-        claim.experiment = table.choice("experiment", experimentNames());
-        claim.column = table.text("column");
-        readRange(table, claim);
-        table.finish();
-        return claim;
-    }
-    claim.suite = table.text("suite");
-    claim.column = readColumn(table, "column");
-    if (table.has("per")) claim.per = readColumn(table, "per");
-    claim.of = selectionIn(table, "of");
-    claim.exact = table.boolean("exact", false);
-    if (claim.quantity == Quantity::ratio) claim.with = selectionIn(table, "with");
-    if (claim.quantity == Quantity::share) {
-        claim.parts = table.texts("parts");
-        if (claim.parts.empty()) throw InputError(table.where("parts") + "key 'parts': got none, expected columns");
-        for (const std::string& part : claim.parts) requireColumn(table.where("parts"), part);
-    }
-    if (claim.quantity == Quantity::growth || claim.quantity == Quantity::exponent)
-        claim.against = readColumn(table, "against");
-    readRange(table, claim);
+    readData(table, claim.rule);
+    if (claim.rule.quantity != Quantity::finding && table.has("over")) claim.rule.over = table.choice("over", chances);
+    readRange(table, claim.rule);
+    requireRange(claim);
+    claim.reason = table.text("reason");
+    for (files::TomlReader& control : table.tables("control"))
+        claim.controls.push_back(readControl(control, claim.rule));
     table.finish();
     return claim;
 }
@@ -113,10 +150,50 @@ Selection parseSelection(const std::string& text, const std::string& what) {
     return selection;
 }
 
-std::string Claim::expected() const {
+std::string textOf(const Selection& selection) {
+    std::string text;
+    for (const auto& [column, value] : selection)
+        text += (text.empty() ? "" : " ") + (column == "method" ? value : nameOf(column) + "=" + value);
+    return text;
+}
+
+std::string nameOf(const std::string& column) {
+    return column.starts_with("p.") ? column.substr(2) : column;
+}
+
+std::string Rule::expected() const {
     if (minimum && maximum) return fmt::format("{:g} to {:g}", *minimum, *maximum);
     if (minimum) return fmt::format("{:g} or more", *minimum);
     return maximum ? fmt::format("{:g} or less", *maximum) : "";
+}
+
+std::string Rule::inWords() const {
+    const std::string what = per.empty() ? column : column + " per " + nameOf(per);
+    switch (quantity) {
+        case Quantity::ratio:
+            return fmt::format("{} of {} over that of {}", what, textOf(of), textOf(with));
+        case Quantity::matched:
+            return fmt::format("{} of {} over that of {} with the same {}", what, textOf(of), textOf(with), match);
+        case Quantity::share:
+            return fmt::format("({}) over {} of {}", fmt::join(parts, " + "), what, textOf(of));
+        case Quantity::growth:
+            return fmt::format("{} of {} at the maximum of {} over that at the minimum", what, textOf(of),
+                               nameOf(against));
+        case Quantity::trend:
+            return fmt::format("rank correlation of {} with {}, {}", what, nameOf(against), textOf(of));
+        case Quantity::slopes:
+            return fmt::format("slope of {} over {} in the upper half of the loads, over that in the lower half, {}",
+                               what, nameOf(against), textOf(of));
+        case Quantity::exponent:
+            return fmt::format("k of {} = a + b {}^k, {}", what, nameOf(against), textOf(of));
+        case Quantity::value:
+            return fmt::format("{} of {}", what, textOf(of));
+        case Quantity::finding:
+            return fmt::format("{} of the experiment {}", column, experiment);
+        case Quantity::none:
+            break;
+    }
+    return "";
 }
 
 std::vector<Claim> loadClaims(const std::string& paper) {

@@ -1,7 +1,8 @@
 // A measurable statement of a paper, and the rule that compares our results with it.
 //
 // `data/papers/<id>/claims.toml` contains the claims; data/papers/README.md documents every key. A rule is a quantity
-// computed from the rows of summary.csv, or a finding of an experiment, and the range in which the claim is true.
+// computed from the rows of summary.csv, or a finding of an experiment, and the range in which the claim is true. Each
+// rule has controls: data for which the outcome is known, so that a rule that cannot fail is noticed.
 #pragma once
 
 #include <filesystem>
@@ -15,12 +16,26 @@ namespace dustbench::bench {
 enum class Quantity {
     none,      ///< not testable; `missing` gives the reason
     ratio,     ///< of a column between two selections, row by row in the same world
+    matched,   ///< a ratio of a column where another column, `match`, is the same on both sides
     share,     ///< the sum of some columns divided by another column
     growth,    ///< of a column from the minimum value of `against` to the maximum
+    trend,     ///< rank correlation (Kendall's τ) of a column with `against`: 1 if it always rises, −1 if it falls
+    slopes,    ///< of a column over `against`: from the middle load to the maximum, over that from the minimum to the
+               ///< middle
     exponent,  ///< k of column = a + b·against^k
     value,     ///< of a column
     finding    ///< an experiment's result, with its own interval
 };
+
+/// What a quantity is measured over again, and thus where its interval comes from.
+enum class Chance {
+    repetitions,  ///< the time on a machine: again in each repetition
+    seeds,        ///< what depends on the random cloud: again for each seed
+    none          ///< bytes and the like: the same each time, without interval
+};
+
+/// The verdict that a control must give.
+enum class ControlOutcome { refuted, confirmed };
 
 /// The rows with these cells: `method` → `billboard`, `p.soft` → `true`.
 using Selection = std::vector<std::pair<std::string, std::string>>;
@@ -28,29 +43,51 @@ using Selection = std::vector<std::pair<std::string, std::string>>;
 /// Parses `billboard soft=true`: a method, then cells of parameters; or cells alone. Messages begin with `what`.
 /// Throws InputError.
 [[nodiscard]] Selection parseSelection(const std::string& text, const std::string& what);
+/// The same as text.
+[[nodiscard]] std::string textOf(const Selection& selection);
+/// `particles` for the column `p.particles`.
+[[nodiscard]] std::string nameOf(const std::string& column);
 /// Throws InputError if summary.csv has no such column. Parameters, `p.…`, may have any name.
 void requireColumn(const std::string& where, const std::string& name);
 
-struct Claim {
-    std::string id;     ///< `R5a`
-    std::string text;   ///< what the paper says, in our words
+/// What is computed, from which data, and the range in which a claim is true.
+struct Rule {
+    Quantity quantity = Quantity::none;
     std::string suite;  ///< or, for a finding:
     std::string experiment;
-    Quantity quantity = Quantity::none;
     std::string column;              ///< for a finding: its quantity
     std::string per;                 ///< the column to divide by, row by row; empty: none
     std::vector<std::string> parts;  ///< for a share: the columns whose sum is the numerator
+    std::string match;               ///< for a matched ratio: the column that is the same
     Selection of, with;              ///< both for a ratio, otherwise only `of`
-    std::string against;
-    /// True: the column does not depend on the machine (bytes, counts, metrics), so the spread over the rows
-    /// replaces the interval over repetitions.
-    bool exact = false;
+    std::string against;             ///< the load, for all that follows a curve
+    Chance over = Chance::repetitions;
     std::optional<double> minimum, maximum;  ///< the range in which the claim is true
-    std::string missing;
-    std::string where;  ///< `file:line: `; messages begin with it
 
-    /// `below 1`, `0.9 to 1.1`.
+    [[nodiscard]] bool isTrueAt(double value) const {
+        return (!minimum || value >= *minimum) && (!maximum || value <= *maximum);
+    }
+    /// `0.9 to 1.1`, `3 or more`.
     [[nodiscard]] std::string expected() const;
+    /// What is computed: `build_ms_median: octree_recursive over octree_search`.
+    [[nodiscard]] std::string inWords() const;
+};
+
+/// Data for which the outcome of a claim's rule is known.
+struct ControlRule {
+    Rule rule;  ///< the claim's own, with other data
+    ControlOutcome gives = ControlOutcome::refuted;
+    std::string why;  ///< why this outcome is known
+};
+
+struct Claim {
+    std::string id;    ///< `R5a`
+    std::string text;  ///< what the paper says, in our words
+    Rule rule;
+    std::string reason;  ///< of the range; not taken from results
+    std::vector<ControlRule> controls;
+    std::string missing;  ///< why it is not testable
+    std::string where;    ///< `file:line: `; messages begin with it
 };
 
 /// All claims of a paper, in the order of its file; none if the file does not exist. Throws InputError with file and

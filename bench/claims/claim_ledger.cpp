@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "bench/claims/claim_control.h"
 #include "bench/suite/suite.h"
 #include "methods/kit/files/csv.h"
 
@@ -17,9 +18,23 @@ std::string rounded(double value) {
     return std::isfinite(value) ? fmt::format("{:.4g}", value) : "";
 }
 
-std::string interval(const ClaimResult& result) {
-    if (!std::isfinite(result.low)) return "";
-    return fmt::format("[{}, {}]", rounded(result.low), rounded(result.high));
+std::string interval(double low, double high) {
+    return std::isfinite(low) ? fmt::format("[{}, {}]", rounded(low), rounded(high)) : "";
+}
+
+/// `particles=500 speed=40: 0.91 [0.9, 0.92] confirmed`.
+std::string cellText(const ClaimCell& cell) {
+    const std::string range = interval(cell.low, cell.high);
+    return fmt::format("{}: {}{}{} {}", textOf(cell.cell), rounded(cell.measured), range.empty() ? "" : " ", range,
+                       verdictName(cell.verdict));
+}
+
+std::string cellsText(const std::vector<ClaimCell>& cells) {
+    std::vector<std::string> texts;
+    texts.reserve(cells.size());
+    if (cells.size() > 1)
+        for (const ClaimCell& cell : cells) texts.push_back(cellText(cell));
+    return fmt::format("{}", fmt::join(texts, "; "));
 }
 
 }  // namespace
@@ -39,24 +54,32 @@ std::set<std::string> runIdsOf(const std::string& suiteId, const files::CsvTable
 std::vector<JudgedClaim> judgeClaims(const std::string& paper, const files::CsvTable& summary,
                                      const std::vector<StoredFinding>& findings) {
     std::map<std::string, std::set<std::string>> runIds;
+    const RuleJudge judge = [&](const Rule& rule) {
+        if (rule.quantity == Quantity::finding) return judgeFinding(rule, findings);
+        if (!runIds.contains(rule.suite)) runIds[rule.suite] = runIdsOf(rule.suite, summary);
+        return judgeRule(rule, ResultRows(summary, &runIds[rule.suite]));
+    };
     std::vector<JudgedClaim> judged;
     for (Claim& claim : loadClaims(paper)) {
-        if (!claim.suite.empty() && !runIds.contains(claim.suite)) runIds[claim.suite] = runIdsOf(claim.suite, summary);
-        const ResultRows rows(summary, &runIds[claim.suite]);
-        ClaimResult result =
-            claim.quantity == Quantity::finding ? judgeFinding(claim, findings) : judgeClaim(claim, rows);
+        ClaimResult result;
+        result.note = claim.missing;
+        if (claim.rule.quantity != Quantity::none) result = judgeWithControls(claim, judge);
         judged.push_back({paper, std::move(claim), std::move(result)});
     }
     return judged;
 }
 
 std::string claimsCsv(const std::vector<JudgedClaim>& claims) {
-    std::string text = "id,paper,claim,verdict,measured,expected,interval,runs,note\n";
+    std::string text =
+        "id,paper,claim,verdict,control,measured,expected,interval,condition,cells,quantity,reason,controls,runs,"
+        "note\n";
     for (const auto& [paper, claim, result] : claims) {
         std::string row;
         for (const std::string& cell :
-             {claim.id, paper, claim.text, std::string(verdictName(result.verdict)), files::csvNumber(result.measured),
-              claim.expected(), interval(result), fmt::format("{}", fmt::join(result.runs, " ")), result.note})
+             {claim.id, paper, claim.text, std::string(verdictName(result.verdict)),
+              std::string(controlName(result.control)), files::csvNumber(result.measured), claim.rule.expected(),
+              interval(result.low, result.high), result.condition, cellsText(result.cells), claim.rule.inWords(),
+              claim.reason, result.controlNote, fmt::format("{}", fmt::join(result.runs, " ")), result.note})
             row.append(row.empty() ? "" : ",").append(files::csvCell(cell));
         text.append(row).append(1, '\n');
     }
@@ -64,12 +87,14 @@ std::string claimsCsv(const std::vector<JudgedClaim>& claims) {
 }
 
 TextRows tabulate(const std::vector<JudgedClaim>& claims) {
-    TextRows table{{"claim", "verdict", "measured", "interval", "expected", "what the paper says"}, {}};
+    TextRows table{{"claim", "verdict", "control", "measured", "interval", "expected", "what the paper says"}, {}};
     for (const auto& [paper, claim, result] : claims) {
         std::string text = claim.text;
-        if (!result.note.empty()) text += " (" + result.note + ")";
-        table.rows.push_back({claim.id, std::string(verdictName(result.verdict)), rounded(result.measured),
-                              interval(result), claim.expected(), text});
+        for (const std::string& more : {result.condition, result.note})
+            if (!more.empty()) text += " (" + more + ")";
+        table.rows.push_back({claim.id, std::string(verdictName(result.verdict)),
+                              std::string(controlName(result.control)), rounded(result.measured),
+                              interval(result.low, result.high), claim.rule.expected(), text});
     }
     return table;
 }

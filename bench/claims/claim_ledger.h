@@ -20,15 +20,16 @@ struct JudgedClaim {
 /// Run ids of the suite, in its whole and its quick form, for every repetition number in the table.
 [[nodiscard]] std::set<std::string> runIdsOf(const std::string& suite, const files::CsvTable& summary);
 
-/// Each claim is judged by the runs of its suite, in its whole and its quick form, or by its experiment's finding.
+/// Judges each claim and its controls by the runs of their suites, in whole and quick form, or by findings of
+/// experiments.
 /// Throws InputError for a claims.toml or a suite that cannot be read.
 [[nodiscard]] std::vector<JudgedClaim> judgeClaims(const std::string& paper, const files::CsvTable& summary,
                                                    const std::vector<StoredFinding>& findings = {});
 
-/// `id,paper,claim,verdict,measured,expected,interval,runs`, as reports/SCHEMA.md defines them.
+/// A row for each claim, with the columns of reports/SCHEMA.md.
 [[nodiscard]] std::string claimsCsv(const std::vector<JudgedClaim>& claims);
 
-/// A row each: id, verdict, measured value with its interval, expected range, the claim and the note.
+/// A row for each claim: id, verdict, control, measured value with its interval, expected range, the claim and notes.
 [[nodiscard]] TextRows tabulate(const std::vector<JudgedClaim>& claims);
 
 }  // namespace dustbench::bench

@@ -1,15 +1,18 @@
-// Judges a claim: computes the quantity of its rule with an interval, and the verdict.
+// Judges a claim: computes the quantity of its rule in each cell of the experiment with an interval, and the verdict.
 //
-//     confirmed    the interval lies wholly within the values in which the claim is true
-//     refuted      wholly outside
-//     unresolved   neither, or fewer than 6 repetitions
+// A cell is confirmed if its interval lies wholly within the values in which the claim is true, refuted if wholly
+// outside, else unresolved. All cells together:
+//
+//     confirmed    in every cell
+//     refuted      in every cell
+//     depends      confirmed in some cells and refuted in others, each by an interval that holds for all cells together
+//     unresolved   anything else
+//     untestable   a control gave another verdict than is known for it
 //     not-tested   a row that the rule needs is missing; the note says which
 //
-// If the quantity depends on the machine, each repetition gives one value over all cells (the geometric mean of ratios
-// and growths, the mean of shares and values), and the interval is Student's over the repetitions, of logarithms for
-// ratios and growths. An exponent has the widest interval of its curves' fits. If it does not (`exact`), the interval
-// is the range over the cells: a claim is confirmed if it holds in all of them, refuted if in none. Threads: pure.
-// Source: Student1908.
+// The 95 % interval of a cell is Student's over the repetitions (at least 6) or seeds (at least 5), of logarithms for
+// ratios and growths if all values are above 0. For `depends` the level is 1 − 0.05/n for n cells (Bonferroni). An
+// exponent's interval is its fit's. Bytes and the like have none. Threads: pure. Source: Student1908.
 #pragma once
 
 #include <limits>
@@ -23,21 +26,51 @@
 
 namespace dustbench::bench {
 
-enum class ClaimVerdict { confirmed, refuted, unresolved, notTested };
+inline constexpr std::size_t minimumRepetitions = 6;
+inline constexpr std::size_t minimumSeeds = 5;
+
+enum class ClaimVerdict { confirmed, refuted, depends, unresolved, untestable, notTested };
 /// `confirmed` … `not-tested`
 [[nodiscard]] std::string_view verdictName(ClaimVerdict verdict);
 
-struct ClaimResult {
-    ClaimVerdict verdict = ClaimVerdict::notTested;
+enum class ControlState {
+    none,       ///< the claim is not testable, so it has no control
+    turned,     ///< each control gave what is known, one of them the opposite of the claim's own verdict
+    notTurned,  ///< a control gave something else, or none can give the opposite
+    notRun      ///< the runs of a control are missing
+};
+/// `turned`, `not-turned`, `not-run`; empty for none.
+[[nodiscard]] std::string_view controlName(ControlState state);
+
+struct ClaimCell {
+    Selection cell;  ///< columns that vary over the cells, with values; empty for a single cell
     double measured = std::numeric_limits<double>::quiet_NaN();
-    double low = std::numeric_limits<double>::quiet_NaN();
+    double low = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no interval
     double high = std::numeric_limits<double>::quiet_NaN();
-    std::string note{};               ///< why it is not tested or not resolved
-    std::vector<std::string> runs{};  ///< ids of all runs used
+    std::size_t turns = 0;  ///< repetitions or seeds; 0 for a fit or a finding
+    ClaimVerdict verdict = ClaimVerdict::unresolved;
+    ClaimVerdict ofAll = ClaimVerdict::unresolved;  ///< by the interval that holds for all cells together
 };
 
-/// For every quantity except `finding`, for which use judgeFinding:
-[[nodiscard]] ClaimResult judgeClaim(const Claim& claim, const ResultRows& rows);
-[[nodiscard]] ClaimResult judgeFinding(const Claim& claim, const std::vector<StoredFinding>& findings);
+struct ClaimResult {
+    ClaimVerdict verdict = ClaimVerdict::notTested;
+    double measured = std::numeric_limits<double>::quiet_NaN();  ///< mean over the cells
+    double low = std::numeric_limits<double>::quiet_NaN();
+    double high = std::numeric_limits<double>::quiet_NaN();
+    std::string note{};       ///< why it is not tested or not resolved
+    std::string condition{};  ///< in which cells it is true, if in some only
+    std::vector<ClaimCell> cells{};
+    std::vector<std::string> runs{};  ///< ids of all runs used
+    ControlState control = ControlState::none;
+    std::string controlNote{};  ///< what each control gave
+};
+
+/// Judges a rule whose quantity is computed from the rows of a summary.
+[[nodiscard]] ClaimResult judgeRule(const Rule& rule, const ResultRows& rows);
+[[nodiscard]] ClaimResult judgeFinding(const Rule& rule, const std::vector<StoredFinding>& findings);
+
+/// In which cells a claim is true, in words: `true for particles up to 2000, false from 5000`. If no single column
+/// tells true cells from false ones, their numbers.
+[[nodiscard]] std::string conditionOf(const std::vector<ClaimCell>& cells);
 
 }  // namespace dustbench::bench

@@ -1,8 +1,12 @@
 #include "bench/claims/result_rows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <iterator>
+#include <map>
 #include <sstream>
 
 namespace dustbench::bench {
@@ -27,22 +31,40 @@ bool sameValue(const std::string& a, const std::string& b) {
 }  // namespace
 
 ResultRows::ResultRows(const files::CsvTable& table, const std::set<std::string>* runIds) : table_(table) {
-    for (std::size_t row = 0; row < table.rows(); ++row)
-        if (table.cell(row, "status") == "done" && (!runIds || runIds->contains(table.cell(row, "run_id"))))
-            rows_.push_back(row);
+    const bool judgesValidity = table.hasColumn("invalid");
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        if (table.cell(row, "status") != "done" || (runIds && !runIds->contains(table.cell(row, "run_id")))) continue;
+        (judgesValidity && !table.cell(row, "invalid").empty() ? invalid_ : rows_).push_back(row);
+    }
     for (const std::string& column : table.header())
         if (column.starts_with("p.") || std::ranges::find(identityColumns, column) != identityColumns.end())
             identity_.push_back(column);
 }
 
+bool ResultRows::matches(std::size_t row, const Selection& selection) const {
+    return std::ranges::all_of(selection, [&](const auto& cell) {
+        if (!table_.hasColumn(cell.first)) return false;
+        std::istringstream choices(cell.second);
+        for (std::string choice; std::getline(choices, choice, '|');)
+            if (sameValue(table_.cell(row, cell.first), choice)) return true;
+        return false;
+    });
+}
+
 std::vector<std::size_t> ResultRows::select(const Selection& selection) const {
     std::vector<std::size_t> chosen;
-    for (const std::size_t row : rows_)
-        if (std::ranges::all_of(selection, [&](const auto& cell) {
-                return table_.hasColumn(cell.first) && sameValue(table_.cell(row, cell.first), cell.second);
-            }))
-            chosen.push_back(row);
+    std::ranges::copy_if(rows_, std::back_inserter(chosen), [&](std::size_t row) { return matches(row, selection); });
     return chosen;
+}
+
+std::string ResultRows::invalidAmong(const Selection& selection) const {
+    std::map<std::string, int> counts;
+    for (const std::size_t row : invalid_)
+        if (matches(row, selection)) ++counts[table_.cell(row, "invalid")];
+    std::string text;
+    for (const auto& [reason, count] : counts)
+        text += fmt::format("{}{} ({} run{})", text.empty() ? "" : "; ", reason, count, count == 1 ? "" : "s");
+    return text;
 }
 
 std::optional<double> ResultRows::number(std::size_t row, std::string_view column) const {
@@ -66,27 +88,32 @@ bool ResultRows::correspond(std::size_t a, std::size_t b, const std::set<std::st
     });
 }
 
-std::string ResultRows::cellKey(std::size_t row, std::string_view except) const {
+std::string ResultRows::cellKey(std::size_t row, const std::set<std::string>& except) const {
     std::string key;
     for (const std::string& column : identity_)
-        key.append(column != except ? table_.cell(row, column) : "").append(1, '\n');
+        key.append(except.contains(column) ? "" : table_.cell(row, column)).append(1, '\n');
     return key;
 }
 
-std::string ResultRows::cellText(const std::string& key, const std::vector<std::string>& keys) const {
+Selection ResultRows::cellValues(const std::string& key, const std::vector<std::string>& keys) const {
     std::vector<std::istringstream> others(keys.begin(), keys.end());
     std::istringstream own(key);
-    std::string text;
-    for (const std::string& column : identity_) {
-        std::string value, other;
-        std::getline(own, value);
-        bool differs = false;
-        for (std::istringstream& stream : others) differs |= std::getline(stream, other) && other != value;
-        if (!differs) continue;
-        const std::string name = column.starts_with("p.") ? column.substr(2) : column;
-        text.append(text.empty() ? "" : " ").append(name).append("=").append(value);
-    }
-    return text;
+    Selection values;
+    std::map<std::string, std::string> first;
+    for (bool isSecond = false; own.peek() != std::istringstream::traits_type::eof(); isSecond = true)
+        for (const std::string& column : identity_) {
+            std::string value, other;
+            std::getline(own, value);
+            bool differs = false;
+            for (std::istringstream& stream : others) differs |= std::getline(stream, other) && other != value;
+            if (!isSecond) first[column] = value;
+            if (!differs || value.empty()) continue;
+            if (!isSecond)
+                values.emplace_back(column, value);
+            else if (first[column] != value)
+                values.emplace_back("with " + (column.starts_with("p.") ? column.substr(2) : column), value);
+        }
+    return values;
 }
 
 }  // namespace dustbench::bench

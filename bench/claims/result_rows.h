@@ -16,10 +16,14 @@ namespace dustbench::bench {
 
 class ResultRows {
  public:
-    /// Uses the rows of `table` whose run is done and, if `runIds` is given, listed there.
+    /// Uses the rows of `table` whose run is done and valid and, if `runIds` is given, listed there.
     ResultRows(const files::CsvTable& table, const std::set<std::string>* runIds);
 
-    /// Rows that match the selection; numbers are compared as numbers. None if the table lacks a column.
+    /// Why rows that match the selection are not used, `clipped: 3 runs`; empty if none is invalid.
+    [[nodiscard]] std::string invalidAmong(const Selection& selection) const;
+
+    /// Rows that match the selection; numbers are compared as numbers, a choice like `speed=5|40` matches either. None
+    /// if the table lacks a column.
     [[nodiscard]] std::vector<std::size_t> select(const Selection& selection) const;
 
     [[nodiscard]] std::optional<double> number(std::size_t row, std::string_view column) const;
@@ -29,14 +33,18 @@ class ResultRows {
     /// True if both rows have the same world, repetition and settings, ignoring the columns in `named` and those that
     /// one of them lacks.
     [[nodiscard]] bool correspond(std::size_t a, std::size_t b, const std::set<std::string>& named) const;
-    /// Identifies the cell of a row, without the column `except`.
-    [[nodiscard]] std::string cellKey(std::size_t row, std::string_view except) const;
-    /// The values that distinguish a cell from the others with these keys: `particles=500 speed=40`.
-    [[nodiscard]] std::string cellText(const std::string& key, const std::vector<std::string>& keys) const;
+    /// Identifies the cell of a row, without the columns `except`.
+    [[nodiscard]] std::string cellKey(std::size_t row, const std::set<std::string>& except) const;
+    /// The columns and values that distinguish a cell from the others with these keys: `p.particles` 500, `p.speed` 40.
+    /// A key may be that of a pair of rows, one after the other: columns of the second in which it differs from the
+    /// first begin with `with `.
+    [[nodiscard]] Selection cellValues(const std::string& key, const std::vector<std::string>& keys) const;
 
  private:
+    [[nodiscard]] bool matches(std::size_t row, const Selection& selection) const;
+
     const files::CsvTable& table_;
-    std::vector<std::size_t> rows_;
+    std::vector<std::size_t> rows_, invalid_;
     std::vector<std::string> identity_;  ///< columns that distinguish cells
 };
 

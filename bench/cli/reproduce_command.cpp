@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <vector>
 
@@ -27,7 +28,7 @@ namespace {
 
 struct ReproduceOptions {
     std::string paper, out;
-    bool quick = false, full = false;
+    bool quick = false, full = false, controls = false;
 };
 
 struct SuiteWork {
@@ -48,7 +49,9 @@ std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
     for (const std::string& id : options.paper.empty() ? bench::listPapers() : std::vector{options.paper}) {
         PaperWork& paper = work.emplace_back();
         paper.paper = bench::loadPaper(id);
-        for (const std::string& suite : paper.paper.suites) {
+        std::vector<std::string> suites = paper.paper.suites;
+        if (options.controls) std::ranges::copy(paper.paper.controls, std::back_inserter(suites));
+        for (const std::string& suite : suites) {
             SuiteWork& each = paper.suites.emplace_back();
             each.suite = bench::loadSuite(suite, options.quick);
             each.plan = bench::planRuns(each.suite);
@@ -149,6 +152,10 @@ Command reproduceCommand() {
                 arguments.flag("--full",
                                "the whole suites (as without --quick); estimates first how long they will take",
                                options->full);
+                arguments.flag("--controls",
+                               "also run what only the claims' controls need: data with a known verdict, by which a "
+                               "rule that cannot fail is noticed",
+                               options->controls);
                 arguments.text("--out", "DIR", "folder for the results; default: reports/out/<paper>", options->out);
             },
             [options] { return reproduce(*options); }};

@@ -34,6 +34,13 @@ json axisJson(const ReportAxis& axis) {
             {"world", axis.world}, {"numeric", axis.numeric}, {"values", axis.values}};
 }
 
+template <typename List, typename ToJson>
+json each(const List& list, const ToJson& toJson) {
+    json result = json::array();
+    for (const auto& item : list) result.push_back(toJson(item));
+    return result;
+}
+
 json cellJson(const RunGroup& group, const ReportCell& cell, const RunIndex& index) {
     json values = json::object();
     for (const auto& [column, interval] : cell.values)
@@ -92,20 +99,38 @@ json groupJson(const RunGroup& group, const RunIndex& index) {
             {"published", std::move(published)}};
 }
 
+json claimCellJson(const ClaimCell& cell) {
+    return {{"text", textOf(cell.cell)},
+            {"measured", number(cell.measured)},
+            {"low", number(cell.low)},
+            {"high", number(cell.high)},
+            {"verdict", verdictName(cell.verdict)}};
+}
+
 json claimJson(const JudgedClaim& judged, const RunIndex& index) {
     const auto& [paper, claim, result] = judged;
+    const Rule& rule = claim.rule;
     return {{"id", claim.id},
             {"paper", paper},
             {"text", claim.text},
-            {"suite", claim.suite},
-            {"column", claim.quantity == Quantity::value ? claim.column : ""},
+            {"suite", rule.suite},
+            {"column", rule.quantity == Quantity::value ? rule.column : ""},
+            {"quantity", rule.inWords()},
+            {"over", rule.over == Chance::seeds  ? "seeds"
+                     : rule.over == Chance::none ? ""
+                                                 : "repetitions"},
             {"verdict", verdictName(result.verdict)},
+            {"control", controlName(result.control)},
+            {"controls", result.controlNote},
             {"measured", number(result.measured)},
             {"low", number(result.low)},
             {"high", number(result.high)},
-            {"min", claim.minimum ? number(*claim.minimum) : json()},
-            {"max", claim.maximum ? number(*claim.maximum) : json()},
-            {"expected", claim.expected()},
+            {"min", rule.minimum ? number(*rule.minimum) : json()},
+            {"max", rule.maximum ? number(*rule.maximum) : json()},
+            {"expected", rule.expected()},
+            {"reason", claim.reason},
+            {"condition", result.condition},
+            {"cells", each(result.cells, claimCellJson)},
             {"note", result.note},
             {"runs", indices(index, result.runs)}};
 }
@@ -132,13 +157,6 @@ json pictureSetJson(const PictureSet& set) {
                             {"source", picture.source}});
     return {{"experiment", set.group}, {"world", set.world},   {"frame", set.frame},
             {"width", set.width},      {"height", set.height}, {"pictures", std::move(pictures)}};
-}
-
-template <typename List, typename ToJson>
-json each(const List& list, const ToJson& toJson) {
-    json result = json::array();
-    for (const auto& item : list) result.push_back(toJson(item));
-    return result;
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ Paper loadPaper(const std::string& id) {
     paper.summary = file.text("summary");
     paper.suites = file.texts("suites");
     if (file.has("experiments")) paper.experiments = file.texts("experiments");
+    if (file.has("controls")) paper.controls = file.texts("controls");
     file.finish();
     return paper;
 }

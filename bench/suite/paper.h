@@ -18,6 +18,7 @@ struct Paper {
     std::string summary;
     std::vector<std::string> suites;
     std::vector<std::string> experiments;  ///< statistical ones, by name
+    std::vector<std::string> controls;     ///< suites that only the claims' controls need
 };
 
 /// A file of the paper's folder; empty where it has none. Papers do not mix: all files of one come from the first

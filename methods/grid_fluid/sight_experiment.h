@@ -33,6 +33,7 @@ struct Sight {
 ///     free_…      the camera outside, nothing in its way
 ///     solid_…     a ball before the box, within it, half within it, behind it
 ///     inside_…    the camera within the box, so near to it that the near plane cuts its front, and with a ball
+///     solid_unseen  control: a ray caster that is not told of the ball before the box
 /// Throws InputError where there is no OpenGL.
 [[nodiscard]] ExperimentInfo describe();
 

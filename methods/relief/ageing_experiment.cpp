@@ -57,7 +57,7 @@ Finding growth(const char* quantity, Search search, bool overTexels, std::uint64
 }
 
 /// R24: how often y falls in a step of the paper's law, of particles that start without vertical velocity.
-Finding loweredGreen(std::uint64_t seed) {
+Finding loweredGreen(const std::string& quantity, const glm::vec3& gravity, std::uint64_t seed) {
     constexpr int count = 1000, steps = 5;
     scene::Panel panel;  // large enough that none leaves it
     panel.sizeMetres = glm::dvec2(1e4);
@@ -76,14 +76,14 @@ Finding loweredGreen(std::uint64_t seed) {
     std::vector<float> before(count, 0.0f);
     std::int64_t lowered = 0;
     for (int step = 0; step < steps; ++step) {
-        particles.step(surface, {.law = MotionLaw::paper});
+        particles.step(surface, {.law = MotionLaw::paper, .gravity = gravity});
         for (std::size_t i = 0; i < particles.size(); ++i) {
             lowered += particles.places()[i].y < before[i] ? 1 : 0;
             before[i] = particles.places()[i].y;
         }
     }
     const double share = static_cast<double>(lowered) / (count * steps);
-    return {"green_lowered", share, share, share, std::int64_t{count} * steps};
+    return {quantity, share, share, share, std::int64_t{count} * steps};
 }
 
 /// R24: under the paper's ageing a hit texel's depth, the α of its texture, is 1, and no other texel changes.
@@ -144,7 +144,8 @@ ExperimentInfo describe() {
                                       growth("gather_over_texels", Search::gather, true, context.seed()),
                                       growth("scatter_over_hits", Search::scatter, false, context.seed()),
                                       growth("scatter_over_texels", Search::scatter, true, context.seed())};
-        findings.push_back(loweredGreen(context.seed()));
+        findings.push_back(loweredGreen("green_lowered", {0, -9.8f, 0}, context.seed()));
+        findings.push_back(loweredGreen("green_lowered_without_gravity", glm::vec3(0), context.seed()));
         for (const Finding& finding : hitTexels(context.seed())) findings.push_back(finding);
         return findings;
     };

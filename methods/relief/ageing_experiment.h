@@ -22,6 +22,7 @@ namespace dustbench::relief::ageing {
 ///     gather_over_hits, gather_over_texels    exponents of the time of `gather`
 ///     scatter_over_hits, scatter_over_texels  the same of `scatter`
 ///     green_lowered                           share of steps in which y falls under the paper's motion
+///     green_lowered_without_gravity           the same without gravity, a control
 ///     hit_texels_at_bottom                    share of the texels hit under the paper's ageing whose depth is 1
 ///     other_texels_changed                    share of the others whose depth is another than before
 [[nodiscard]] ExperimentInfo describe();

@@ -50,6 +50,16 @@ scene::View viewOf(const scene::Mesh& mesh, double degrees) {
     return view;
 }
 
+/// Of an outline that gains evenly up to 100 voxels a side and nothing from there on: 100.
+double kneeOfLateCurve() {
+    Curve curve;
+    for (int side = coarsest; side <= finest; side += between) {
+        curve.voxelsASide.push_back(side);
+        curve.overlaps.push_back(std::min(side / 100.0, 1.0));
+    }
+    return curve.knee();
+}
+
 double overlapAt(const Shape& shape, const scene::Scene& scene, const Frame& frame, std::uint64_t seed,
                  gpu::Device& device) {
     VoxelShape method(shape);
@@ -107,7 +117,7 @@ ExperimentInfo describe() {
     info.source = "JuckelBeckhaus2007";
     info.run = [](ExperimentContext& context) {
         std::vector<Finding> findings;
-        std::vector<double> allKnees, allKept;
+        std::vector<double> allKnees, allKept, allKeptAtTen, allKeptBeforeLast;
         for (const std::string shape : shapes) {
             std::vector<double> knees, atFifty, atFinest;
             for (std::uint64_t seed = context.seed(); seed < context.seed() + 3; ++seed) {
@@ -117,6 +127,8 @@ ExperimentInfo describe() {
                 atFifty.push_back(curve.overlaps[static_cast<std::size_t>(fifty)]);
                 atFinest.push_back(curve.overlaps.back());
                 allKept.push_back(atFifty.back() / atFinest.back());
+                allKeptAtTen.push_back(curve.overlaps.front() / atFinest.back());
+                allKeptBeforeLast.push_back(*(curve.overlaps.end() - 2) / atFinest.back());
             }
             allKnees.insert(allKnees.end(), knees.begin(), knees.end());
             findings.push_back(meanOf("silhouette_knee_" + shape, knees, between / 2.0));
@@ -125,6 +137,10 @@ ExperimentInfo describe() {
         }
         findings.push_back(meanOf("silhouette_knee", allKnees, between / 2.0));
         findings.push_back(meanOf("silhouette_kept_at_50", allKept, 0));
+        findings.push_back(meanOf("silhouette_kept_at_10", allKeptAtTen, 0));
+        findings.push_back(meanOf("silhouette_kept_at_110", allKeptBeforeLast, 0));
+        const double late = kneeOfLateCurve();
+        findings.push_back({"knee_of_late_curve", late, late - between / 2.0, late + between / 2.0, 1});
         return findings;
     };
     return info;

@@ -6,6 +6,7 @@
 // Findings, of each preset over three seeds and of all: `silhouette_knee` in voxels a side (its interval holds half a
 // step of the sweep besides), `silhouette_at_50` and `_at_120`, and of all `silhouette_kept_at_50`, the former by the
 // latter.
+// Controls: `silhouette_kept_at_10` and `_at_110`, and `knee_of_late_curve`, of a curve whose knee is at 100.
 //
 // Source: JuckelBeckhaus2007, 6 and 7. The knee: Satopaa2011.
 #pragma once

@@ -31,7 +31,35 @@ const claimTable = (() => {
         if (min !== null && max !== null) return `${number(min)} to ${number(max)}`;
         return min !== null ? `${number(min)} or more` : max !== null ? `${number(max)} or less` : expected;
     };
-    const verdictMarks = { confirmed: '✓', refuted: '✗', unresolved: '?', 'not-tested': '–' };
+    const verdictMarks = { confirmed: '✓', refuted: '✗', depends: '±', unresolved: '?', untestable: '!', 'not-tested': '–' };
+    const controlTexts = { turned: 'control turned', 'not-turned': 'control did not turn', 'not-run': 'control not run' };
+
+    /// What another verdict would take.
+    const whatWouldChange = (claim, number) => {
+        const { min, max } = claim;
+        const outside = [min !== null && `below ${number(min)}`, max !== null && `above ${number(max)}`].filter(Boolean).join(' or ');
+        if (claim.verdict === 'confirmed') return `Values ${outside} would refute it.`;
+        if (claim.verdict === 'refuted') return `Values of ${expectedOf(claim, number)} would confirm it.`;
+        if (claim.verdict === 'unresolved' && claim.over) return `Narrower intervals, by more ${claim.over}, would decide it.`;
+        if (claim.verdict === 'depends') return 'It would hold, or not, if all cells agreed.';
+        return '';
+    };
+    /// How a claim was tested, with what controls, cell by cell.
+    const detailsOf = (claim, number) => {
+        const box = element('details', {}, [element('summary', { textContent: 'how it was tested' })]);
+        const lines = [
+            ['Measured', claim.quantity + (claim.over ? `, over ${claim.over}` : '')], ['Why these limits', claim.reason],
+            ['Control', claim.controls], ['What would change it', whatWouldChange(claim, number)],
+        ];
+        for (const [head, text] of lines)
+            if (text) put(box, element('div', {}, [element('b', { textContent: `${head}: ` }), text]));
+        if (claim.cells.length > 1)
+            put(box, element('ul', {}, claim.cells.map(cell => element('li', {
+                className: `verdict ${cell.verdict}`,
+                textContent: `${verdictMarks[cell.verdict]} ${cell.text}: ${number(cell.measured)}${cell.low === null ? '' : ` [${number(cell.low)}, ${number(cell.high)}]`}`,
+            }))));
+        return box;
+    };
 
     /// `runLinks`: makes links to runs by their indices.
     const row = (report, claim, runLinks) => {
@@ -40,13 +68,18 @@ const claimTable = (() => {
         const number = value => (isBytes ? chartKit.withUnit(value, 'bytes') : chartKit.fourDigits(value));
         const interval = claim.low === null ? '' : ` [${number(claim.low)}, ${number(claim.high)}]`;
         const text = element('div', {}, [claim.text]);
+        if (claim.condition) put(text, element('div', { textContent: claim.condition }));
         if (claim.note) put(text, element('div', { className: 'muted', textContent: claim.note }));
+        if (claim.quantity) put(text, detailsOf(claim, number));
         const links = element('div');
         if (experiment) put(links, element('a', { href: `#experiment-${experiment.id}`, textContent: experiment.suite }));
         if (claim.runs.length) put(links, runLinks(claim.runs, plural(claim.runs.length, 'run')));
         return [
             element('b', { textContent: claim.id }),
-            element('span', { className: `verdict ${claim.verdict}`, textContent: `${verdictMarks[claim.verdict]} ${claim.verdict}` }),
+            element('div', {}, [
+                element('span', { className: `verdict ${claim.verdict}`, textContent: `${verdictMarks[claim.verdict]} ${claim.verdict}` }),
+                element('div', { className: 'muted', textContent: controlTexts[claim.control] || '' }),
+            ]),
             text, claim.measured === null ? '' : `${number(claim.measured)}${interval}`, expectedOf(claim, number), claimRange(claim), links.children.length ? links : '',
         ];
     };

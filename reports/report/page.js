@@ -215,8 +215,9 @@
                 element('h3', { textContent: paper.title }),
                 paragraph([paper.authors + (paper.year ? ` (${paper.year})` : ''), paper.venue].filter(Boolean).join(', '), 'muted'),
                 table(claimTable.heads, claims.map(claim => claimTable.row(report, claim, runLinks)), 'stacking'),
-                paragraph('Confirmed: the whole interval lies within the values for which the claim is true. Refuted: wholly outside. Unresolved: neither, or fewer than ' +
-                    '6 repetitions. The interval has 95 %; for quantities independent of the machine (bytes, counts, image metrics) it spans the minimum and maximum cell.', 'note'),
+                paragraph('Confirmed: in every cell of the experiment the 95 % interval lies within the values for which the claim is true. Refuted: in every cell wholly outside. ' +
+                    'Depends: true in some cells, false in others. Unresolved: anything else, or fewer than 6 repetitions or 5 seeds. ' +
+                    'A control is other data for which the outcome is known; if the rule does not find it, the claim is untestable.', 'note'),
             ]));
         }
     };
@@ -264,8 +265,8 @@
             `written ${date.toISOString().slice(0, 16).replace('T', ' ')} UTC by dustbench ${data.version}`,
         ].filter(Boolean).join('; ') + '.';
         const facts = [[String(done), done === 1 ? 'run done' : 'runs done'], [String(data.experiments.length), data.experiments.length === 1 ? 'experiment' : 'experiments']];
-        for (const verdict of ['confirmed', 'refuted', 'unresolved', 'not-tested'])
-            if (data.claims.length) facts.push([String(data.claims.filter(claim => claim.verdict === verdict).length), `claims ${verdict}`.replace('-', ' ')]);
+        for (const verdict of ['confirmed', 'refuted', 'depends', 'unresolved', 'untestable', 'not-tested'])
+            if (data.claims.some(claim => claim.verdict === verdict)) facts.push([String(data.claims.filter(claim => claim.verdict === verdict).length), `claims ${verdict}`.replace('-', ' ')]);
         put(section('facts'), ...facts.map(([number, text]) =>
             element('div', { className: 'fact' }, [element('b', { textContent: number }), element('span', { textContent: text })])));
         if (data.problems.length)

@@ -103,11 +103,22 @@ Finding crossover(std::uint64_t seed) {
     return {"crossover_bodies", end, end, end, repetitions};
 }
 
+/// Of 256 bodies: to build a tree takes longer than all pairs.
+Finding speedupOfFew(std::uint64_t seed) {
+    Bodies3 exact(256, seed), tree(256, seed);
+    std::vector<double> speedups;
+    for (int k = 0; k < repetitions; ++k)
+        speedups.push_back(secondsOf([&] { exact.pullPairs(0, 256); }) /
+                           secondsOf([&] { tree.pullTree(onePercentAngle); }));
+    return medianOf("speedup_256", speedups);
+}
+
 void measureTimes(std::uint64_t seed, std::vector<Finding>& findings) {
     const std::vector<double> few{1000, 2000, 4000, 8000, 16000}, many{4000, 8000, 16000, 32000, 64000};
     findings.push_back(exponentOf("pairs_exponent", few, timesOf(few, seed, false)));
     findings.push_back(exponentOf("tree_exponent", many, timesOf(many, seed, true)));
     findings.push_back(crossover(seed));
+    findings.push_back(speedupOfFew(seed));
 
     constexpr std::size_t count = 100'000, slice = 4096;  // the pairs of a slice take 1/24 of the time of all
     Bodies3 exact(count, seed), tree(count, seed);

@@ -16,6 +16,7 @@ namespace dustbench::particles::interaction {
 /// error_exponent: of that error over the angle.
 /// rms_100k, speedup_100k: of 100,000 bodies at an angle of 0.65: the error, and the time of all pairs over the tree's,
 /// its building included.
+/// speedup_256: the same of 256 bodies.
 /// crossover_bodies: the number from which on the tree at that angle is faster.
 [[nodiscard]] DUSTBENCH_API ExperimentInfo describe();
 /// Its findings that are not times, for this seed.

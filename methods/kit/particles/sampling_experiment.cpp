@@ -12,7 +12,7 @@
 namespace dustbench::particles::sampling {
 namespace {
 
-constexpr std::int64_t draws = 500'000;
+constexpr std::int64_t draws = 4'000'000;
 constexpr double z95 = 1.959964;
 constexpr double radians = std::numbers::pi / 180;
 enum Stream : std::uint32_t { cubeStream = 1, gaussianStream, coneStream };
@@ -34,17 +34,25 @@ glm::dvec3 gaussianPoint(std::uint64_t seed, std::int64_t i) {
             second * std::cos(2 * std::numbers::pi * static_cast<double>(u[3]))};
 }
 
-void findAcceptance(std::uint64_t seed, std::vector<Finding>& findings) {
+/// A point of the cube of four dimensions.
+glm::dvec4 hypercubePoint(std::uint64_t seed, std::int64_t i) {
+    const auto u = maths::uniform4(seed, cubeStream, static_cast<std::uint64_t>(i));
+    return 2.0 * glm::dvec4(u[0], u[1], u[2], u[3]) - 1.0;
+}
+
+/// Of points in the cube of `Point`'s dimensions, `name` is added to the quantities.
+template <typename Point>
+void findAcceptance(const std::string& name, std::uint64_t seed, std::vector<Finding>& findings) {
     std::int64_t inside = 0;
     for (std::int64_t i = 0; i < draws; ++i) {
-        const glm::dvec3 point = cubePoint(seed, i);
+        const Point point(hypercubePoint(seed, i));
         inside += glm::dot(point, point) <= 1 ? 1 : 0;
     }
     const double n = draws, p = static_cast<double>(inside) / n;
     const double middle = (p + z95 * z95 / (2 * n)) / (1 + z95 * z95 / n);
     const double half = z95 / (1 + z95 * z95 / n) * std::sqrt(p * (1 - p) / n + z95 * z95 / (4 * n * n));
-    findings.push_back({"acceptance", p, middle - half, middle + half, draws});
-    findings.push_back({"tries_per_point", 1 / p, 1 / (middle + half), 1 / (middle - half), draws});
+    findings.push_back({"acceptance" + name, p, middle - half, middle + half, draws});
+    findings.push_back({"tries_per_point" + name, 1 / p, 1 / (middle + half), 1 / (middle - half), draws});
 }
 
 /// Counts directions within 4 degrees of a cube's corners and of its faces' middles, per corner and per face.
@@ -108,7 +116,9 @@ void findDistance(const std::string& name, double minimumDegrees, double maximum
 
 std::vector<Finding> sampleDirections(std::uint64_t seed) {
     std::vector<Finding> findings;
-    findAcceptance(seed, findings);
+    findAcceptance<glm::dvec3>("", seed, findings);
+    findAcceptance<glm::dvec2>("_disc", seed, findings);
+    findAcceptance<glm::dvec4>("_4d", seed, findings);
     const std::array<std::pair<std::string, Direction>, 2> directions{
         std::pair{"cube", [seed](std::int64_t i) { return glm::normalize(cubePoint(seed, i)); }},
         std::pair{"gaussian", [seed](std::int64_t i) { return glm::normalize(gaussianPoint(seed, i)); }}};

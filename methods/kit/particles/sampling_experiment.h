@@ -9,7 +9,8 @@
 namespace dustbench::particles::sampling {
 
 /// The experiment `sampling`:
-///     acceptance, tries_per_point    of points in a cube that lie in its ball; Wilson's interval
+///     acceptance, tries_per_point    of points in a cube that lie in its ball; Wilson's interval. With `_disc` and
+///                                    `_4d` the same in two and four dimensions: π/4 and π²/32
 ///     corner_over_face_…             density of directions towards a cube's corners over that towards its faces, in
 ///                                    caps of 4 degrees: of normalised `cube` vectors, of normalised `gaussian` ones
 ///     chi2_per_cell_…                of the same directions and 96 cells of equal area, over its 95 degrees of freedom

@@ -90,7 +90,12 @@ std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, i
     Subject<StructureOfArrays<false>> soa(seed, particles);
     Subject<StructureOfArrays<true>> soaPool(seed, particles);
     std::map<std::string, Times> times;
+    Subject<List<true>> sameListPool(seed, particles);
+    Subject<ArrayOfStructures<true>> sameAosPool(seed, particles);
+    Times listPoolAgain, aosPoolAgain;
     for (int k = 0; k < repetitions; ++k) {
+        sameListPool.measure(listPoolAgain);
+        sameAosPool.measure(aosPoolAgain);
         list.measure(times["list"]);
         listPool.measure(times["list_pool"]);
         aos.measure(times["aos"]);
@@ -104,6 +109,8 @@ std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, i
     for (const std::string name : {"list", "aos", "soa"})
         findings.push_back(ratioOf("churn_without_over_with_" + name, times[name].churn, times[name + "_pool"].churn));
     findings.push_back(ratioOf("allocation_without_over_with_list", times["list"].refill, times["list_pool"].refill));
+    findings.push_back(ratioOf("allocation_of_equals", listPoolAgain.refill, times["list_pool"].refill));
+    findings.push_back(ratioOf("scan_of_equals", aosPoolAgain.scan, times["aos_pool"].scan));
     for (const auto& [name, measured] : times) {
         findings.push_back(medianOf("scan_ns_" + name, measured.scan));
         findings.push_back(medianOf("churn_ns_" + name, measured.churn));

@@ -15,6 +15,7 @@ namespace dustbench::particles::storage {
 /// dead over with it.
 /// allocation_without_over_with_list: the same without the walk that finds the dead: nodes given back and asked for
 /// again, over nodes taken from the pool.
+/// allocation_of_equals, scan_of_equals: controls, of two lists and two arrays of structures of the same kind.
 /// scan_ns_…, churn_ns_…: nanoseconds per particle and step, by `list`, `aos`, `soa`, with `_pool`.
 [[nodiscard]] DUSTBENCH_API ExperimentInfo describe();
 [[nodiscard]] std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, int repetitions);

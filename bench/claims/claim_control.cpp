@@ -1,0 +1,61 @@
+#include "bench/claims/claim_control.h"
+
+#include <fmt/format.h>
+
+namespace dustbench::bench {
+namespace {
+
+ClaimVerdict verdictOf(ControlOutcome outcome) {
+    return outcome == ControlOutcome::refuted ? ClaimVerdict::refuted : ClaimVerdict::confirmed;
+}
+
+void append(std::string& text, const std::string& more) {
+    text += (text.empty() ? "" : "; ") + more;
+}
+
+/// `refuted, as known (1.31: 40 times the particles)`.
+std::string outcomeText(const ControlRule& control, const ClaimResult& found) {
+    const bool asKnown = found.verdict == verdictOf(control.gives);
+    return fmt::format("{}{} ({:.4g}: {})", verdictName(found.verdict),
+                       asKnown ? ", as known" : fmt::format(", known: {}", verdictName(verdictOf(control.gives))),
+                       found.measured, control.why);
+}
+
+/// True if a verdict can be checked: another one is possible, and a control shows it.
+bool isOpposite(ClaimVerdict verdict, ControlOutcome outcome) {
+    if (verdict == ClaimVerdict::confirmed) return outcome == ControlOutcome::refuted;
+    if (verdict == ClaimVerdict::refuted) return outcome == ControlOutcome::confirmed;
+    return true;
+}
+
+}  // namespace
+
+ClaimResult judgeWithControls(const Claim& claim, const RuleJudge& judge) {
+    ClaimResult result = judge(claim.rule);
+    if (result.verdict == ClaimVerdict::notTested) return result;
+    bool missing = false, failed = false, turned = false;
+    for (const ControlRule& control : claim.controls) {
+        const ClaimResult found = judge(control.rule);
+        if (found.verdict == ClaimVerdict::notTested) {
+            missing = true;
+            append(result.controlNote, "not run: " + control.why);
+            continue;
+        }
+        failed = failed || found.verdict != verdictOf(control.gives);
+        turned = turned || isOpposite(result.verdict, control.gives);
+        append(result.controlNote, outcomeText(control, found));
+    }
+    if (!failed && !turned && !missing)
+        append(result.controlNote,
+               fmt::format("no control can give the opposite of '{}'", verdictName(result.verdict)));
+    if (failed || (!turned && !missing))
+        result.control = ControlState::notTurned;
+    else
+        result.control = missing ? ControlState::notRun : ControlState::turned;
+    if (result.control != ControlState::notTurned) return result;
+    append(result.note, fmt::format("measured: {}; its control did not turn", verdictName(result.verdict)));
+    result.verdict = ClaimVerdict::untestable;
+    return result;
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,258 @@
+#include "bench/claims/claim_samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "bench/measure/rank_correlation.h"
+
+namespace dustbench::bench {
+namespace {
+
+/// Columns that do not distinguish cells: the seed where it is the turn, and the load of a curve.
+std::set<std::string> columnsWithin(const Rule& rule) {
+    std::set<std::string> columns;
+    if (rule.over == Chance::seeds) columns.insert("seed");
+    if (!rule.against.empty() && rule.quantity != Quantity::matched) columns.insert(rule.against);
+    return columns;
+}
+
+/// Collects values under keys, and gives the keys as cells in the end.
+class SampleTable {
+ public:
+    SampleTable(const Rule& rule, const ResultRows& rows) : rule_(rule), rows_(rows), within_(columnsWithin(rule)) {}
+
+    [[nodiscard]] std::string keyOf(std::size_t row) const { return rows_.cellKey(row, within_); }
+    [[nodiscard]] std::int64_t turnOf(std::size_t row) const {
+        if (rule_.over != Chance::seeds) return rows_.repetition(row);
+        return static_cast<std::int64_t>(rows_.number(row, "seed").value_or(1));
+    }
+    void add(const std::string& key, std::int64_t turn, double value) { values_[key][turn].push_back(value); }
+    [[nodiscard]] bool empty() const { return values_.empty(); }
+
+    /// The values of one cell and turn are averaged; of what does not depend on the turn the first is taken.
+    void giveTo(ClaimSamples& samples) const {
+        std::vector<std::string> keys;
+        keys.reserve(values_.size());
+        for (const auto& [key, turns] : values_) keys.push_back(key);
+        for (const auto& [key, turns] : values_) {
+            samples.cells.push_back(rows_.cellValues(key, keys));
+            for (const auto& [turn, list] : turns) {
+                double sum = 0;
+                for (const double value : list) sum += value;
+                const bool once = rule_.over != Chance::repetitions;
+                samples.list.push_back(
+                    {samples.cells.size() - 1, turn, once ? list.front() : sum / static_cast<double>(list.size())});
+                if (rule_.over == Chance::none) break;
+            }
+        }
+    }
+
+ private:
+    const Rule& rule_;
+    const ResultRows& rows_;
+    std::set<std::string> within_;
+    std::map<std::string, std::map<std::int64_t, std::vector<double>>> values_;
+};
+
+std::optional<double> valueOf(const Rule& rule, const ResultRows& rows, std::size_t row) {
+    const std::optional<double> value = rows.number(row, rule.column);
+    if (rule.per.empty() || !value) return value;
+    const std::optional<double> divisor = rows.number(row, rule.per);
+    return divisor && *divisor != 0 ? std::optional(*value / *divisor) : std::nullopt;
+}
+
+std::string missingOf(const Rule& rule, const Selection& selection, const ResultRows& rows) {
+    const std::string invalid = rows.invalidAmong(selection);
+    return fmt::format("no {} of {} in a run of {} that is done{}", rule.column, textOf(selection), rule.suite,
+                       invalid.empty() ? "" : " and valid: " + invalid);
+}
+
+/// The selected rows that have a value in the column.
+template <typename Result>
+std::vector<std::size_t> rowsWith(const Rule& rule, const Selection& selection, const ResultRows& rows,
+                                  Result& result) {
+    std::vector<std::size_t> chosen = rows.select(selection);
+    std::erase_if(chosen, [&](std::size_t row) { return !valueOf(rule, rows, row); });
+    if (chosen.empty() && result.missing.empty()) result.missing = missingOf(rule, selection, rows);
+    result.rows.insert(result.rows.end(), chosen.begin(), chosen.end());
+    return chosen;
+}
+
+/// Columns in which the two sides of a ratio differ by intention.
+std::set<std::string> namedColumns(const Rule& rule) {
+    std::set<std::string> named;
+    for (const Selection* side : {&rule.of, &rule.with})
+        for (const auto& [column, value] : *side) named.insert(column);
+    return named;
+}
+
+void addRatios(const Rule& rule, const ResultRows& rows, SampleTable& table, ClaimSamples& samples) {
+    const auto of = rowsWith(rule, rule.of, rows, samples), with = rowsWith(rule, rule.with, rows, samples);
+    const std::set<std::string> named = namedColumns(rule);
+    for (const std::size_t a : of)
+        for (const std::size_t b : with) {
+            if (!rows.correspond(a, b, named)) continue;
+            const double x = *valueOf(rule, rows, a), y = *valueOf(rule, rows, b);
+            if (x == 0 && y == 0)
+                ++samples.undefined;
+            else if (y > 0)
+                table.add(table.keyOf(a) + table.keyOf(b), table.turnOf(a), x / y);
+        }
+    if (table.empty() && samples.missing.empty())
+        samples.missing = fmt::format("no run of {} has its like of {} with a {} above 0", textOf(rule.of),
+                                      textOf(rule.with), rule.column);
+}
+
+/// A point of a curve of the other side: the column to match, and the rule's column.
+struct MatchPoint {
+    double load, match, value;
+};
+
+/// The value where the curve first reaches `match`, linear in `match` and in the value's logarithm between two loads.
+std::optional<double> valueAtMatch(std::vector<MatchPoint> curve, double match) {
+    std::ranges::sort(curve, {}, &MatchPoint::load);
+    for (std::size_t i = 1; i < curve.size(); ++i) {
+        const MatchPoint &a = curve[i - 1], &b = curve[i];
+        if ((a.match - match) * (b.match - match) > 0 || !(a.value > 0 && b.value > 0)) continue;
+        const double share = a.match == b.match ? 0 : (match - a.match) / (b.match - a.match);
+        return a.value * std::pow(b.value / a.value, share);
+    }
+    return std::nullopt;
+}
+
+void addMatched(const Rule& rule, const ResultRows& rows, SampleTable& table, ClaimSamples& samples) {
+    const auto of = rowsWith(rule, rule.of, rows, samples), with = rowsWith(rule, rule.with, rows, samples);
+    std::set<std::string> named = namedColumns(rule);
+    named.insert(rule.against);
+    for (const std::size_t a : of) {
+        const std::optional<double> match = rows.number(a, rule.match);
+        std::vector<MatchPoint> curve;
+        for (const std::size_t b : with) {
+            const auto load = rows.number(b, rule.against), other = rows.number(b, rule.match);
+            if (load && other && rows.correspond(a, b, named))
+                curve.push_back({*load, *other, *valueOf(rule, rows, b)});
+        }
+        if (!match || *match == 0) continue;  // at 0 any sufficient load matches
+        if (const auto value = valueAtMatch(std::move(curve), *match))
+            table.add(table.keyOf(a), table.turnOf(a), *valueOf(rule, rows, a) / *value);
+    }
+    if (table.empty() && samples.missing.empty())
+        samples.missing =
+            fmt::format("no {} above 0 that both {} and {} reach", rule.match, textOf(rule.of), textOf(rule.with));
+}
+
+void addShares(const Rule& rule, const ResultRows& rows, SampleTable& table, ClaimSamples& samples) {
+    for (const std::size_t row : rowsWith(rule, rule.of, rows, samples)) {
+        double sum = 0;
+        for (const std::string& part : rule.parts) sum += rows.number(row, part).value_or(0);
+        if (const double whole = *valueOf(rule, rows, row); whole != 0)
+            table.add(table.keyOf(row), table.turnOf(row), sum / whole);
+    }
+}
+
+void addValues(const Rule& rule, const ResultRows& rows, SampleTable& table, ClaimSamples& samples) {
+    for (const std::size_t row : rowsWith(rule, rule.of, rows, samples))
+        table.add(table.keyOf(row), table.turnOf(row), *valueOf(rule, rows, row));
+}
+
+/// Points of the curves, one curve for each cell and turn.
+using Curves = std::map<std::pair<std::string, std::int64_t>, std::vector<CostPoint>>;
+
+Curves curvesOf(const Rule& rule, const ResultRows& rows, const SampleTable& table, ClaimSamples& samples) {
+    Curves curves;
+    for (const std::size_t row : rowsWith(rule, rule.of, rows, samples))
+        if (const auto load = rows.number(row, rule.against))
+            curves[{table.keyOf(row), table.turnOf(row)}].push_back({*load, *valueOf(rule, rows, row)});
+    return curves;
+}
+
+/// (y₂ − y₁)/(x₂ − x₁) over (y₁ − y₀)/(x₁ − x₀), with x₁ the load nearest to the middle of the range.
+std::optional<double> ratioOfSlopes(const std::vector<CostPoint>& points) {
+    const auto [first, last] = std::ranges::minmax_element(points, {}, &CostPoint::load);
+    const double half = (first->load + last->load) / 2;
+    const auto middle =
+        std::ranges::min_element(points, {}, [&](const CostPoint& point) { return std::abs(point.load - half); });
+    if (middle == first || middle == last || middle->ms == first->ms) return std::nullopt;
+    return (last->ms - middle->ms) / (last->load - middle->load) /
+           ((middle->ms - first->ms) / (middle->load - first->load));
+}
+
+/// The value at the maximum load over that at the minimum, Kendall's rank correlation, or the ratio of slopes.
+void addCurves(const Rule& rule, const ResultRows& rows, SampleTable& table, ClaimSamples& samples) {
+    for (auto& [where, points] : curvesOf(rule, rows, table, samples)) {
+        const auto [first, last] = std::ranges::minmax_element(points, {}, &CostPoint::load);
+        if (first->load == last->load) continue;
+        if (rule.quantity == Quantity::trend)
+            table.add(where.first, where.second, rankCorrelation(points));
+        else if (rule.quantity == Quantity::slopes) {
+            if (const auto ratio = ratioOfSlopes(points)) table.add(where.first, where.second, *ratio);
+        } else if (first->ms == 0 && last->ms == 0)
+            ++samples.undefined;
+        else if (first->ms > 0)
+            table.add(where.first, where.second, last->ms / first->ms);
+    }
+    if (table.empty() && samples.missing.empty())
+        samples.missing = fmt::format("{} does not vary in the runs of {}", rule.against, textOf(rule.of));
+}
+
+void makeSortedUnique(std::vector<std::size_t>& rows) {
+    std::ranges::sort(rows);
+    const auto repeated = std::ranges::unique(rows);
+    rows.erase(repeated.begin(), repeated.end());
+}
+
+}  // namespace
+
+ClaimSamples samplesOf(const Rule& rule, const ResultRows& rows) {
+    ClaimSamples samples;
+    SampleTable table(rule, rows);
+    switch (rule.quantity) {
+        case Quantity::ratio:
+            addRatios(rule, rows, table, samples);
+            break;
+        case Quantity::matched:
+            addMatched(rule, rows, table, samples);
+            break;
+        case Quantity::share:
+            addShares(rule, rows, table, samples);
+            break;
+        case Quantity::value:
+            addValues(rule, rows, table, samples);
+            break;
+        case Quantity::growth:
+        case Quantity::trend:
+        case Quantity::slopes:
+            addCurves(rule, rows, table, samples);
+            break;
+        case Quantity::exponent:
+        case Quantity::finding:
+        case Quantity::none:
+            throw std::invalid_argument("samplesOf: the quantity has no samples in a summary");
+    }
+    if (table.empty() && samples.missing.empty()) samples.missing = "no " + rule.column + " that is not 0";
+    table.giveTo(samples);
+    makeSortedUnique(samples.rows);
+    return samples;
+}
+
+CostCurves costCurvesOf(const Rule& rule, const ResultRows& rows) {
+    CostCurves result;
+    std::map<std::string, std::vector<CostPoint>> byKey;
+    for (const std::size_t row : rowsWith(rule, rule.of, rows, result))
+        if (const auto load = rows.number(row, rule.against))
+            byKey[rows.cellKey(row, columnsWithin(rule))].push_back({*load, *valueOf(rule, rows, row)});
+    std::vector<std::string> keys;
+    keys.reserve(byKey.size());
+    for (const auto& [key, points] : byKey) keys.push_back(key);
+    for (const auto& [key, points] : byKey) result.curves.push_back({rows.cellValues(key, keys), points});
+    makeSortedUnique(result.rows);
+    return result;
+}
+
+}  // namespace dustbench::bench
