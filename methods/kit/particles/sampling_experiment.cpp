@@ -12,7 +12,6 @@
 namespace dustbench::particles::sampling {
 namespace {
 
-constexpr std::int64_t draws = 4'000'000;
 constexpr double z95 = 1.959964;
 constexpr double radians = std::numbers::pi / 180;
 enum Stream : std::uint32_t { cubeStream = 1, gaussianStream, coneStream };
@@ -42,13 +41,13 @@ glm::dvec4 hypercubePoint(std::uint64_t seed, std::int64_t i) {
 
 /// Of points in the cube of `Point`'s dimensions, `name` is added to the quantities.
 template <typename Point>
-void findAcceptance(const std::string& name, std::uint64_t seed, std::vector<Finding>& findings) {
+void findAcceptance(const std::string& name, std::uint64_t seed, std::int64_t draws, std::vector<Finding>& findings) {
     std::int64_t inside = 0;
     for (std::int64_t i = 0; i < draws; ++i) {
         const Point point(hypercubePoint(seed, i));
         inside += glm::dot(point, point) <= 1 ? 1 : 0;
     }
-    const double n = draws, p = static_cast<double>(inside) / n;
+    const double n = static_cast<double>(draws), p = static_cast<double>(inside) / n;
     const double middle = (p + z95 * z95 / (2 * n)) / (1 + z95 * z95 / n);
     const double half = z95 / (1 + z95 * z95 / n) * std::sqrt(p * (1 - p) / n + z95 * z95 / (4 * n * n));
     findings.push_back({"acceptance" + name, p, middle - half, middle + half, draws});
@@ -56,7 +55,8 @@ void findAcceptance(const std::string& name, std::uint64_t seed, std::vector<Fin
 }
 
 /// Counts directions within 4 degrees of a cube's corners and of its faces' middles, per corner and per face.
-void findCornersOverFaces(const std::string& name, const Direction& direction, std::vector<Finding>& findings) {
+void findCornersOverFaces(const std::string& name, const Direction& direction, std::int64_t draws,
+                          std::vector<Finding>& findings) {
     const double cap = std::cos(4 * radians);
     double corners = 0, faces = 0;
     for (std::int64_t i = 0; i < draws; ++i) {
@@ -72,7 +72,8 @@ void findCornersOverFaces(const std::string& name, const Direction& direction, s
 }
 
 /// Eight bands of equal height times twelve sectors: cells of equal area (Archimedes).
-void findChiSquare(const std::string& name, const Direction& direction, std::vector<Finding>& findings) {
+void findChiSquare(const std::string& name, const Direction& direction, std::int64_t draws,
+                   std::vector<Finding>& findings) {
     constexpr int bands = 8, sectors = 12, cells = bands * sectors;
     std::array<double, cells> counts{};
     for (std::int64_t i = 0; i < draws; ++i) {
@@ -94,37 +95,38 @@ void findChiSquare(const std::string& name, const Direction& direction, std::vec
 
 /// `cosineOf(u)`: cosine of the angle to the axis. For uniform directions it is uniform between the cone's cosines.
 void findDistance(const std::string& name, double minimumDegrees, double maximumDegrees, std::uint64_t seed,
-                  const std::function<double(double)>& cosineOf, std::vector<Finding>& findings) {
+                  std::int64_t draws, const std::function<double(double)>& cosineOf, std::vector<Finding>& findings) {
     const double inner = std::cos(minimumDegrees * radians), outer = std::cos(maximumDegrees * radians);
     std::vector<double> places;
-    places.reserve(draws);
+    places.reserve(static_cast<std::size_t>(draws));
     for (std::int64_t i = 0; i < draws; ++i) {
         const auto u = static_cast<double>(maths::uniform4(seed, coneStream, static_cast<std::uint64_t>(i))[0]);
         places.push_back((inner - cosineOf(u)) / (inner - outer));
     }
     std::ranges::sort(places);
+    const auto count = static_cast<double>(draws);
     double distance = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const double below = static_cast<double>(i) / draws, above = static_cast<double>(i + 1) / draws;
+        const double below = static_cast<double>(i) / count, above = static_cast<double>(i + 1) / count;
         distance = std::max({distance, above - places[i], places[i] - below});
     }
-    const double half = std::sqrt(std::log(2 / 0.05) / (2.0 * draws));
+    const double half = std::sqrt(std::log(2 / 0.05) / (2 * count));
     findings.push_back({name, distance, std::max(0.0, distance - half), distance + half, draws});
 }
 
 }  // namespace
 
-std::vector<Finding> sampleDirections(std::uint64_t seed) {
+std::vector<Finding> sampleDirections(std::uint64_t seed, std::int64_t draws) {
     std::vector<Finding> findings;
-    findAcceptance<glm::dvec3>("", seed, findings);
-    findAcceptance<glm::dvec2>("_disc", seed, findings);
-    findAcceptance<glm::dvec4>("_4d", seed, findings);
+    findAcceptance<glm::dvec3>("", seed, draws, findings);
+    findAcceptance<glm::dvec2>("_disc", seed, draws, findings);
+    findAcceptance<glm::dvec4>("_4d", seed, draws, findings);
     const std::array<std::pair<std::string, Direction>, 2> directions{
         std::pair{"cube", [seed](std::int64_t i) { return glm::normalize(cubePoint(seed, i)); }},
         std::pair{"gaussian", [seed](std::int64_t i) { return glm::normalize(gaussianPoint(seed, i)); }}};
     for (const auto& [name, direction] : directions) {
-        findCornersOverFaces(name, direction, findings);
-        findChiSquare(name, direction, findings);
+        findCornersOverFaces(name, direction, draws, findings);
+        findChiSquare(name, direction, draws, findings);
     }
     struct ConeCase {
         const char* name;
@@ -134,8 +136,9 @@ std::vector<Finding> sampleDirections(std::uint64_t seed) {
         const double minimum = cone.minimum * radians, maximum = cone.maximum * radians;
         const auto asPrinted = [=](double u) { return std::cos(minimum + std::sqrt(u) * (maximum - minimum)); };
         const auto byCosine = [=](double u) { return std::cos(minimum) + u * (std::cos(maximum) - std::cos(minimum)); };
-        findDistance(cone.name, cone.minimum, cone.maximum, seed, asPrinted, findings);
-        findDistance(std::string(cone.name) + "_by_cosine", cone.minimum, cone.maximum, seed, byCosine, findings);
+        findDistance(cone.name, cone.minimum, cone.maximum, seed, draws, asPrinted, findings);
+        findDistance(std::string(cone.name) + "_by_cosine", cone.minimum, cone.maximum, seed, draws, byCosine,
+                     findings);
     }
     return findings;
 }
@@ -144,7 +147,7 @@ ExperimentInfo describe() {
     ExperimentInfo info;
     info.summary = "How uniform the thesis's random points and directions are, and those that would mend them.";
     info.source = "Thesis";
-    info.run = [](ExperimentContext& context) { return sampleDirections(context.seed()); };
+    info.run = [](ExperimentContext& context) { return sampleDirections(context.seed(), 4'000'000); };
     return info;
 }
 

@@ -4,6 +4,9 @@
 // (cones).
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "methods/contract/experiment.h"
 
 namespace dustbench::particles::sampling {
@@ -19,7 +22,7 @@ namespace dustbench::particles::sampling {
 ///                                    Dvoretzky, Kiefer and Wolfowitz
 ///     …_by_cosine                    the same, drawn by interpolating the cosine
 [[nodiscard]] DUSTBENCH_API ExperimentInfo describe();
-/// Its findings for this seed.
-[[nodiscard]] std::vector<Finding> sampleDirections(std::uint64_t seed);
+/// Its findings for this seed, each of `draws` points or directions.
+[[nodiscard]] std::vector<Finding> sampleDirections(std::uint64_t seed, std::int64_t draws);
 
 }  // namespace dustbench::particles::sampling
