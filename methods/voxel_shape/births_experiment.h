@@ -1,8 +1,7 @@
-// Whether a shape of particles gives birth within the walls that it goes through (claim R12c).
+// Tests whether a shape of particles emits particles inside the walls that it passes through (claim R12c).
 //
-// Looked at from outside, by the particles that the method hands over after each step: the newborn are those whose
-// serials are new. Threads: the current oneTBB arena; the same at any number of
-// them. Source: JuckelBeckhaus2007, 5.2.
+// Uses only the particles that the method exposes after each step: the newborn are those with new serials. Threads:
+// uses the current oneTBB arena; the result does not depend on the number of threads. Source: JuckelBeckhaus2007, 5.2.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +12,17 @@ namespace dustbench::voxel_shape::births {
 
 struct BirthReport {
     std::int64_t births = 0;
-    std::int64_t inSolids = 0;  ///< that lie in a solid at the end of the step of their birth
+    std::int64_t inSolids = 0;  ///< in a solid at the end of the step of their birth
 };
 
-/// The car of particles beside the vehicle of the scene `wall`, which drives at 20 m/s and meets a wall every 40 m, the
-/// first one after 1 s. `solidsAreTold`: false keeps from the method that there are any.
+/// Drives the particle car with the vehicle of the scene `wall`, which drives at 20 m/s and meets a wall every 40 m,
+/// the first after 1 s. `solidsAreTold`: false hides the solids from the method.
 [[nodiscard]] BirthReport driveThroughWalls(ExperimentContext& context, bool solidsAreTold, double seconds);
 
 /// The experiment `births`, past two walls:
-///     in_solids         particles born within solids
-///     in_solids_untold  the same where the method does not know of the solids: what the experiment would find. Its
-///                       `samples` are all births, as those of the first.
+///     in_solids         particles born inside solids
+///     in_solids_untold  the control: the same with the solids hidden from the method
+/// Each finding's `samples` is the number of all births.
 [[nodiscard]] ExperimentInfo describe();
 
 }  // namespace dustbench::voxel_shape::births

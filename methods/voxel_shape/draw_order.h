@@ -1,7 +1,7 @@
-// The order in which a shape's particles are blended: sorted fully, in part, now and then, or not at all.
+// The order in which a shape's particles are blended: sorted fully, partly, every few frames, or not at all.
 //
-// Units: metres. Owns: its lists, on a ledger. Threads: one caller at a time; the order is the same at any number of
-// threads. Source: JuckelBeckhaus2007, 4.4 (`sometimes it is sufficient to just sort parts of the particles`).
+// Units: metres. Owns: its lists, on a ledger. Threads: one caller at a time; the order does not depend on the number
+// of threads. Source: JuckelBeckhaus2007, 4.4 (`sometimes it is sufficient to just sort parts of the particles`).
 #pragma once
 
 #include "methods/kit/draw/depth_sort.h"
@@ -13,7 +13,7 @@ class DrawOrder {
  public:
     explicit DrawOrder(MemoryLedger& ledger);
 
-    /// Indices of the points, the first to be blended first. Valid until the next call.
+    /// Returns the indices of the points in blending order. Valid until the next call.
     std::span<const std::uint32_t> of(const Look& look, const draw::PointColumns& points, const glm::vec3& eye);
 
  private:

@@ -1,4 +1,4 @@
-// One shape in a scene: its track, its voxels and particles, their light, and what they collide with.
+// One shape in a scene: its track, voxels, particles, light and collisions.
 //
 // Units: m, s. Frame: world. Owns: all of it, on a ledger. Threads: the OpenGL thread's; uses the current oneTBB arena.
 #pragma once
@@ -21,17 +21,17 @@ class LivingShape {
  public:
     explicit LivingShape(const Shape& shape) : shape_(shape), track_(shape.track) {}
 
-    /// Throws InputError where the shape does not fit the scene. `ledger` must outlive this.
+    /// Throws InputError if the shape does not fit the scene. `ledger` must outlive this object.
     void prepare(MemoryLedger& ledger, const scene::Scene& scene, gpu::Device& device, std::uint64_t seed);
-    /// On to the frame's moment.
+    /// Advances to the frame's time.
     void step(const Frame& frame);
 
     [[nodiscard]] const Shape& shape() const { return shape_; }
     [[nodiscard]] const ShapeSystem& system() const { return *system_; }
     [[nodiscard]] ShapeSystem& system() { return *system_; }
-    /// Throws std::runtime_error where the voxels hold another number of particles than the shape was asked to keep to.
+    /// Throws std::runtime_error if the number of particles held deviates more from the shape's number than requested.
     void requireNumberHeld() const;
-    /// Of what it collides with; the rest is on the ledger.
+    /// Memory of the collision solids and the flow; the rest is on the ledger.
     [[nodiscard]] MemoryReport memory() const;
 
  private:

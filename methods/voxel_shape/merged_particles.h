@@ -1,6 +1,6 @@
-// The particles of several shapes as one list, so that they are sorted and drawn together.
+// Merges the particles of several shapes into one list, to sort and draw them together.
 //
-// Owns: a copy of what is drawn of them, on a ledger; none where there is one shape alone.
+// Owns: a copy of the columns drawn, on a ledger; nothing if there is only one shape.
 #pragma once
 
 #include <span>
@@ -13,8 +13,8 @@ class MergedParticles {
  public:
     explicit MergedParticles(MemoryLedger& ledger) : all_(ledger) {}
 
-    /// The only shape's own particles, or a copy of all: positions, velocities, looks and pictures. Valid until the
-    /// next call or step.
+    /// Returns the particles of the only shape, or a copy of all: positions, velocities, looks and pictures. Valid
+    /// until the next call or step.
     [[nodiscard]] const ShapeParticles& of(std::span<LivingShape> shapes);
 
  private:

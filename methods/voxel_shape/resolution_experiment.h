@@ -1,11 +1,11 @@
-// How many voxels a side a shape needs to keep its outline.
+// How many voxels per side a shape needs to keep its outline.
 //
-// A shape at rest is seen from three sides at each resolution, with as many particles a voxel at each, and its picture
-// held against the outline of its mesh. The knee of that curve is the resolution at which it lies highest above the
-// straight line from its first point to its last: from there on a voxel more gains less than on the average.
-// Findings, of each preset over three seeds and of all: `silhouette_knee` in voxels a side (its interval holds half a
-// step of the sweep besides), `silhouette_at_50` and `_at_120`, and of all `silhouette_kept_at_50`, the former by the
-// latter.
+// A shape at rest is viewed from three sides at each resolution, always with the same number of particles per voxel.
+// Its picture is compared with the outline of its mesh. The knee of the curve is the resolution at which the curve lies
+// highest above the chord from its first to its last point: beyond it, an additional voxel gains less than the average.
+// Findings: `silhouette_knee`, in voxels per side (its interval includes half a step of the sweep), for each preset
+// over three seeds and for all presets; `silhouette_at_50` and `silhouette_at_120` for each preset;
+// `silhouette_kept_at_50`, their ratio, for all presets.
 // Controls: `silhouette_kept_at_10` and `_at_110`, and `knee_of_late_curve`, of a curve whose knee is at 100.
 //
 // Source: JuckelBeckhaus2007, 6 and 7. The knee: Satopaa2011.
@@ -20,13 +20,13 @@
 namespace dustbench::voxel_shape::resolution {
 
 struct Curve {
-    std::vector<int> voxelsASide;  ///< rising
+    std::vector<int> voxelsASide;  ///< increasing
     std::vector<double> overlaps;  ///< intersection over union, mean over the sides
-    /// Empty curves and flat ones have their knee at their first point.
+    /// Returns the knee in voxels per side: the first point of a flat curve, 0 for an empty one.
     [[nodiscard]] double knee() const;
 };
 
-/// Of a preset, from 10 to 120 voxels a side.
+/// Returns the curve of a preset from 10 to 120 voxels per side.
 [[nodiscard]] Curve outlineOf(ExperimentContext& context, const std::string& shape, std::uint64_t seed);
 
 [[nodiscard]] ExperimentInfo describe();

@@ -1,6 +1,6 @@
-// A shape as its file describes it: data/shapes/car.toml is the manual of its keys.
+// A shape as described by its file. data/shapes/car.toml documents the keys.
 //
-// Units: m, s, linear RGB. Frame: the shape's own; places in the frame that it follows.
+// Units: m, s, radians, linear RGB. Frame: the shape's own; the track is in the vehicle's frame or the world's.
 #pragma once
 
 #include <filesystem>
@@ -19,9 +19,9 @@ namespace dustbench::voxel_shape {
 enum class Source { vehicle, mesh, grid, voxels };
 
 enum class Voxeliser {
-    conservative,  ///< all that the surface touches
-    slices,        ///< the paper's, along z
-    slicesXyz,     ///< the same along x, y and z, which misses no face for being seen edge-on
+    conservative,  ///< every voxel that the surface touches
+    slices,        ///< the paper's slices along z
+    slicesXyz,     ///< slices along x, y and z: faces that are edge-on to one axis are not missed
 };
 inline constexpr Choices<Voxeliser> voxelisers{
     {"conservative", Voxeliser::conservative}, {"slices", Voxeliser::slices}, {"slices_xyz", Voxeliser::slicesXyz}};
@@ -29,10 +29,10 @@ inline constexpr Choices<Voxeliser> voxelisers{
 enum class Fill { surface, solid };
 inline constexpr Choices<Fill> fills{{"surface", Fill::surface}, {"solid", Fill::solid}};
 
-/// Whose law it is that holds a shape together.
+/// The rule that limits the number of particles in a voxel.
 enum class Mode {
-    fixed,  ///< ours: no voxel holds more than its maximum
-    paper   ///< maximum density limits births alone, and slices along z are the voxels
+    fixed,  ///< departs from the paper: no voxel holds more than its maximum density
+    paper   ///< the paper's: the maximum density limits births only; the voxels are the slices along z
 };
 inline constexpr Choices<Mode> modes{{"fixed", Mode::fixed}, {"paper", Mode::paper}};
 
@@ -45,10 +45,10 @@ inline constexpr Choices<Render> renders{{"points", Render::points},     {"lines
 /// The order in which particles are blended.
 enum class Order {
     radix,      ///< far to near
-    quicksort,  ///< the same, the paper's way
-    nearest,    ///< the nearest ones far to near, the others before them as they come
-    every,      ///< far to near every few frames, the same order in between
-    none,       ///< as they come
+    quicksort,  ///< far to near by the paper's quicksort
+    nearest,    ///< the nearest far to near, drawn after all others, which are unsorted
+    every,      ///< far to near every few frames; the order is kept in between
+    none,       ///< unsorted
 };
 inline constexpr Choices<Order> orders{{"radix", Order::radix},
                                        {"quicksort", Order::quicksort},
@@ -58,26 +58,26 @@ inline constexpr Choices<Order> orders{{"radix", Order::radix},
 
 struct Look {
     Render render = Render::sprites;
-    float pixels = 0;  ///< of points and sprites; 0: as large as the particles are
+    float pixels = 0;  ///< diameter of points and sprites; 0: the size of the particles
     bool additive = false;
     bool lit = false;  ///< by the scene's sun and sky
     Order order = Order::radix;
-    std::uint32_t nearest = 2000;  ///< so many
-    std::uint32_t every = 4;       ///< frames
+    std::uint32_t nearest = 2000;  ///< particles that Order::nearest sorts
+    std::uint32_t every = 4;       ///< interval of Order::every, in frames
 };
 
-/// A flow from files that draws particles along.
+/// A velocity field read from files that drags particles along.
 struct FlowField {
     std::vector<std::filesystem::path> files;  ///< empty: none
     std::string field = "velocity";
     float drawsPerSecond = 4;           ///< rate at which particles take on its velocity
-    std::optional<double> fromSeconds;  ///< simulated time at which the series begins; empty: that of its files
+    std::optional<double> fromSeconds;  ///< simulated time at which the series begins; empty: the time in its files
 };
 
-/// Voxels take on a colour where forces push particles away from where they were born.
+/// Colours voxels by the displacement of their particles from their places of birth.
 struct StressLook {
     glm::vec3 colour{0.9f, 0.05f, 0.02f};
-    float fullMetres = 0;  ///< displacement at which a voxel shows it wholly; 0: stress is not shown
+    float fullMetres = 0;  ///< displacement at which the colour is fully reached; 0: stress is not shown
 };
 
 struct TrackKey {
@@ -87,29 +87,29 @@ struct TrackKey {
     double scale = 1;
 };
 
-/// Where the shape is: in the vehicle's frame, or the world's; at rest with one key, else from key to key, again and
-/// again.
+/// The position of the shape in the vehicle's or the world's frame. One key: at rest. Several keys: from key to key,
+/// repeated.
 struct Track {
     bool followsVehicle = true;
-    std::vector<TrackKey> keys;  ///< at least one; times rise from 0
+    std::vector<TrackKey> keys;  ///< at least one; times increase from 0
 };
 
 struct Shape {
-    std::string name;  ///< of the file, for messages
+    std::string name;  ///< file name, for messages
     Source source = Source::vehicle;
-    std::filesystem::path mesh;         ///< or the file of voxels
-    std::filesystem::path savedVoxels;  ///< where the voxels are written once they are made; empty: nowhere
-    glm::vec3 meshColour{0.5f};         ///< where the mesh has none
-    float lightFromAbove = 0;           ///< by how much the underside of a mesh is darker than its top, 0..1
-    glm::vec3 turn{0};                  ///< of the mesh, radians about x, then z, then y
-    float longestSideMetres = 0;        ///< 0: as it is
+    std::filesystem::path mesh;         ///< or the voxel file
+    std::filesystem::path savedVoxels;  ///< file to which the finished voxels are written; empty: none
+    glm::vec3 meshColour{0.5f};         ///< for meshes without colours
+    float lightFromAbove = 0;           ///< how much darker the underside of a mesh is than its top, 0..1
+    glm::vec3 turn{0};                  ///< of the mesh: radians about x, then z, then y
+    float longestSideMetres = 0;        ///< 0: unscaled
     glm::ivec3 gridCells{1};
-    float gridEdgeMetres = 1;  ///< of a voxel
+    float gridEdgeMetres = 1;  ///< edge of a voxel
     int resolution = 50;
     Voxeliser voxeliser = Voxeliser::conservative;
     Fill fill = Fill::surface;
     std::uint32_t particles = 40'000;
-    VoxelChange voxels;  ///< of all, whole but for the colour
+    VoxelChange voxels;  ///< attributes of all voxels; complete except for the colour
     std::vector<VoxelEdit> edits;
     Motion motion;
     bool collides = true;  ///< with the scene's solids
@@ -119,11 +119,10 @@ struct Shape {
     StressLook stress;
     FlowField flow;
     Track track;
-    std::vector<Shape> others;      ///< that are there as well; they have none themselves
+    std::vector<Shape> others;      ///< further shapes of the scene; they contain no others themselves
     float drawnAlongPerSecond = 4;  ///< rate at which particles in another shape's voxels take on its motion
-    float dustDrawsPerSecond =
-        0;                  ///< rate at which particles take on the motion of the dust around them; 0: they do not
-    double heldWithin = 0;  ///< share by which the particles held may differ from the shape's number; 0: as they like
+    float dustDrawsPerSecond = 0;   ///< rate at which particles take on the motion of the dust around them; 0: none
+    double heldWithin = 0;  ///< allowed relative deviation of the particles held from the shape's number; 0: unchecked
 };
 
 }  // namespace dustbench::voxel_shape

@@ -1,4 +1,5 @@
-// From a shape's description to its voxels: its mesh is found, voxelised, filled, edited, and its particles shared out.
+// Builds a shape's voxels from its description: finds and voxelises the mesh, fills and edits the voxels, and
+// distributes the particles over them.
 //
 // Frame: the shape's own. Threads: the OpenGL thread's.
 #pragma once
@@ -10,11 +11,11 @@
 
 namespace dustbench::voxel_shape {
 
-/// The mesh that a shape is made of: the vehicle with its wheels, or a file's, turned and scaled as the shape says,
-/// standing on y = 0 with its middle over the origin (the vehicle stays in its own frame). Throws InputError.
+/// Returns the mesh of a shape: the vehicle with its wheels, in the vehicle's frame; or that of a file, turned and
+/// scaled as described, standing on y = 0 and centred over the origin. Throws InputError.
 [[nodiscard]] scene::Mesh meshOf(const Shape& shape, const scene::Scene& scene);
 
-/// Throws InputError for whatever does not fit.
+/// Builds voxels and particle system. Throws InputError if the description or the scene is unsuitable.
 [[nodiscard]] ShapeSystem buildShape(MemoryLedger& ledger, const Shape& shape, const scene::Scene& scene,
                                      gpu::Device& device, std::uint64_t seed);
 

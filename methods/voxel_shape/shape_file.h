@@ -1,4 +1,4 @@
-// Reads a shape from TOML. data/shapes/car.toml is the manual of its keys.
+// Reads a shape from TOML. data/shapes/car.toml documents its keys.
 #pragma once
 
 #include "methods/kit/files/toml_reader.h"
@@ -6,9 +6,9 @@
 
 namespace dustbench::voxel_shape {
 
-/// Throws InputError with file, line, what was got and what is expected.
+/// Throws InputError with file, line, the value read and what is expected.
 [[nodiscard]] Shape readShape(const std::filesystem::path& file);
-/// An edit of such a file. Paths in it are relative to `folder`.
+/// Reads an edit of such a file. Paths in it are relative to `folder`.
 [[nodiscard]] VoxelEdit readEdit(files::TomlReader& table, const std::filesystem::path& folder);
 
 }  // namespace dustbench::voxel_shape

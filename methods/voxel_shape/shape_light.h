@@ -1,8 +1,9 @@
-// Lights a shape by the scene's sun and sky: its voxels' colours become those of a surface that looks where matter
-// becomes less, and particles take them on as they take on any colour of a voxel.
+// Lights a shape by the scene's sun and sky: sets the colours of its voxels to those of a lit surface. Particles take
+// them on like any other colour of a voxel.
 //
-// A voxel of albedo a and normal n shows a·(ambient + sun·max(0, n·l)), l towards the sun; without a normal half of the
-// sun. Units: linear RGB. Frame: n and l in the shape's own. Owns: albedos and normals. Threads: one caller at a time.
+// A voxel of albedo a and normal n has the colour a·(ambient + sun·max(0, n·l)), l: direction to the sun. Without a
+// normal it gets half of the sun. Units: linear RGB. Frame: n and l in the shape's own. Owns: albedos and normals.
+// Threads: one caller at a time.
 #pragma once
 
 #include <vector>
@@ -16,10 +17,10 @@ namespace dustbench::voxel_shape {
 
 class ShapeLight {
  public:
-    /// Takes the voxels' colours for albedos.
+    /// Takes the voxels' current colours as albedos.
     ShapeLight(MemoryLedger& ledger, const VoxelGrid& grid, const scene::Lights& lights);
 
-    /// Sets the voxels' colours to what they show in this pose. `grid`: the one that it was made of.
+    /// Sets the voxels' colours for this pose. `grid`: the grid given to the constructor.
     void shineOn(VoxelGrid& grid, const Pose& pose);
 
  private:

@@ -1,4 +1,4 @@
-// A shape's particles on the screen, as points, lines, sprites or billboards.
+// Draws a shape's particles as points, lines, sprites or billboards.
 //
 // Owns: the passes and their textures. Threads: the OpenGL thread's. Source: JuckelBeckhaus2007, 4.4.
 #pragma once
@@ -18,9 +18,9 @@ class ShapePicture {
  public:
     ShapePicture(gpu::Device& device, const Look& look);
 
-    /// Hands the particles over to the GPU, in this order.
+    /// Copies the particles to the GPU in this order.
     void upload(const ShapeParticles& particles, std::span<const std::uint32_t> order);
-    /// Draws what was uploaded last, as often as wanted.
+    /// Draws the last upload; may be called repeatedly.
     void draw(const scene::View& view, const gpu::Layer& layer);
 
     [[nodiscard]] std::size_t count() const { return count_; }

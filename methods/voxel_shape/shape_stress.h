@@ -1,13 +1,13 @@
-// Stress as colour: a voxel changes towards a colour by how far its particles have been pushed, and particles take that
-// on as they take on any colour of a voxel.
+// Shows stress as colour: a voxel changes towards a colour by the displacement of its particles. Particles take it on
+// like any other colour of a voxel.
 //
-// With u the way from a particle's place of birth to where it is, both in the shape's own frame, a voxel that holds n
-// particles has the displacement d = sqrt(Σ|u|²/n) and shows mix(its colour, the stress's, min(1, d/full)). A shape at
-// rest or at constant velocity has d = 0 but for what particles drift by themselves (`birth_speed`); forces, air,
-// solids and acceleration raise it.
+// Let u be the vector from a particle's place of birth to its position, both in the shape's own frame. A voxel that
+// holds n particles has the displacement d = sqrt(Σ|u|²/n) and the colour mix(its own, the stress colour, min(1,
+// d/full)). A shape at rest or at constant velocity has d = 0 except for the particles' own drift (`birth_speed`);
+// forces, air, solids and acceleration increase d.
 //
-// Source: JuckelBeckhaus2007, 6 (`visualization of stress fields`). Departs: the paper names no measure; its particles
-// show stress by clusters alone.
+// Source: JuckelBeckhaus2007, 6 (`visualization of stress fields`). Departs: the paper names no measure; there only
+// clusters of particles show stress.
 // Units: m, linear RGB. Owns: colours and sums, on a ledger. Threads: one caller at a time.
 #pragma once
 
@@ -19,13 +19,13 @@ namespace dustbench::voxel_shape {
 
 class ShapeStress {
  public:
-    /// Takes the voxels' colours for those without stress. From here on particles keep their places of birth; none may
-    /// have been born yet.
+    /// Takes the voxels' current colours as those without stress. From then on particles keep their places of birth;
+    /// none may exist yet.
     ShapeStress(MemoryLedger& ledger, ShapeSystem& system, const StressLook& look);
 
-    /// Sets the voxels' colours. `system`: the one that it was made of.
+    /// Sets the voxels' colours. `system`: the system given to the constructor.
     void showOn(ShapeSystem& system);
-    /// Displacement d of each active voxel at the last `showOn`; 0 where it holds none.
+    /// Displacement d of each active voxel at the last `showOn`; 0 if it holds no particles.
     [[nodiscard]] std::span<const float> displacements() const { return displacements_; }
 
  private:

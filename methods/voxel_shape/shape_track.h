@@ -1,5 +1,5 @@
-// A shape's pose from moment to moment: along its track, in the vehicle's frame or the world's, with the velocities of
-// that very moment.
+// A shape's pose over time along its track, in the vehicle's frame or the world's, with the velocities at the same
+// time.
 //
 // Units: m, s, radians. Frame: world.
 #pragma once
@@ -12,10 +12,10 @@
 
 namespace dustbench::voxel_shape {
 
-/// Place, heading and scale at a time: linear from key to key, from the last back to the first one at once.
+/// Position, heading and scale at a time: linear from key to key, with a jump from the last key back to the first.
 struct TrackMoment {
     TrackKey key;
-    TrackKey perSecond;  ///< how place, heading and scale change; going back to the first key is a jump, not a motion
+    TrackKey perSecond;  ///< rates of position, heading and scale; the jump to the first key does not count
 };
 [[nodiscard]] TrackMoment momentAt(const Track& track, double timeSeconds);
 
@@ -23,8 +23,8 @@ class ShapeTrack {
  public:
     explicit ShapeTrack(const Track& track) : track_(track) {}
 
-    /// The pose of the next moment, `stepSeconds` after the last one. How fast the vehicle turns is the turn since
-    /// then: none in the first.
+    /// Returns the pose `stepSeconds` after the last one. The vehicle's rate of turn is the turn since the last call; 0
+    /// at the first call.
     Pose advance(const scene::SceneState& state, double stepSeconds);
 
  private:

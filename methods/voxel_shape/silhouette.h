@@ -1,4 +1,4 @@
-// How well a picture of particles keeps the outline of the mesh that they stand for.
+// How well a picture of particles reproduces the outline of the mesh that they represent.
 //
 // Units: pixels, rows from the top. Threads: pure.
 #pragma once
@@ -14,12 +14,13 @@
 
 namespace dustbench::voxel_shape {
 
-/// 1 where a mesh in a pose covers the middle of a pixel. Triangles that reach behind the near plane are left out.
+/// Returns 1 for each pixel whose centre the mesh in this pose covers, otherwise 0. Triangles that reach behind the
+/// near plane are omitted.
 [[nodiscard]] std::vector<std::uint8_t> silhouetteOf(const scene::Mesh& mesh, const Pose& pose,
                                                      const scene::View& view);
 
-/// Intersection over union of the mask and the pixels whose alpha in `layer` is above one half; empty where there are
-/// neither. Throws std::invalid_argument for different sizes.
+/// Returns intersection over union of the mask and the pixels whose alpha in `layer` is above one half; empty if both
+/// are empty. Throws std::invalid_argument for different sizes.
 [[nodiscard]] std::optional<double> overlapOf(const std::vector<std::uint8_t>& mask, const pictures::Image& layer);
 
 }  // namespace dustbench::voxel_shape

@@ -1,8 +1,8 @@
-// Things made of particles that still know their shape: a mesh becomes voxels, and the voxels say how the particles in
+// Objects made of particles that keep their shape: a mesh is voxelised, and the voxels determine how the particles in
 // them look and move.
 //
-// Source: JuckelBeckhaus2007. Departs: formulas where the paper gives none (voxels/voxel.h); sizes of puffs and
-// opacities by the one optical model for all methods; births by the voxels' lack together (particles/emission.h).
+// Source: JuckelBeckhaus2007. Departs: formulas where the paper gives none (voxels/voxel.h); puff sizes and opacities
+// follow the optical model of all methods; births by the number of particles a voxel lacks (particles/emission.h).
 #pragma once
 
 #include <memory>
@@ -25,17 +25,17 @@ class VoxelShape final : public Method {
     void update(const Frame& frame) override;
     void draw(const Frame& frame, gpu::Layer& layer) override;
     void volume(const Frame& frame, VolumeVisitor& visitor) const override;
-    /// Throws std::runtime_error where voxels hold another number of particles than their shape was asked to keep to.
+    /// Throws std::runtime_error if the number of particles held deviates more from a shape's number than requested.
     void report(const Frame& frame, Facts& facts) const override;
     [[nodiscard]] MemoryReport memory() const override;
     [[nodiscard]] std::int64_t primitives() const override;
     [[nodiscard]] std::optional<std::uint64_t> stateHash() const override;
     [[nodiscard]] bool wantsPreroll() const override { return true; }
 
-    /// Of the shape, or of the first of several.
+    /// The system of the only or first shape.
     [[nodiscard]] const ShapeSystem& system() const { return shapes_.front().system(); }
-    /// How well the particles keep the outline of their mesh (silhouette.h), drawn as if nothing stood before them;
-    /// empty where the shape is of no mesh, and where there are several.
+    /// Returns how well the particles reproduce the outline of their mesh (silhouette.h), drawn without occluders;
+    /// empty if the shape has no mesh or there are several shapes.
     [[nodiscard]] std::optional<double> silhouetteOverlap(const scene::View& view) const;
 
  private:
@@ -43,7 +43,7 @@ class VoxelShape final : public Method {
     [[nodiscard]] ShapeCount count() const;
 
     MemoryLedger ledger_;
-    std::vector<LivingShape> shapes_;  ///< the first one's look is that of all
+    std::vector<LivingShape> shapes_;  ///< all are drawn with the look of the first one
     const scene::Scene* scene_ = nullptr;
     gpu::Device* device_ = nullptr;
     DrawOrder order_;
@@ -51,7 +51,7 @@ class VoxelShape final : public Method {
     std::unique_ptr<ShapePicture> picture_;
 };
 
-/// What the method declares; the registry asks for it.
+/// Declares the method; called by the registry.
 [[nodiscard]] MethodInfo describe();
 
 }  // namespace dustbench::voxel_shape

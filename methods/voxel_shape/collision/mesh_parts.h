@@ -1,4 +1,4 @@
-// A mesh divided into the things that it is made of: a scene keeps all copies of a stone or a post as one mesh.
+// Splits a mesh into separate objects: a scene stores all copies of a stone or a post as one mesh.
 //
 // Threads: pure.
 #pragma once
@@ -9,8 +9,8 @@
 
 namespace dustbench::voxel_shape {
 
-/// Triangles that hang together by corners at the same place are one part, and so are parts whose bounding boxes meet,
-/// like the boards of a crate. Each comes without normals, in the order of its first triangle.
+/// Returns the parts of a mesh. Triangles that share a corner position belong to one part; so do parts whose bounding
+/// boxes overlap, like the boards of a crate. The parts have no normals and are ordered by their first triangle.
 [[nodiscard]] std::vector<scene::Mesh> partsOf(const scene::Mesh& mesh);
 
 }  // namespace dustbench::voxel_shape

@@ -1,10 +1,10 @@
-// Which points are in or near a solid: a grid of yes and no about its mesh, to look up in one step.
+// A grid of flags around a mesh that tells in one look-up whether a point is in or near the solid.
 //
-// A cell says yes where the solid, its inside included, comes within `reach` of the cell's middle; some more do, none
-// less. So a voxel whose middle finds no is clear of the solid where `reach` is at least half the voxel's diagonal and
-// half a cell's.
+// The flag of a cell is set if the solid, including its interior, comes within `reach` of the cell's centre. The test
+// is conservative: some other cells are flagged too, but none is missed. A voxel whose centre lies in a cell without
+// flag is therefore clear of the solid if `reach` is at least half the voxel's diagonal plus half the cell's.
 //
-// Units: metres. Frame: the solid's own. Owns: its cells, a byte each. Threads: const members are safe from any.
+// Units: metres. Frame: the solid's own. Owns: its cells, one byte each. Threads: const members are safe from any.
 #pragma once
 
 #include <vector>
@@ -15,15 +15,16 @@ namespace dustbench::voxel_shape {
 
 class Nearness {
  public:
-    /// Cells of `cellMetres`, coarser where more than 128 would lie along the mesh's longest side. Beyond half a cell's
-    /// diagonal, which is added, `reachMetres` is what callers want. A mesh that
-    /// encloses nothing has its surface alone.
+    /// Uses cells of `cellMetres`, or larger ones so that at most 128 lie along the mesh's longest side. `reachMetres`:
+    /// the reach that callers need; half a cell's diagonal is added to it. A mesh that encloses nothing is represented
+    /// by its surface only.
     Nearness(const scene::Mesh& mesh, float cellMetres, float reachMetres);
 
     [[nodiscard]] const Lattice& lattice() const { return lattice_; }
-    /// `place` in cells from the lattice's minimum corner.
+    /// `place` is in cells from the lattice's minimum corner.
     [[nodiscard]] bool at(const glm::vec3& place) const {
-        // NaN and far away are no; negative shares must not be rounded towards 0.
+        // NaN and points outside the lattice are not near. Test before the cast, which rounds negative values towards
+        // 0.
         if (!(place.x >= 0 && place.y >= 0 && place.z >= 0)) return false;
         const glm::vec3 counts(lattice_.counts);
         if (!(place.x < counts.x && place.y < counts.y && place.z < counts.z)) return false;

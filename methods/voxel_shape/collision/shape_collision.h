@@ -1,12 +1,12 @@
-// Keeps a shape's particles out of the scene's solids, in three steps: the whole bounding box, then voxels, which are
-// switched off while they touch a solid, then the way of each particle that is near one against the solid's triangles.
+// Keeps a shape's particles out of the scene's solids, in three steps: the shape's bounding box; then its voxels, which
+// are switched off while they touch a solid; then the path of each particle near a solid against the solid's triangles.
 //
-// A particle that meets a triangle stops there, a millimetre before it; its velocity keeps the share `restitution` of
-// what led into the surface, turned round, and loses the share `friction` of what led along it. Up to the share
-// `scatter` of what led into it leads along it afterwards, in a direction of the particle's own: a shape bursts.
+// A particle that hits a triangle stops one millimetre before it. The normal component of its velocity is reversed and
+// scaled by `restitution`; the tangential component is scaled by 1 − `friction`. In addition it gets up to `scatter`
+// times the normal speed in a random tangential direction of its own, so that a shape bursts.
 //
 // Units: m, s. Frame: world. Owns: the solids' tree and grids. Threads: one caller at a time; uses the current oneTBB
-// arena, and the result is the same at any number of threads.
+// arena; the result does not depend on the number of threads.
 // Source: JuckelBeckhaus2007, 5.2. Departs: the paper gives no response.
 #pragma once
 
@@ -25,20 +25,20 @@ namespace dustbench::voxel_shape {
 struct Impact {
     float restitution = 0.3f;
     float friction = 0.1f;
-    float scatter = 0;  ///< restitution² + scatter² ≤ 1, or particles would gain energy
+    float scatter = 0;  ///< restitution² + scatter² ≤ 1, otherwise particles would gain energy
 };
 
 class ShapeCollision {
  public:
-    /// `voxelMetres`: the largest edge in the world that the shape's voxels will have.
+    /// `voxelMetres`: the largest edge that the shape's voxels will have in the world.
     ShapeCollision(const scene::Scene& scene, float voxelMetres, const Impact& impact);
 
-    /// The first two steps: voxels that touch a solid are switched off, the others on.
+    /// The first two steps: switches off the voxels that touch a solid, and the others on.
     void switchVoxels(VoxelGrid& grid, const Pose& pose);
-    /// The third: particles have just moved by `stepSeconds` of their velocity. How many have met something.
+    /// The third step, right after the particles moved by `stepSeconds` of their velocity. Returns the number of hits.
     std::size_t stopParticles(ShapeParticles& particles, float stepSeconds) const;
 
-    /// Voxels that are switched off now.
+    /// Returns the number of voxels that are switched off now.
     [[nodiscard]] std::size_t switchedOff() const { return off_; }
     [[nodiscard]] MemoryReport memory() const;
 
@@ -50,7 +50,7 @@ class ShapeCollision {
                    glm::all(glm::lessThanEqual(other.minimum, maximum));
         }
     };
-    /// Of one part of the scene's solids.
+    /// One part of the scene's solids.
     struct Place {
         Nearness nearness;
         glm::mat3 toCells;  ///< world → cells: toCells·p + offset

@@ -1,11 +1,11 @@
-// Births: every active voxel below its maximum density makes up for what it lacks, at random places in it, with its own
-// looks and the shape's motion as momentum.
+// Births: every active voxel below its maximum density emits the missing particles at random positions inside it. They
+// have the voxel's look and the shape's velocity.
 //
-// Neither births nor those that wander in from another voxel (particle_kernel.h, `admit`) lift a voxel above its
-// maximum; the latter do where `Motion::fullVoxelsRefuse` is false.
+// Neither births nor arrivals from other voxels (particle_kernel.h, `admit`) raise a voxel above its maximum density,
+// except for arrivals if `Motion::fullVoxelsRefuse` is false.
 //
-// Owns: its lists, on a ledger. Threads: uses the current oneTBB arena; the births are the same at any number of
-// threads: their serials follow the voxels' order, and their random numbers their serials.
+// Owns: its lists, on a ledger. Threads: uses the current oneTBB arena; the births do not depend on the number of
+// threads: serials follow the order of the voxels, and random numbers are derived from the serials.
 // Source: JuckelBeckhaus2007, 4.3 and 5.
 #pragma once
 
@@ -20,7 +20,7 @@ class Emission {
  public:
     Emission(MemoryLedger& ledger, std::uint64_t seed);
 
-    /// Appends the newborn of one step and counts them in their voxels.
+    /// Appends the particles born in one step and adds them to the densities of their voxels.
     void emit(ShapeParticles& particles, VoxelGrid& grid, const Pose& pose, const Motion& motion, float stepSeconds);
 
  private:
@@ -30,7 +30,7 @@ class Emission {
     [[nodiscard]] std::size_t countBirths(const VoxelGrid& grid, float share);
 
     LedgerVector<std::uint32_t> births_;  ///< of each active voxel in this step
-    LedgerVector<std::size_t> starts_;    ///< of each block of active voxels: the first of its newborn
+    LedgerVector<std::size_t> starts_;    ///< per block of active voxels: index of its first birth
 };
 
 }  // namespace dustbench::voxel_shape

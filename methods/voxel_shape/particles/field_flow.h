@@ -1,8 +1,8 @@
-// A shape in a flow that was computed before: its particles are drawn along by a field of velocities from files.
+// Drags a shape's particles along with a precomputed velocity field read from files.
 //
-// v ← v + s·(u(x, t) − v), u trilinear in space and linear in time; beyond the field's grid particles are left alone.
+// v ← v + s·(u(x, t) − v), u trilinear in space and linear in time; particles outside the field's grid are unchanged.
 // Source: JuckelBeckhaus2007, 7 (`fluid dynamics were not added yet`). Units: m/s. Frame: world. Threads: one caller at
-// a time; uses the current oneTBB arena, and the result is the same at any number of threads.
+// a time; uses the current oneTBB arena; the result does not depend on the number of threads.
 #pragma once
 
 #include "methods/kit/particles/particle_store.h"
@@ -10,7 +10,7 @@
 
 namespace dustbench::voxel_shape {
 
-/// `share` s: of the difference of velocities that is taken away; `timeSeconds`: of the series.
+/// Applies the equation above to all particles. `share`: s; `timeSeconds`: time in the series.
 void drawAlong(particles::ParticleStore& moved, const volumes::VectorSeries& flow, double timeSeconds, float share);
 
 }  // namespace dustbench::voxel_shape

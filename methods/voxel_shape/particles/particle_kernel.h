@@ -1,7 +1,7 @@
-// One step of a run of particles: look up the voxel, take its force, move, come nearer to how it says they look.
+// One step of a run of particles: look up the voxel, apply its force, move, approach its look.
 //
-// Units: m, s. Frame: world. Threads: pure but for the voxels' densities, which are counted down atomically: several
-// threads may work on disjoint runs of particles, and the sums do not depend on how many there are.
+// Units: m, s. Frame: world. Threads: pure except for the voxels' densities, which are decremented atomically. Several
+// threads may update disjoint runs of particles; the sums do not depend on the number of threads.
 // Source: JuckelBeckhaus2007, 4.2, 4.3 and 5.1.
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace dustbench::voxel_shape {
 
-/// All that is the same for every particle of a step. `pose` is that of the step's beginning, when the particles are
-/// where the step finds them: look-ups, forces' directions and the shape's own velocity are all of that moment.
+/// Constants of a step. `pose` is the pose at the beginning of the step, at which the particles are then: look-ups,
+/// directions of forces and the shape's own velocity all refer to that time.
 struct KernelStep {
     KernelStep(const VoxelGrid& grid, const Pose& pose, const Motion& motion, float stepSeconds);
 
@@ -27,25 +27,26 @@ struct KernelStep {
     float voxelMetres;  ///< edge of a voxel in the world
     Pose pose;
     float seconds;
-    float response;  ///< share of the way to a rotational force's velocity
-    float airKeeps;  ///< share of the velocity relative to the air that is left
+    float response;  ///< share of the difference to a rotational force's velocity that is removed
+    float airKeeps;  ///< share of the velocity relative to the air that remains
     glm::vec3 wind;
-    glm::vec3 gravityStep;  ///< velocity that gravity adds
+    glm::vec3 gravityStep;  ///< change of velocity by gravity
 };
 
-/// Works on particles first .. first + count. `dead[i]` becomes 1 where one dies, else 0;
-/// `arriving[i]` where one has come to a voxel that may let it in (`admit`), else 0: until then it is outside of it.
+/// Updates particles first .. first + count. Sets `dead[i]` to 1 if the particle dies, otherwise to 0. Sets
+/// `arriving[i]` to 1 if the particle has reached a voxel that may admit it, otherwise to 0; it stays outside that
+/// voxel until `admit`.
 void updateParticles(ShapeParticles& particles, std::size_t first, std::size_t count, VoxelGrid& grid,
                      const KernelStep& step, std::uint8_t* dead, std::uint8_t* arriving);
 
-/// Once all particles have been updated: sets to 0 what is 1 in `arriving` for particles first .. first + count where
-/// the voxel is full, as most are. It will stay so: nobody leaves any more in this step.
+/// Call after all particles are updated. Clears `arriving` for particles first .. first + count whose voxel is full, as
+/// most voxels are. The result is final: no particle leaves a voxel later in the same step.
 void dropWhereFull(const ShapeParticles& particles, std::size_t first, std::size_t count, std::span<const Voxel> voxels,
                    std::uint8_t* arriving);
 
-/// Lets those into the voxels where they stand that find room there, the first come in `arrivals` first. The others
-/// stay outside, fade by that voxel's looks, and ask again in the next step. `fullRefuse` false: all find room.
-/// `targets`: working memory, as long as `arrivals`.
+/// Admits each arriving particle to the voxel at its position if that has room, in the order of `arrivals`. The others
+/// stay outside, fade by that voxel's fading look, and are considered again in the next step. `fullRefuse` false: all
+/// are admitted. `targets`: scratch memory as long as `arrivals`.
 void admit(ShapeParticles& particles, std::span<const std::uint32_t> arrivals, std::span<std::uint32_t> targets,
            std::span<Voxel> voxels, bool fullRefuse);
 

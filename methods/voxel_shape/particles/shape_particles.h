@@ -1,7 +1,8 @@
-// The particles of a shape as a structure of arrays: those of particles/ParticleStore, and what voxels ask for besides.
+// The particles of a shape as a structure of arrays: ParticleStore plus the columns that voxels need.
 //
-// Memory: 76 bytes a particle, 88 with places of birth. Units: m, m/s, s; `radius` is a puff's. Frame: world. Colours:
-// linear RGB, as seen. Owns: its columns, on a ledger. Threads: const access from any; writers on disjoint ranges.
+// Memory: 76 bytes per particle, 88 with places of birth. Units: m, m/s, s; `radius` is that of a puff. Frame: world.
+// Colours: linear RGB, as displayed. Owns: its columns, on a ledger. Threads: any thread may read; writers need
+// disjoint ranges.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,8 +12,8 @@
 namespace dustbench::voxel_shape {
 
 struct ShapeParticles {
-    /// Set in `place` while a particle is in no active voxel, or in one that was full when it came; the rest is then
-    /// the last one that it was in or met.
+    /// Flag in `place`: the particle is in no active voxel, or waits at a full one. The other bits then name the last
+    /// voxel that it was in or met.
     static constexpr std::uint32_t outside = 0x80000000u;
 
     explicit ShapeParticles(MemoryLedger& ledger);
@@ -21,15 +22,15 @@ struct ShapeParticles {
     void resize(std::size_t count);
     void move(std::size_t from, std::size_t to);
     [[nodiscard]] std::uint64_t hash() const;
-    /// Before any particle is born.
+    /// Call before any particle is born.
     void keepBirthplaces() { keepsBirthplaces_ = true; }
     [[nodiscard]] bool keepsBirthplaces() const { return keepsBirthplaces_; }
 
-    particles::ParticleStore store;       ///< `age` counts from when a particle left the shape, and is 0 in it
+    particles::ParticleStore store;       ///< `age` is 0 inside the shape and counts from leaving it
     LedgerVector<std::uint32_t> place;    ///< index of its voxel
-    LedgerVector<float> settlingSeconds;  ///< left until it looks as its voxel says
-    LedgerVector<float> picture;          ///< of an animated texture, as many as have been shown
-    LedgerVector<float> pictureSpeed;     ///< pictures a second
+    LedgerVector<float> settlingSeconds;  ///< time left until it has its voxel's look
+    LedgerVector<float> picture;          ///< of an animated texture: pictures shown so far
+    LedgerVector<float> pictureSpeed;     ///< pictures per second
     LedgerVector<glm::vec3> birthplace;   ///< in the shape's own frame; empty unless kept
 
  private:

@@ -1,7 +1,7 @@
-// A voxel shape in motion: its grid, its particles, and a step of both.
+// A voxel shape in motion: its grid, its particles, and their update.
 //
 // Units: m, s. Frame: world. Owns: voxels and particles, on a ledger. Threads: one caller at a time; uses the current
-// oneTBB arena, and the state is the same at any number of threads.
+// oneTBB arena; the state does not depend on the number of threads.
 // Source: JuckelBeckhaus2007, 4.3 (the update cycle).
 #pragma once
 
@@ -11,11 +11,11 @@
 
 namespace dustbench::voxel_shape {
 
-/// Of a shape's particles.
+/// Numbers of a shape's particles.
 struct ShapeCount {
-    std::size_t inside = 0;  ///< whom voxels hold
-    std::size_t fading = 0;  ///< who is outside of them, or in a full one
-    std::size_t room = 0;    ///< whom the voxels that are on would hold
+    std::size_t inside = 0;  ///< held by voxels
+    std::size_t fading = 0;  ///< outside all voxels, or waiting at a full one
+    std::size_t room = 0;    ///< capacity of the voxels that are on
 };
 
 class ShapeSystem {
@@ -24,35 +24,36 @@ class ShapeSystem {
 
     ShapeSystem(MemoryLedger& ledger, VoxelGrid grid, std::uint64_t seed);
 
-    /// One step: `live`, then `replace`. Between the two, particles may be moved out of solids, and voxels switched to
-    /// what they are at `pose`.
+    /// One step: `live`, then `replace`. Between the two, the caller may move particles out of solids and switch voxels
+    /// on or off for `pose`.
     void step(const Pose& pose, const Motion& motion, float stepSeconds);
-    /// Every particle looks up its voxel, moves, changes its looks, and enters the voxel if it is another one and has
-    /// room; who has faded is noted. Particles and lattice are looked at where the last `replace` left both.
+    /// Updates every particle: looks up its voxel, moves it, changes its look, and lets it enter a new voxel that has
+    /// room. Notes the particles that die. Particles and lattice are those that the last `replace` left.
     void live(const Motion& motion, float stepSeconds);
-    /// Buries whom `live` has noted, and gives birth. `pose`: of the moment to which `live` has moved the particles.
+    /// Removes the dead that `live` noted, then emits new particles. `pose`: the pose at the time to which `live` moved
+    /// them.
     void replace(const Pose& pose, const Motion& motion, float stepSeconds);
 
     [[nodiscard]] const ShapeParticles& particles() const { return particles_; }
     [[nodiscard]] ShapeParticles& particles() { return particles_; }
     [[nodiscard]] const VoxelGrid& grid() const { return grid_; }
     [[nodiscard]] VoxelGrid& grid() { return grid_; }
-    /// Of the grid, at the moment at which the particles are where they are.
+    /// The pose of the grid at the time of the particles' positions.
     [[nodiscard]] const Pose& pose() const { return pose_; }
     [[nodiscard]] ShapeCount count() const;
-    /// Of particles and voxels.
+    /// Hash of particles and voxels.
     [[nodiscard]] std::uint64_t stateHash() const;
 
  private:
     void bury(std::span<const std::uint32_t> holes);
 
     VoxelGrid grid_;
-    Pose pose_;  ///< of the grid at the particles' moment
+    Pose pose_;  ///< of the grid, at the particles' time
     ShapeParticles particles_;
     particles::NotedParticles deaths_;
-    LedgerVector<std::uint8_t> arriving_;  ///< 1: stands in a voxel that may let it in
-    particles::NotedParticles arrivals_;   ///< for which there was room when all had moved
-    LedgerVector<std::uint32_t> targets_;  ///< which, for each of them
+    LedgerVector<std::uint8_t> arriving_;  ///< 1: at a voxel that may admit it
+    particles::NotedParticles arrivals_;   ///< the particles whose voxel had room after all had moved
+    LedgerVector<std::uint32_t> targets_;  ///< the voxel of each of them
     Emission emission_;
 };
 

@@ -1,4 +1,4 @@
-// Where the voxels of a shape lie: cubes of one edge in a box, and which of them a point is in.
+// The lattice of a shape's voxels: cubes of equal edge in a box, and the cell that contains a point.
 //
 // Units: metres. Frame: the shape's own. Threads: const members are safe from any.
 #pragma once
@@ -16,13 +16,13 @@ inline constexpr int maximumVoxelsASide = 256;
 struct Lattice {
     glm::ivec3 counts{1};  ///< voxels along x, y, z
     glm::vec3 origin{0};   ///< minimum corner
-    float edgeMetres = 1;  ///< of a voxel
+    float edgeMetres = 1;  ///< edge of a voxel
 
     [[nodiscard]] std::size_t size() const {
         return static_cast<std::size_t>(counts.x) * static_cast<std::size_t>(counts.y) *
                static_cast<std::size_t>(counts.z);
     }
-    /// x runs fastest, z slowest.
+    /// x is the fastest index, z the slowest.
     [[nodiscard]] std::uint32_t index(const glm::ivec3& cell) const {
         return static_cast<std::uint32_t>((cell.z * counts.y + cell.y) * counts.x + cell.x);
     }
@@ -36,17 +36,17 @@ struct Lattice {
     [[nodiscard]] glm::vec3 centre(const glm::ivec3& cell) const {
         return origin + edgeMetres * (glm::vec3(cell) + 0.5f);
     }
-    /// In voxels from the minimum corner.
+    /// Converts to voxels from the minimum corner.
     [[nodiscard]] glm::vec3 toVoxels(const glm::vec3& point) const { return (point - origin) / edgeMetres; }
     [[nodiscard]] glm::vec3 maximumCorner() const { return origin + edgeMetres * glm::vec3(counts); }
 };
 
-/// Throws InputError, naming `what`, where a mesh has no triangles, an index without a vertex, or a corner that is not
+/// Throws InputError, naming `what`, if the mesh has no triangles, an index without a vertex, or a vertex that is not
 /// finite.
 void requireSoundMesh(const scene::Mesh& mesh, const char* what);
 
-/// The lattice that holds a mesh with `resolution` voxels along its longest side, and as many as it needs along the
-/// others. Throws InputError for a mesh that is not sound, has no extent, or a resolution outside 1..256.
+/// Returns the lattice that holds a mesh with `resolution` voxels along its longest side and as many as needed along
+/// the others. Throws InputError if the mesh is not sound or has no extent, or the resolution is outside 1..256.
 [[nodiscard]] Lattice latticeAround(const scene::Mesh& mesh, int resolution);
 
 }  // namespace dustbench::voxel_shape

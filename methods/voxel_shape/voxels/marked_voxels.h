@@ -1,4 +1,4 @@
-// What a voxeliser finds: which voxels belong to the shape, and which colour each has.
+// The result of a voxeliser: the voxels that belong to the shape, and their colours.
 //
 // Colours: linear RGB. Owns: its arrays.
 #pragma once
@@ -22,7 +22,7 @@ struct MarkedVoxels {
 
     Lattice lattice;
     std::vector<std::uint8_t> marked;  ///< 1: part of the shape
-    std::vector<glm::vec3> colours;    ///< of those that are
+    std::vector<glm::vec3> colours;    ///< of the marked voxels
 };
 
 }  // namespace dustbench::voxel_shape

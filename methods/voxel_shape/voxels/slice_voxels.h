@@ -1,9 +1,9 @@
-// The paper's voxeliser on the CPU: a voxel is marked where the line along z through its middle meets the mesh in it.
+// The paper's voxeliser on the CPU: marks a voxel if the line along z through its centre meets the mesh inside it.
 //
-// This is what SlicePass draws, layer by layer, and its check. Triangles seen edge-on are missed, and parts thinner
-// than a voxel may be: the paper's own error.
+// The reference for SlicePass, which draws the same layer by layer. Misses triangles that are edge-on, and possibly
+// parts thinner than a voxel: this error is the paper's own.
 //
-// Frame: the mesh's own. Threads: uses the current oneTBB arena; the result is the same at any number of threads.
+// Frame: the mesh's own. Threads: uses the current oneTBB arena; the result does not depend on the number of threads.
 // Source: JuckelBeckhaus2007, 4.2.
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace dustbench::voxel_shape {
 
-/// A voxel's colour is that of the triangle point in it with the maximum z, as a depth test from there leaves it.
-/// Throws InputError for a mesh that is not sound.
+/// Voxelises a mesh. A voxel has the colour of the mesh point in it with the maximum z, which a depth test from above
+/// keeps. Throws InputError if the mesh is not sound.
 [[nodiscard]] MarkedVoxels sliceVoxels(const scene::Mesh& mesh, const Lattice& lattice);
 
 }  // namespace dustbench::voxel_shape

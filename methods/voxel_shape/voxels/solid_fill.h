@@ -1,8 +1,8 @@
-// Fills a surface of voxels: whatever cannot be reached from outside without crossing it belongs to the shape.
+// Fills a surface of voxels: every cell that is unreachable from outside without crossing it belongs to the shape.
 //
-// An open mesh has no inside of its own. Where its holes are narrower than a voxel its surface voxels still enclose
-// one, and it is filled; where nothing is enclosed that is an error and no quiet surface, because who asks for a solid
-// would else measure and see something that was not asked for.
+// An open mesh has no inside. If its holes are narrower than a voxel, the surface voxels still enclose one, which is
+// filled. If nothing is enclosed, that is an error rather than a silent fallback to the surface: a user who asks for a
+// solid must not measure something else.
 //
 // Threads: pure.
 #pragma once
@@ -11,14 +11,14 @@
 
 namespace dustbench::voxel_shape {
 
-/// Marks what `surface` encloses, and leaves its colours alone; false where that is nothing.
+/// Marks the cells that `surface` encloses and does not change colours. Returns false if there are none.
 bool markInside(MarkedVoxels& surface);
 
-/// Marks what `surface` (every touched voxel marked) encloses; false where that is nothing. Inner voxels take the
-/// colour of the surface voxel from which the minimum steps lead to them.
+/// Marks the cells that `surface` (every touched voxel marked) encloses. Returns false if there are none. Inner voxels
+/// take the colour of the surface voxel that is the fewest steps away.
 bool fillInside(MarkedVoxels& surface);
 
-/// The same for the surface of this mesh. Throws InputError where the mesh is open and encloses nothing.
+/// Calls fillInside for the surface of this mesh. Throws InputError if the mesh is open and encloses nothing.
 void fillSolid(MarkedVoxels& surface, const scene::Mesh& mesh);
 
 }  // namespace dustbench::voxel_shape

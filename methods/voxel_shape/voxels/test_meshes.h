@@ -1,4 +1,4 @@
-// For tests and benchmarks: meshes of known shape.
+// Meshes of known shape, for tests and benchmarks.
 //
 // Units: metres. Colours: linear RGB.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace dustbench::voxel_shape {
 
-/// A sphere about the origin: `rows` rings of 2·rows quads. Its colour runs from red to blue along x.
+/// Returns a sphere around the origin: `rows` rings of 2·rows quads. Its colour changes from red to blue along x.
 [[nodiscard]] inline scene::Mesh sphereMesh(float radius, int rows) {
     scene::Mesh mesh;
     const int columns = 2 * rows;
@@ -18,7 +18,7 @@ namespace dustbench::voxel_shape {
         for (int i = 0; i < columns; ++i) {
             const float polar = glm::pi<float>() * static_cast<float>(j) / static_cast<float>(rows);
             const float around = glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(columns);
-            // The poles are given exactly, so that the corners there fall together.
+            // The poles are exact, so that the corners there coincide.
             const float ring = j == 0 || j == rows ? 0.0f : std::sin(polar);
             mesh.positions.push_back(radius *
                                      glm::vec3(ring * std::cos(around), std::cos(polar), ring * std::sin(around)));
@@ -37,7 +37,7 @@ namespace dustbench::voxel_shape {
     return mesh;
 }
 
-/// A flat rectangle from `corner` along two sides.
+/// Returns a flat rectangle with one corner at `corner` and two sides.
 [[nodiscard]] inline scene::Mesh rectangleMesh(const glm::vec3& corner, const glm::vec3& side, const glm::vec3& other) {
     scene::Mesh mesh;
     mesh.positions = {corner, corner + side, corner + side + other, corner + other};

@@ -1,4 +1,4 @@
-// The triangles of a mesh in voxels, sorted into the layers of a lattice that they reach: a layer is then one thread's.
+// The triangles of a mesh, sorted by the lattice layers that they reach, so that each layer can have its own thread.
 //
 // Units: voxels from the lattice's minimum corner. Owns: its lists.
 #pragma once
@@ -23,11 +23,11 @@ struct Triangle {
 
 class TriangleBins {
  public:
-    /// Layers along `axis` (0, 1, 2). `margin` widens each triangle. A mesh without colours is white.
+    /// Bins by layers along `axis` (0, 1, 2). `margin` widens each triangle. A mesh without colours is white.
     TriangleBins(const scene::Mesh& mesh, const Lattice& lattice, int axis, float margin);
 
     [[nodiscard]] const Triangle& triangle(std::uint32_t number) const { return triangles_[number]; }
-    /// Numbers of the triangles that reach a layer, ascending.
+    /// Indices of the triangles that reach a layer, ascending.
     [[nodiscard]] std::span<const std::uint32_t> inLayer(std::size_t layer) const {
         return {numbers_.data() + starts_[layer], starts_[layer + 1] - starts_[layer]};
     }

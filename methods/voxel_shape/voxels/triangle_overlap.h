@@ -1,5 +1,5 @@
-// Whether a triangle and a unit cube overlap, by separating axes: the triangle's plane and its edges seen along x, y
-// and z.
+// Overlap test of a triangle and a unit cube by separating axes: the triangle's plane, and its edges projected along x,
+// y and z.
 //
 // Units: voxels; the cube is [cell, cell + 1] on each axis, widened by `margin`. Threads: pure.
 // Source: Schwarz2010, 3.1 (plane and projected edge functions against a box's critical points).
@@ -14,7 +14,7 @@
 
 namespace dustbench::voxel_shape {
 
-/// What the test needs of a triangle, made once for many cubes. The caller sees to the bounding boxes.
+/// The terms of the test that depend only on the triangle, for many cubes. The caller checks the bounding boxes.
 class TriangleOverlap {
  public:
     TriangleOverlap(const Triangle& triangle, float margin) {
@@ -27,7 +27,7 @@ class TriangleOverlap {
         planeOffset_ = glm::dot(normal_, v[0]);
         for (std::size_t along = 0; along < 3; ++along) {
             const int a = static_cast<int>(along + 1) % 3, b = static_cast<int>(along + 2) % 3;
-            // Edge normals look into the triangle, whichever way it is seen.
+            // The edge normals point into the triangle for either winding.
             const float side = normal_[static_cast<int>(along)] >= 0 ? 1.0f : -1.0f;
             for (std::size_t e = 0; e < 3; ++e) {
                 const glm::vec2 inwards = side * glm::vec2(-edges[e][b], edges[e][a]);
@@ -56,11 +56,11 @@ class TriangleOverlap {
     };
     glm::vec3 normal_;
     float planeReach_, planeOffset_;
-    std::array<std::array<Line, 3>, 3> lines_;  ///< seen along x, y, z
+    std::array<std::array<Line, 3>, 3> lines_;  ///< projected along x, y, z
 };
 
-/// Weights of the corners for the point of a triangle that is nearest to `point`: the perpendicular foot, its weights
-/// clamped to the triangle (exact inside it, near enough for colours beyond its rim).
+/// Returns the barycentric weights of the point of a triangle nearest to `point`: those of the foot of the
+/// perpendicular, clamped to the triangle. Exact inside the triangle; outside, accurate enough for colours.
 [[nodiscard]] inline glm::vec3 nearestWeights(const Triangle& triangle, const glm::vec3& point) {
     const auto& v = triangle.corners;
     const glm::vec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);

@@ -1,8 +1,8 @@
-// One voxel of a shape: how the particles in it look and move. 64 bytes, one line of the cache, because whoever looks
-// a voxel up wants nearly all of it.
+// One voxel of a shape: the look and the motion of the particles in it. 64 bytes, one cache line, since a look-up needs
+// nearly all of it.
 //
 // Units: m, s, linear RGB. Frame: the shape's own.
-// Source: JuckelBeckhaus2007, 4.2 (the attributes). Departs: opacity as the colours' fourth channel; see Force.
+// Source: JuckelBeckhaus2007, 4.2 (the attributes). Departs: opacity is the fourth colour channel; see Force.
 #pragma once
 
 #include <algorithm>
@@ -12,18 +12,18 @@
 
 namespace dustbench::voxel_shape {
 
-/// The paper names four kinds and gives no formulas. With ω the force's vector, r the particle's place from the voxel's
-/// centre, c = ω × (ω × r) and k the second number:
-///     linear   acceleration ω, the same in the whole voxel (m/s²)
-///     orbit    acceleration −|ω|²·r: the centre attracts; ω is the axis of the orbits in which particles are born
-///     gravity  the same for particles that are born at rest: they fall through the centre and back
-///     spiral   velocity ω × r − k/|ω|·c: round the axis, r⊥ growing by the factor e^k a radian
-///     helix    velocity ω × r + k·ω: round the axis and on along it, k metres a radian
-/// A spiral or helix turns with acceleration c and draws the particle's velocity, relative to the shape's, to its own.
-/// Each is applied over a step as the straight push it is at the step's beginning.
+/// The kinds of force; the paper names four and gives no formulas. With ω the force's vector, r the particle's position
+/// relative to the voxel's centre, c = ω × (ω × r) and k the second number:
+///     linear   acceleration ω, uniform in the voxel (m/s²)
+///     orbit    acceleration −|ω|²·r: attraction to the centre; ω is the axis of the orbits of newborn particles
+///     gravity  as orbit, for particles born at rest: they fall through the centre and back
+///     spiral   velocity ω × r − k/|ω|·c: around the axis, r⊥ growing by the factor e^k per radian
+///     helix    velocity ω × r + k·ω: around the axis and along it, k metres per radian
+/// Spiral and helix turn the velocity with acceleration c and pull it, relative to the shape's, to their own. Over a
+/// step each acts as a constant push, evaluated at the beginning of the step.
 enum class Force : std::uint32_t { linear, orbit, spiral, helix, gravity };
 
-/// Four numbers 0..1 in eight bytes, to the nearest of 65536 steps.
+/// Four numbers 0..1 in eight bytes, each rounded to the nearest of 65536 levels.
 struct PackedColour {
     std::uint32_t redGreen = 0, blueOpacity = 0;
 
@@ -43,22 +43,22 @@ struct PackedColour {
 
 struct alignas(64) Voxel {
     static constexpr std::uint32_t active = 1;       ///< part of the shape
-    static constexpr std::uint32_t switchedOff = 2;  ///< for now, within something solid
+    static constexpr std::uint32_t switchedOff = 2;  ///< temporarily: inside a solid
     static constexpr std::uint32_t forceShift = 8;
 
     glm::vec3 force{0};     ///< ω
-    float forceNumber = 0;  ///< k; of a spiral k/|ω|
+    float forceNumber = 0;  ///< k; for a spiral k/|ω|
     PackedColour colour, fadingColour;
     float sizeMetres = 0.05f, fadingSizeMetres = 0.05f;  ///< radius of a puff
-    float lifetimeSeconds = 1;                           ///< once outside
-    float interpolationSeconds = 0;                      ///< 0: at once
+    float lifetimeSeconds = 1;                           ///< outside the shape
+    float interpolationSeconds = 0;                      ///< 0: immediate
     float picturesPerSecond = 0;                         ///< of an animated texture
     std::uint32_t maximumDensity = 0;                    ///< particles
-    std::uint32_t density = 0;                           ///< particles that were in it when they last looked
+    std::uint32_t density = 0;                           ///< particles that were in it at their last look-up
     std::uint32_t flags = 0;
 
     [[nodiscard]] bool isActive() const { return (flags & active) != 0; }
-    /// Emits, and keeps its particles alive.
+    /// Whether it emits and keeps its particles alive.
     [[nodiscard]] bool isOn() const { return (flags & (active | switchedOff)) == active; }
     [[nodiscard]] Force forceKind() const { return static_cast<Force>(flags >> forceShift); }
 

@@ -1,8 +1,6 @@
-// Attributes to set on voxels: all at once where a shape's are first given, or some by an edit of a box, a sphere or a
-// mesh.
+// Attributes to set on voxels: on all voxels of a shape at first, or by an edit in a box, a sphere or a mesh.
 //
-// Units: metres, seconds, linear RGB; sizes in edges of a voxel, so that they fit any resolution. Frame: the shape's
-// own.
+// Units: metres, seconds, linear RGB; sizes in voxel edges, so that they fit any resolution. Frame: the shape's own.
 #pragma once
 
 #include <memory>
@@ -14,7 +12,7 @@
 
 namespace dustbench::voxel_shape {
 
-/// What is empty is left as it is.
+/// Empty attributes stay unchanged.
 struct VoxelChange {
     struct ForceEffect {
         Force kind;
@@ -30,18 +28,18 @@ struct VoxelChange {
     std::optional<ForceEffect> force;
 
     void applyTo(Voxel& voxel, float voxelMetres) const;
-    /// Says nothing at all.
+    /// Whether it sets nothing.
     [[nodiscard]] bool isEmpty() const;
-    /// Gives a voxel that is no part of the shape anything besides: `active = false` and more.
+    /// Whether it sets attributes of a voxel that it removes: `active = false` together with others.
     [[nodiscard]] bool contradictsItself() const;
 };
 
-/// A change of the active voxels (of all, where it makes them active) whose middle lies in a box, a sphere or a closed
+/// A change of the active voxels (of all voxels if it activates them) whose centres lie in a box, a sphere or a closed
 /// mesh.
 struct VoxelEdit {
     enum class Region { box, sphere, mesh };
 
-    std::string where;  ///< for messages: `bunny.toml:31: `
+    std::string where;  ///< prefix of messages: `bunny.toml:31: `
     Region region = Region::box;
     glm::vec3 minimum{0}, maximum{0};  ///< of a box
     glm::vec3 centre{0};               ///< of a sphere
@@ -50,8 +48,8 @@ struct VoxelEdit {
     VoxelChange change;
 
     [[nodiscard]] bool contains(const glm::vec3& point) const;
-    /// A voxel that it puts into the shape starts as a copy of the nearest one there. Throws InputError where it meets
-    /// no voxel. The grid's active voxels are listed anew.
+    /// Applies the change. A voxel that it activates starts as a copy of the nearest active one. Throws InputError if
+    /// it meets no voxel. Updates the grid's list of active voxels.
     void applyTo(VoxelGrid& grid) const;
 };
 

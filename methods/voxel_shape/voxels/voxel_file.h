@@ -1,7 +1,7 @@
-// A shape's voxels as a file of VTK's image data (.vti), for looking at and editing elsewhere, and back.
+// A shape's voxels as VTK image data (.vti), to view and edit in other programs and to read again.
 //
-// One cell a voxel, all attributes of voxel.h as cell data in their units; `dustbench_voxels` in the field data is the
-// version. Written beside and renamed, so never half there. Threads: one caller at a time.
+// One cell per voxel; all attributes of voxel.h as cell data in their units; the field data `dustbench_voxels` is the
+// version. Written to a temporary file and renamed, so never incomplete. Threads: one caller at a time.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@ namespace dustbench::voxel_shape {
 
 inline constexpr int voxelFileVersion = 1;
 
-/// Throws InputError where the file cannot be written.
+/// Throws InputError if the file cannot be written.
 void writeVoxels(const VoxelGrid& grid, const std::filesystem::path& file);
 
-/// Densities begin at 0: particles are not kept. Throws InputError with the file and what is wrong with it: not such a
-/// file, cut short, another version, an attribute missing or out of its range.
+/// Reads voxels; densities are 0, since particles are not saved. Throws InputError with the file and the fault: not
+/// such a file, truncated, another version, an attribute missing or out of range.
 [[nodiscard]] VoxelGrid readVoxels(MemoryLedger& ledger, const std::filesystem::path& file);
 
 }  // namespace dustbench::voxel_shape

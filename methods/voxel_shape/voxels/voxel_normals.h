@@ -1,4 +1,4 @@
-// Which way a shape's surface looks at each voxel: where its matter becomes less.
+// The direction in which a shape's surface faces at each voxel: away from its matter.
 //
 // Frame: the shape's own. Threads: pure.
 #pragma once
@@ -10,8 +10,8 @@
 
 namespace dustbench::voxel_shape {
 
-/// Unit vectors, one for each of `grid.active()`: the negative gradient of matter (active voxels and what they enclose)
-/// over the voxels within two of it; (0, 0, 0) where matter is the same on all sides.
+/// Returns a unit vector for each of `grid.active()`: the negative gradient of the matter (active voxels and the cells
+/// they enclose) over the voxels up to two away; (0, 0, 0) if the matter is symmetric.
 [[nodiscard]] std::vector<glm::vec3> normalsOf(const VoxelGrid& grid);
 
 }  // namespace dustbench::voxel_shape
