@@ -14,7 +14,7 @@ constexpr const char* walls = "wall";
 constexpr double secondsPastTwoWalls = 3.5;
 constexpr int width = 64, height = 48;
 
-/// Counts the particles whose serials have not been there before, and those of them that lie in a solid.
+/// Counts the particles with new serials, and those of them that lie in a solid.
 class NewbornCount final : public VolumeVisitor {
  public:
     explicit NewbornCount(const scene::Scene& scene) : solids_(scene) {}
@@ -36,14 +36,14 @@ class NewbornCount final : public VolumeVisitor {
 
  private:
     SolidSpace solids_;
-    std::uint64_t nextSerial_ = 0;  ///< serials rise with birth
+    std::uint64_t nextSerial_ = 0;  ///< serials increase with every birth
     BirthReport report_;
 };
 
 }  // namespace
 
 BirthReport driveThroughWalls(ExperimentContext& context, bool solidsAreTold, double seconds) {
-    // The wheels' dust is not what is looked at: a little of it will do.
+    // The dust of the wheels is irrelevant here: a few particles suffice.
     const auto world = context.world(walls, {{"particles", "10"}, {"preroll", "0"}}, width, height);
     scene::Scene told = world->scene();
     if (!solidsAreTold) {
@@ -65,7 +65,7 @@ BirthReport driveThroughWalls(ExperimentContext& context, bool solidsAreTold, do
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "Particles that a shape gives birth to within the walls that it goes through.";
+    info.summary = "Counts the particles that a shape emits inside the walls that it passes through.";
     info.source = "JuckelBeckhaus2007";
     info.run = [](ExperimentContext& context) {
         std::vector<Finding> findings;

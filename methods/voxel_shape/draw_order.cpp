@@ -37,7 +37,7 @@ std::span<const std::uint32_t> DrawOrder::nearestSorted(std::size_t nearest, con
         const glm::vec3 away = glm::vec3(points.x[i], points.y[i], points.z[i]) - eye;
         depths_[i] = glm::dot(away, away);
     }
-    // The depth up to which points belong to the nearest; of equally distant ones the first are taken.
+    // The squared distance below which points belong to the nearest; points at exactly this distance do not.
     chosenDepths_.assign(depths_.begin(), depths_.end());
     const auto limit = chosenDepths_.begin() + static_cast<std::ptrdiff_t>(nearest);
     std::nth_element(chosenDepths_.begin(), limit, chosenDepths_.end());
@@ -60,7 +60,7 @@ std::span<const std::uint32_t> DrawOrder::sortedNowAndThen(std::uint32_t every, 
         order_.assign(sorted.begin(), sorted.end());
         return order_;
     }
-    // Who is gone leaves the order, who is new comes last; a place that was filled again keeps its turn.
+    // Removed points leave the order and new ones are appended; a slot that was reused keeps its position.
     const std::size_t before = order_.size();
     if (count < before) {
         std::erase_if(order_, [&](std::uint32_t i) { return i >= count; });

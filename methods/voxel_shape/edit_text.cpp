@@ -36,7 +36,7 @@ bool isOneOf(std::string_view word, const std::vector<std::string>& words) {
     return std::ranges::find(words, word) != words.end();
 }
 
-/// Whose words an edit takes besides a region's.
+/// Returns the words that an edit accepts besides those of a region.
 const std::vector<std::string>& ownWords(EditKind kind) {
     static const std::vector<std::string> none;
     if (kind == EditKind::carve) return none;
@@ -54,7 +54,7 @@ struct Word {
     std::string key, value;
 };
 
-/// Of `--paint 'sphere=…'`, for messages.
+/// Returns `--paint 'sphere=…'`, for messages.
 std::string named(std::string_view option, std::string_view words) {
     return fmt::format("{} '{}'", option, words);
 }
@@ -71,13 +71,14 @@ std::vector<Word> split(EditKind kind, std::string_view option, std::string_view
             throw InputError(fmt::format("{}: got '{}', expected key=value", named(option, words), word));
         if (!isOneOf(key, allowed)) throw unknownName(fmt::format("word of {}", option), key, allowed);
         for (const Word& other : list)
-            if (other.key == key) throw InputError(fmt::format("{}: '{}' stands twice", named(option, words), key));
+            if (other.key == key)
+                throw InputError(fmt::format("{}: got '{}' twice, allowed: once", named(option, words), key));
         list.push_back({key, word.substr(equals + 1)});
     }
     return list;
 }
 
-/// `0.8,0.1,0.1`.
+/// Parses numbers such as `0.8,0.1,0.1`. `count` 0: any number of them.
 std::vector<double> numbersOf(const std::string& where, const Word& word, std::size_t count) {
     std::vector<double> numbers;
     std::istringstream stream(word.value);
@@ -85,7 +86,7 @@ std::vector<double> numbersOf(const std::string& where, const Word& word, std::s
         if (const auto number = numberOf(part)) numbers.push_back(*number);
     const auto commas = static_cast<std::size_t>(std::ranges::count(word.value, ','));
     if (numbers.size() != commas + 1 || (count > 0 && numbers.size() != count))
-        throw InputError(fmt::format("{}: {}: got '{}', expected {} numbers with commas between them", where, word.key,
+        throw InputError(fmt::format("{}: {}: got '{}', expected {} numbers separated by commas", where, word.key,
                                      word.value, count > 0 ? std::to_string(count) : "one or three"));
     return numbers;
 }
@@ -111,7 +112,7 @@ std::string pathFrom(const fs::path& folder, const fs::path& file) {
     return fs::proximate(fs::absolute(file), fs::absolute(folder)).generic_string();
 }
 
-/// As keys of an edit's table.
+/// Returns a word of the region as keys of an edit's table.
 std::string regionLines(const std::string& where, const Word& word, const fs::path& folder) {
     if (word.key == "sphere") {
         const std::vector<double> n = numbersOf(where, word, 4);
@@ -149,7 +150,7 @@ std::string editAsToml(EditKind kind, std::string_view option, std::string_view 
 
 VoxelEdit readEditWords(EditKind kind, std::string_view option, std::string_view words) {
     const fs::path here = fs::current_path();
-    // Its lines are none of the user's: messages name the option alone.
+    // The user never sees the generated TOML, so messages name the option without line numbers.
     const std::string name = named(option, words), toml = editAsToml(kind, option, words, here);
     try {
         files::TomlReader table = files::TomlReader::parseText(toml, name);

@@ -1,4 +1,4 @@
-// Edits as words on the command line: they say what the tables of a shape file say, and `dustbench shape` saves them.
+// Edits as words on the command line: they equal the tables of a shape file, and `dustbench shape` saves them.
 #include "methods/voxel_shape/edit_text.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ VoxelGrid voxelsOf(MemoryLedger& ledger, const fs::path& file) {
     return buildShape(ledger, shape, {}, TestMoment::device(), 1).grid();
 }
 
-/// The same voxels but for densities and the names of files.
+/// Checks that the voxels are equal except for densities and file names.
 void expectSame(const VoxelGrid& a, const VoxelGrid& b) {
     ASSERT_EQ(a.lattice().counts, b.lattice().counts);
     EXPECT_EQ(a.active().size(), b.active().size());

@@ -37,7 +37,7 @@ void LivingShape::step(const Frame& frame) {
         const auto timing = frame.clock.measureDetail("collide");
         collision_->stopParticles(system_->particles(), seconds);
     }
-    // From here on particles and voxels are those of `pose`: nothing is born where the shape is in a solid by now.
+    // Switch voxels for the new pose before `replace`, so that nothing is born inside a solid.
     if (collision_) {
         const auto timing = frame.clock.measureDetail("switch voxels");
         collision_->switchVoxels(system_->grid(), pose);

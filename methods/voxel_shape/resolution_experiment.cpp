@@ -18,10 +18,10 @@ constexpr std::array shapes{"bunny", "car", "figure", "helicopter"};
 constexpr int coarsest = 10, finest = 120, between = 10;
 constexpr int width = 320, height = 240;
 constexpr int settlingSteps = 12;
-constexpr std::uint32_t particlesAVoxel = 6;  // as the figure has of 40,000 in 50 voxels a side
+constexpr std::uint32_t particlesAVoxel = 6;  // as in the preset `figure` with 40,000 particles at 50 voxels per side
 constexpr std::array sidesDegrees{20.0, 140.0, 260.0};
 
-/// At rest at the world's origin.
+/// Returns a preset at rest at the world's origin.
 Shape atRest(const std::string& name, int voxelsASide) {
     Shape shape = readShape(files::findData("shape", "shapes", name, ".toml"));
     shape.track.followsVehicle = false;
@@ -29,11 +29,11 @@ Shape atRest(const std::string& name, int voxelsASide) {
     shape.collides = false;
     shape.resolution = voxelsASide;
     shape.voxels.maximumDensity = particlesAVoxel;
-    shape.look.pixels = 0;  // as large as the particles are
+    shape.look.pixels = 0;  // the size of the particles
     return shape;
 }
 
-/// From a side, so far away that all of the mesh is in the picture.
+/// Returns a view from one side, far enough to show the whole mesh.
 scene::View viewOf(const scene::Mesh& mesh, double degrees) {
     glm::vec3 low(INFINITY), high(-INFINITY);
     for (const glm::vec3& position : mesh.positions) {
@@ -71,7 +71,7 @@ double overlapAt(const Shape& shape, const scene::Scene& scene, const Frame& fra
     return sum / static_cast<double>(sidesDegrees.size());
 }
 
-/// Mean with Student's 95 % interval; `resolved`: what the values are known to besides.
+/// Returns the mean with Student's 95 % interval, widened by `resolved`, the resolution of the values.
 Finding meanOf(const std::string& quantity, const std::vector<double>& values, double resolved) {
     const auto count = static_cast<double>(values.size());
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
@@ -113,7 +113,7 @@ Curve outlineOf(ExperimentContext& context, const std::string& shape, std::uint6
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How many voxels a side a shape needs to keep the outline of its mesh.";
+    info.summary = "Finds how many voxels per side a shape needs to keep the outline of its mesh.";
     info.source = "JuckelBeckhaus2007";
     info.run = [](ExperimentContext& context) {
         std::vector<Finding> findings;

@@ -14,7 +14,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// Body and wheels at rest, in the vehicle's frame.
+/// Returns body and wheels at rest, in the vehicle's frame.
 scene::Mesh vehicleMesh(const scene::VehicleModel& vehicle) {
     scene::Mesh mesh;
     mesh.append(*vehicle.body.mesh, glm::mat4(1));
@@ -22,14 +22,14 @@ scene::Mesh vehicleMesh(const scene::VehicleModel& vehicle) {
     for (const double x : {0.0, p.wheelbaseMetres})
         for (const double side : {-1.0, 1.0}) {
             glm::dmat4 place = glm::translate(glm::dmat4(1), {x, p.wheelRadiusMetres, side * p.trackMetres / 2});
-            // The outer face looks to +Z: on the left it is turned half round.
+            // A wheel's outer face points to +Z; left wheels are rotated by half a turn.
             if (side < 0) place = glm::rotate(place, glm::pi<double>(), {0, 1, 0});
             mesh.append(*vehicle.wheel.mesh, glm::mat4(place));
         }
     return mesh;
 }
 
-/// Turned and scaled, on y = 0, in the middle of x and z.
+/// Rotates and scales the mesh, and places it on y = 0, centred in x and z.
 void stand(scene::Mesh& mesh, const glm::vec3& turn, float longestSideMetres) {
     glm::mat4 rotation = glm::rotate(glm::mat4(1), turn.y, {0, 1, 0});
     rotation = glm::rotate(rotation, turn.z, {0, 0, 1});
@@ -48,7 +48,8 @@ void stand(scene::Mesh& mesh, const glm::vec3& turn, float longestSideMetres) {
     for (glm::vec3& position : mesh.positions) position = scale * (position - foot);
 }
 
-/// Puffs are not lit by the scene; what lies below is made darker once, which holds however the shape turns about y.
+/// Darkens surfaces by how far they face down. The scene does not light the puffs; this shading holds for any turn
+/// about y.
 void lightFromAbove(scene::Mesh& mesh, float share) {
     for (std::size_t i = 0; i < mesh.colours.size(); ++i) mesh.colours[i] *= 1 - share * (1 - mesh.normals[i].y) / 2;
 }
@@ -72,11 +73,11 @@ MarkedVoxels voxelise(const Shape& shape, const scene::Scene& scene, gpu::Device
     return marked;
 }
 
-/// What all voxels say, then which of them there are, then their share of the particles.
+/// Sets the attributes of all voxels, then applies the edits that add or remove voxels, then distributes the particles.
 void setVoxels(VoxelGrid& grid, const Shape& shape) {
     for (const std::uint32_t i : grid.active()) {
         Voxel& voxel = grid.voxels()[i];
-        voxel.fadingColour = voxel.colour;  // unless the file says otherwise
+        voxel.fadingColour = voxel.colour;  // default
         shape.voxels.applyTo(voxel, grid.lattice().edgeMetres);
     }
     for (const VoxelEdit& edit : shape.edits)
@@ -91,7 +92,7 @@ void setVoxels(VoxelGrid& grid, const Shape& shape) {
 scene::Mesh meshOf(const Shape& shape, const scene::Scene& scene) {
     if (shape.source == Source::vehicle) {
         if (!scene.vehicle)
-            throw InputError("shape '" + shape.name + "': is made of the vehicle, and scene '" + scene.id +
+            throw InputError("shape '" + shape.name + "': uses the vehicle's mesh, but scene '" + scene.id +
                              "' has none");
         scene::Mesh mesh = vehicleMesh(*scene.vehicle);
         lightFromAbove(mesh, shape.lightFromAbove);
@@ -106,7 +107,7 @@ scene::Mesh meshOf(const Shape& shape, const scene::Scene& scene) {
 ShapeSystem buildShape(MemoryLedger& ledger, const Shape& shape, const scene::Scene& scene, gpu::Device& device,
                        std::uint64_t seed) {
     if (shape.track.followsVehicle && !scene.vehicle)
-        throw InputError("shape '" + shape.name + "': follows the vehicle, and scene '" + scene.id + "' has none");
+        throw InputError("shape '" + shape.name + "': follows the vehicle, but scene '" + scene.id + "' has none");
     ShapeSystem system = shape.source == Source::voxels
                              ? ShapeSystem(ledger, readVoxels(ledger, shape.mesh), seed)
                              : ShapeSystem(ledger, voxelise(shape, scene, device), Voxel(), seed);

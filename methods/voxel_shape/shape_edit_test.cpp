@@ -13,7 +13,7 @@ namespace {
 /// A block of 8³ voxels of 0.25 m from (−1, 0, −1) to (1, 2, 1).
 const std::string block = "description = \"\"\nparticles = 512\n[grid]\ncells = [8, 8, 8]\nedge_metres = 0.25\n";
 
-/// A closed tetrahedron: what is within x, y, z ≥ 0 and x + y + z ≤ 1.
+/// A closed tetrahedron: x, y, z ≥ 0 and x + y + z ≤ 1.
 const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
 ShapeSystem built(MemoryLedger& ledger, const std::filesystem::path& file) {

@@ -14,7 +14,7 @@ namespace {
 
 using files::TomlReader;
 
-constexpr double far = 1e4;  ///< metres: the largest coordinate that a file may give
+constexpr double far = 1e4;  ///< metres: the largest coordinate allowed in a file
 
 constexpr Choices<Force> forces{{"linear", Force::linear},
                                 {"orbit", Force::orbit},
@@ -54,7 +54,8 @@ VoxelChange::ForceEffect readForce(TomlReader table) {
         effect.vector = vector(table, "acceleration", 1000, glm::dvec3(0));
     } else {
         const glm::vec3 axis = effect.kind == Force::gravity ? glm::vec3(0, 1, 0) : vector(table, "axis", 1, {0, 1, 0});
-        if (!(glm::length(axis) > 0)) throw InputError(table.where("axis") + "key 'axis': expected one of some length");
+        if (!(glm::length(axis) > 0))
+            throw InputError(table.where("axis") + "key 'axis': expected a vector of non-zero length");
         effect.vector = glm::normalize(axis) * number(table, "radians_per_second", -60, 60, 2);
     }
     if (effect.kind == Force::spiral) effect.number = number(table, "growth_per_radian", -1, 1, 0.02f);
@@ -84,12 +85,12 @@ VoxelChange readChange(TomlReader& table) {
     return change;
 }
 
-/// The space within a closed mesh, put somewhere in the shape's frame.
+/// Reads the interior of a closed mesh, placed in the shape's frame.
 std::shared_ptr<const SolidSpace> readRegion(TomlReader& table, const std::filesystem::path& folder) {
     const scene::Mesh mesh = meshes::readMesh(folder / table.text("mesh"), glm::vec3(0));
     if (meshes::openEdges(mesh) > 0)
         throw InputError(table.where("mesh") + "key 'mesh': the mesh has " + std::to_string(meshes::openEdges(mesh)) +
-                         " open edges, expected a closed one, which has an inside");
+                         " open edges, expected a closed mesh");
     const glm::vec3 place = vector(table, "position", far, glm::dvec3(0));
     const auto scale = static_cast<float>(table.number("scale", 1e-3, 1e3, 1));
     return std::make_shared<const SolidSpace>(mesh, glm::scale(glm::translate(glm::mat4(1), place), glm::vec3(scale)));
@@ -97,7 +98,7 @@ std::shared_ptr<const SolidSpace> readRegion(TomlReader& table, const std::files
 
 void readSource(TomlReader& file, const std::filesystem::path& folder, Shape& shape) {
     if (int{file.has("grid")} + int{file.has("mesh")} + int{file.has("voxels_from")} != 1)
-        throw InputError(file.where("mesh") + "expected either a mesh, a [grid], or voxels_from a file");
+        throw InputError(file.where("mesh") + "expected exactly one of mesh, [grid] and voxels_from");
     if (const std::string saved = file.text("save_voxels_as", ""); !saved.empty()) shape.savedVoxels = folder / saved;
     if (file.has("voxels_from")) {
         shape.source = Source::voxels;
@@ -131,7 +132,7 @@ void readSource(TomlReader& file, const std::filesystem::path& folder, Shape& sh
     shape.voxeliser = choice(file, "voxeliser", voxelisers, shape.voxeliser);
     shape.fill = choice(file, "fill", fills, shape.fill);
     if (shape.fill == Fill::solid && shape.voxeliser != Voxeliser::conservative)
-        throw InputError(file.where("fill") + "only the conservative voxeliser's surface is tight enough to be filled");
+        throw InputError(file.where("fill") + "fill = \"solid\" requires voxeliser = \"conservative\"");
 }
 
 void readMotion(TomlReader& file, Shape& shape) {
@@ -156,9 +157,7 @@ void readCollision(TomlReader& file, Shape& shape) {
     shape.impact.friction = number(table, "friction", 0, 1, shape.impact.friction);
     shape.impact.scatter = number(table, "scatter", 0, 1, shape.impact.scatter);
     if (std::hypot(shape.impact.restitution, shape.impact.scatter) > 1)
-        throw InputError(
-            table.where("scatter") +
-            "restitution and scatter: their squares add up to more than 1, so that particles would gain energy");
+        throw InputError(table.where("scatter") + "restitution² + scatter² exceeds 1, so particles would gain energy");
     table.finish();
 }
 
@@ -181,7 +180,7 @@ void readFlow(TomlReader& file, const std::filesystem::path& folder, Shape& shap
         const auto found = volumes::matchingFiles(folder / name);
         shape.flow.files.insert(shape.flow.files.end(), found.begin(), found.end());
     }
-    if (shape.flow.files.empty()) throw InputError(table.where("files") + "key 'files': expected one file or more");
+    if (shape.flow.files.empty()) throw InputError(table.where("files") + "key 'files': expected at least one file");
     shape.flow.field = table.text("field", shape.flow.field);
     shape.flow.drawsPerSecond = number(table, "draws_per_second", 0, 1000, shape.flow.drawsPerSecond);
     if (table.has("from_seconds")) shape.flow.fromSeconds = table.number("from_seconds", -1e5, 1e5);
@@ -194,9 +193,8 @@ void readStress(TomlReader& file, Shape& shape) {
     shape.stress.colour = colour(table, "colour", shape.stress.colour);
     shape.stress.fullMetres = static_cast<float>(table.number("full_metres", 1e-4, far));
     if (shape.look.lit)
-        throw InputError(
-            table.where() +
-            "[stress] and lit = true: got both, allowed: one of them, since either sets the voxels' colours");
+        throw InputError(table.where() +
+                         "[stress] and lit = true: got both, allowed: one of them, since both set the voxels' colours");
     table.finish();
 }
 
@@ -225,19 +223,20 @@ void readTrack(TomlReader& file, Shape& shape) {
         else if (key.timeSeconds > track.keys.back().timeSeconds)
             track.keys.push_back(key);
         else
-            throw InputError(keyTable.where("time_seconds") + "key 'time_seconds': expected times that rise from 0");
+            throw InputError(keyTable.where("time_seconds") +
+                             "key 'time_seconds': expected times that increase from 0");
         keyTable.finish();
     }
     table.finish();
 }
 
-/// Shapes that are there as well.
+/// Reads the further shapes of a scene.
 void readOthers(TomlReader& file, const std::filesystem::path& folder, Shape& shape) {
     for (TomlReader& table : file.tables("also")) {
         Shape other = readShape(folder / table.text("shape"));
         if (!other.others.empty())
             throw InputError(table.where("shape") + "key 'shape': " + other.name +
-                             " has shapes of its own beside it; expected one that stands alone");
+                             " contains further shapes ([[also]]); expected a single shape");
         shape.others.push_back(std::move(other));
         table.finish();
     }
@@ -273,9 +272,9 @@ VoxelEdit readEdit(TomlReader& table, const std::filesystem::path& folder) {
     edit.change = readChange(table);
     if (edit.change.isEmpty()) throw InputError(edit.where + "the edit changes nothing");
     if (edit.change.contradictsItself())
-        throw InputError(edit.where +
-                         "the edit contradicts itself: `active = false` takes voxels out of the shape, and "
-                         "no other attribute goes with it");
+        throw InputError(
+            edit.where +
+            "the edit contradicts itself: `active = false` removes voxels, so other attributes are not allowed");
     table.finish();
     return edit;
 }
@@ -289,14 +288,14 @@ Shape readShape(const std::filesystem::path& path) {
     shape.meshColour = colour(file, "colour", shape.meshColour);
     shape.particles = static_cast<std::uint32_t>(file.integer("particles", 1, 10'000'000, shape.particles));
     if (shape.source == Source::voxels && (file.has("voxels") || file.has("particles")))
-        throw InputError(file.where("voxels_from") +
-                         "the file's voxels say all of themselves: no [voxels] and no "
-                         "particles go with it, only edits");
+        throw InputError(
+            file.where("voxels_from") +
+            "the voxel file defines all attributes: [voxels] and particles are not allowed with it, edits are");
 
     if (file.has("voxels")) {
         TomlReader table = file.table("voxels");
         shape.voxels = readChange(table);
-        if (shape.voxels.active) throw InputError(table.where("active") + "key 'active': belongs into an edit");
+        if (shape.voxels.active) throw InputError(table.where("active") + "key 'active': allowed only in an edit");
         table.finish();
     }
     const auto otherwise = [](std::optional<float>& value, float initial) {

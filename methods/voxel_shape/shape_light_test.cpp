@@ -28,7 +28,7 @@ scene::Lights sunAlong(const glm::vec3& toSun) {
     return lights;
 }
 
-/// Brightest on the side that the sun is on: ambient + sun there, ambient alone on the other one.
+/// Checks that the side towards the sun has ambient + sun, and the opposite side only ambient.
 void expectLitFrom(const VoxelGrid& grid, const glm::vec3& direction) {
     float front = 0, back = 1;
     for (const std::uint32_t i : grid.active()) {

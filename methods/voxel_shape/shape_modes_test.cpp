@@ -1,4 +1,4 @@
-// What a run of shapes can be asked for: the paper's law or ours, a number that is kept to, several shapes at once.
+// Options of a run of shapes: the paper's law or ours, a particle number to hold, several shapes at once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// A file of a ball of 2 m at rest.
+/// Writes the file of a ball 2 m across, at rest.
 std::filesystem::path ballFile(const TestFolder& folder, const std::string& more = "") {
     const scene::Mesh ball = sphereMesh(1, 16);
     std::string text;
@@ -29,7 +29,7 @@ std::filesystem::path ballFile(const TestFolder& folder, const std::string& more
                                          more + "[place]\nfollow = \"world\"\n");
 }
 
-/// A preset as a run asks for it.
+/// Creates the method with a preset and settings, as a run does.
 std::unique_ptr<Method> presetWith(const std::vector<std::pair<const char*, const char*>>& settings) {
     const MethodInfo info = voxel_shape::describe();
     ParameterValues values(info.parameters);
@@ -62,7 +62,7 @@ const ShapeSystem& systemOf(const Method& method) {
 
 TEST(ShapeModes, OfThePaperTakeItsSlicesAndItsLaw) {
     Moment moment;
-    moment.scene.vehicle.emplace();  // which the figure follows
+    moment.scene.vehicle.emplace();  // the figure follows it
     const auto activeAndHeld = [&](const std::vector<std::pair<const char*, const char*>>& more) {
         std::vector<std::pair<const char*, const char*>> settings{
             {"shape", "figure"}, {"shape_particles", "8000"}, {"resolution", "24"}};
@@ -133,7 +133,7 @@ TEST(ShapeModes, ARunThatDoesNotHoldItsNumberIsNone) {
     EXPECT_NEAR(static_cast<double>(std::get<std::int64_t>(*moment.fact(*held, "inside"))), 4000, 80);
     EXPECT_LT(std::get<std::int64_t>(*moment.fact(*held, "fading")), 1000);
     EXPECT_GT(std::get<double>(*moment.fact(*held, "silhouette_iou")), 0.7) << "puffs reach beyond the outline";
-    // In its first step but a third of them is there.
+    // In the first step only a third of them exist.
     moment.run(*early, 1);
     try {
         (void)moment.fact(*early, "inside");
@@ -171,11 +171,11 @@ TEST(ShapeModes, SeveralShapesAreDrawnTogetherAndCrossEachOther) {
         folder.write("three.toml", "description = \"\"\nmesh = \"ball.obj\"\n[[also]]\nshape = \"both.toml\"\n");
         (void)readShape(folder.path() / "three.toml");
     });
-    EXPECT_NE(message.find("stands alone"), std::string::npos) << message;
+    EXPECT_NE(message.find("a single shape"), std::string::npos) << message;
 }
 
 TEST(Resolution, FindsTheKneeOfACurveThatSaturates) {
-    // 1 − e^(−x/30) from 10 to 120 lies highest above its chord where its slope is the chord's.
+    // 1 − e^(−x/30) between 10 and 120 lies highest above its chord where its slope equals the chord's.
     resolution::Curve curve;
     for (int side = 10; side <= 120; side += 2) {
         curve.voxelsASide.push_back(side);

@@ -8,7 +8,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// Calls `put(value, i)` for each particle `i` of the order, `value` where its floats belong.
+/// Calls `put(value, i)` for each particle `i` of the order; `value` points to the particle's floats in the buffer.
 template <typename Put>
 void fill(std::span<float> memory, std::size_t floats, std::span<const std::uint32_t> order, const Put& put) {
     parallel::forEachBlock(order.size(), 16'384, [&](std::size_t first, std::size_t count) {
@@ -69,8 +69,7 @@ void ShapePicture::upload(const ShapeParticles& particles, std::span<const std::
         fill(billboards_->map(count_, layout), layout.floats, order, [&](float* value, std::uint32_t i) {
             for (const float next : {s.x[i], s.y[i], s.z[i], s.radius[i], s.opacity[i]}) *value++ = next;
             if (billboards_->framed()) {
-                // An animation runs from its first picture to its last and again from the first; a still is one of
-                // them.
+                // An animation repeats after its last picture; a still image uses one of the pictures throughout.
                 const float length = animated ? frames - 1 : frames;
                 const float shown = animated ? particles.picture[i] : std::floor(particles.picture[i]);
                 *value++ = length > 0 ? shown - std::floor(shown / length) * length : 0.0f;

@@ -25,7 +25,7 @@ void ShapeStress::showOn(ShapeSystem& system) {
     const Pose& pose = system.pose();
     VoxelGrid& grid = system.grid();
     sums_.assign(grid.lattice().size(), {});
-    // By one thread: sums of floats depend on their order.
+    // On one thread: a sum of floats depends on its order.
     for (std::size_t i = 0; i < particles.size(); ++i) {
         if (particles.place[i] >= ShapeParticles::outside) continue;
         const glm::vec3 u = pose.toLocal(particles.store.position(i)) - particles.birthplace[i];

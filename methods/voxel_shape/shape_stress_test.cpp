@@ -15,7 +15,7 @@ constexpr float dt = 1.0f / 60;
 constexpr int steps = 30;
 const glm::vec3 grey(0.4f), red(0.9f, 0.1f, 0.0f);
 
-/// Two voxels beside each other, each with 4000 particles; `force` acts in the first.
+/// Two adjacent voxels with 4000 particles each; `force` acts in the first.
 struct Pair {
     Pair(float edge, Force kind, const glm::vec3& force, float fullMetres)
         : system(ledger, marked(edge), pattern(), 3), stress(start(kind, force, fullMetres)) {}
@@ -51,7 +51,7 @@ struct Pair {
 };
 
 TEST(ShapeStress, OfALinearForceIsItsWayInClosedForm) {
-    // Voxels so large that hardly any particle leaves its own.
+    // The voxels are so large that few particles leave theirs.
     Pair pair(400, Force::linear, {0.3f, 0, 0.4f}, 0.2f);
     pair.run([](int) { return Pose(); });
     const float way = 0.5f * dt * dt * steps * (steps + 1) / 2;  // Σ over steps of a·n·dt²
@@ -95,7 +95,7 @@ TEST(ShapeStress, OfAShapeAtConstantVelocityIsNoneAndOfAnAcceleratedOneItsLag) {
 }
 
 TEST(ShapeStress, KeepsTheBirthplaceOfAParticleThatTakesAnothersRoom) {
-    // The last ones move into the room of those who die, from one voxel to the other's part of the store.
+    // The last particles move into the slots of those that die, from one voxel to the other's part of the store.
     Pair pair(0.2f, Force::linear, {-40, 0, 0}, 0.1f);
     for (Voxel& voxel : pair.system.grid().voxels()) voxel.lifetimeSeconds = 0.05f;
     ShapeParticles& particles = pair.system.particles();
@@ -103,7 +103,7 @@ TEST(ShapeStress, KeepsTheBirthplaceOfAParticleThatTakesAnothersRoom) {
     std::size_t atRest = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const glm::vec3 born = particles.birthplace[i], now = particles.store.position(i);
-        // The force acts along x, by which they leave; across it nobody moves.
+        // The force moves particles out along x; across x they are at rest.
         ASSERT_NEAR(born.y, now.y, 1e-5f) << i;
         ASSERT_NEAR(born.z, now.z, 1e-5f) << i;
         atRest += born == now;

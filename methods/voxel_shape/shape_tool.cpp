@@ -1,5 +1,5 @@
-// `dustbench shape`: what a shape is made of, and edits of it from the command line, saved as a shape file or as
-// voxels.
+// `dustbench shape`: shows the voxels of a shape, edits them from the command line, and saves the result as a shape
+// file or as voxels.
 #include <fmt/format.h>
 
 #include <fstream>
@@ -54,7 +54,7 @@ bool isVoxelFile(const fs::path& file) {
     return file.extension() == ".vti";
 }
 
-/// The shape alone, with no place in a scene; nothing is saved when it is built.
+/// Returns the shape without place in a scene, and without a file to save its voxels to.
 Shape shapeOf(const fs::path& file) {
     Shape shape;
     if (isVoxelFile(file)) {
@@ -82,12 +82,12 @@ void writeText(const fs::path& file, const std::string& text, const Shape& expec
         throw InputError(file.string() + ": " + why);
     };
     if (!(std::ofstream(part, std::ios::binary) << text << std::flush)) fail("the shape cannot be written there");
-    // What was written is read again: a file that says its edits or paths in some other way is not carried over.
+    // Read the file back: text in a form that withEdits does not recognise would be lost.
     try {
         const Shape again = readShape(part);
         const bool sameSource = fs::weakly_canonical(again.mesh) == fs::weakly_canonical(expected.mesh);
         if (again.edits.size() != expected.edits.size() || (expected.source != Source::vehicle && !sameSource))
-            throw InputError("it would name other files");
+            throw InputError("it would refer to other files");
     } catch (const InputError& error) {
         fail(std::string("the edits cannot be added to this shape file; save them as .vti (") + error.what() + ")");
     }
@@ -113,7 +113,7 @@ void save(const Call& call, const Shape& edited, const VoxelGrid& voxels) {
     writeText(*call.save, textOf(call.file, folder, edits), edited);
 }
 
-/// How many active voxels are pushed by a force.
+/// Returns the number of active voxels with a force.
 std::size_t forced(const VoxelGrid& grid) {
     const auto isForced = [&](std::uint32_t i) { return glm::length(grid.voxels()[i].force) > 0; };
     return static_cast<std::size_t>(std::ranges::count_if(grid.active(), isForced));
@@ -125,7 +125,7 @@ std::uint64_t particlesOf(const VoxelGrid& grid) {
     return sum;
 }
 
-/// Of voxels that are active before and after.
+/// Counts the voxels that are active before and after and have a new colour.
 std::size_t recoloured(const VoxelGrid& before, const VoxelGrid& after) {
     const auto changed = [&](std::uint32_t i) {
         const Voxel &a = before.voxels()[i], &b = after.voxels()[i];
@@ -169,17 +169,17 @@ std::vector<std::vector<std::string>> edit(ExperimentContext& context, std::span
 
 ToolInfo describe() {
     ToolInfo info;
-    info.summary = "Show a shape made of voxels; paint, carve, fill or push it, and save it";
+    info.summary = "Show a voxel shape; paint, carve, fill or push it, and save it";
     info.manual =
-        "An edit names a region and what becomes of the voxels whose middles lie in it, in words that are the keys of\n"
+        "An edit names a region and the changes to the voxels whose centres lie in it. Its words are the keys of\n"
         "shape files (data/shapes/car.toml): metres in the shape's own frame, linear RGB, lists with commas.\n"
         "  region  sphere=x,y,z,radius   box=x,y,z,x,y,z (minimum, maximum)   mesh=FILE [position=x,y,z] [scale=s]\n"
         "  paint   colour opacity size_voxels fading_colour fading_opacity fading_size_voxels lifetime_seconds\n"
         "          interpolation_seconds pictures_per_second maximum_density\n"
         "  force   kind=linear acceleration=x,y,z; kind=orbit|gravity|spiral|helix axis=x,y,z radians_per_second=w\n"
         "          growth_per_radian=k (spiral) metres_per_radian=k (helix)\n"
-        "Edits apply in the order given, those of the shape file first; which voxels there are is settled before\n"
-        "their looks, since particles are shared out over them.\n"
+        "Edits apply in the order given, those of the shape file first. Voxels are added and removed before any\n"
+        "look is set, since the particles are distributed over them.\n"
         "Example: dustbench shape bunny --carve \"sphere=0,1,0,0.4\" --paint \"box=-1.3,2,-1.1,0.6,2.7,0.4 "
         "colour=0,0,1\" "
         "--save blue.toml\n"
@@ -187,12 +187,13 @@ ToolInfo describe() {
     info.options = {
         {"file", "FILE", "a shape of data/shapes, a shape file (.toml) or saved voxels (.vti)"},
         {"--paint", "EDIT", "changes the looks of voxels in a region: \"sphere=0,0.5,0,0.2 colour=0.8,0.1,0.1\"", true},
-        {"--carve", "EDIT", "takes voxels out of the shape: \"box=-1,0,-1,1,0.5,1\"", true},
-        {"--fill", "EDIT", "puts voxels in, which look like the nearest ones unless painted", true},
-        {"--force", "EDIT", "pushes the particles there: \"sphere=0,1,0,0.5 kind=gravity radians_per_second=3\"", true},
+        {"--carve", "EDIT", "removes voxels from the shape: \"box=-1,0,-1,1,0.5,1\"", true},
+        {"--fill", "EDIT", "adds voxels, which look like the nearest ones unless painted", true},
+        {"--force", "EDIT", "pushes the particles in a region: \"sphere=0,1,0,0.5 kind=gravity radians_per_second=3\"",
+         true},
         {"--save", "OUT",
          "writes a shape file (.toml) with these edits, or the voxels (.vti); replaces an existing one"},
-        {"--scene", "ID", "whose vehicle it is if the shape is the vehicle; default: plain"}};
+        {"--scene", "ID", "the scene whose vehicle is used if the shape is the vehicle; default: plain"}};
     info.run = edit;
     return info;
 }

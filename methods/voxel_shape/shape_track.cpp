@@ -7,7 +7,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// The turn from one orientation to another as a vector: axis times angle.
+/// Returns the rotation from one orientation to another as a vector: axis times angle.
 glm::dvec3 turnBetween(const glm::dmat3& from, const glm::dmat3& to) {
     glm::dquat turn = glm::quat_cast(to * glm::transpose(from));
     if (turn.w < 0) turn = -turn;
@@ -34,7 +34,7 @@ TrackMoment momentAt(const Track& track, double timeSeconds) {
 }
 
 Pose ShapeTrack::advance(const scene::SceneState& state, double stepSeconds) {
-    // The frame that the track lies in: where it is, how it moves and turns.
+    // The frame of the track: its pose and how it moves and turns.
     const glm::dmat4 frame = track_.followsVehicle ? state.vehicle.toWorld() : glm::dmat4(1);
     const glm::dmat3 turned(frame);
     const glm::dvec3 velocity = track_.followsVehicle ? state.vehicle.speed * state.vehicle.forward() : glm::dvec3(0);

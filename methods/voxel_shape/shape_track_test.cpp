@@ -7,7 +7,7 @@ namespace {
 
 constexpr double dt = 1.0 / 60;
 
-/// A vehicle on a circle, seen at a time: speed v = a·t, so that the way is ½·a·t².
+/// Returns a vehicle on a circle at a time: speed v = a·t, distance ½·a·t².
 scene::SceneState onCircle(double radius, double acceleration, double time) {
     scene::SceneState state;
     const double angle = 0.5 * acceleration * time * time / radius;
@@ -45,7 +45,7 @@ TEST(ShapeTrack, TakesTheWayBackToItsFirstKeyForAJump) {
     }
 }
 
-/// The velocity of a track beside a vehicle on a circle, against the difference of its places.
+/// Compares the velocity of a track beside a vehicle on a circle with the difference quotient of its positions.
 void expectVelocityOfItsMoment(const Track& track, int firstStep) {
     ShapeTrack beside(track);
     const double radius = 30, acceleration = 3;
@@ -56,7 +56,7 @@ void expectVelocityOfItsMoment(const Track& track, int firstStep) {
         ShapeTrack before(track), after(track);
         const glm::dvec3 difference = glm::dvec3(after.advance(onCircle(radius, acceleration, time + h), h).position) -
                                       glm::dvec3(before.advance(onCircle(radius, acceleration, time - h), h).position);
-        // The turn is that since the last moment: half a step old. 3.6 m from the vehicle's origin that is 3 mm/s.
+        // The turn is the one since the last frame, so half a step old: 3 mm/s at 3.6 m from the vehicle's origin.
         const double turnIsLate = step == 0 ? 0 : acceleration / radius * dt / 2 * 3.7;
         EXPECT_LT(glm::distance(difference / (2 * h), glm::dvec3(pose.velocity)), turnIsLate + 0.03) << step;
     }
@@ -71,7 +71,7 @@ TEST(ShapeTrack, GivesAPlaceBesideAVehicleTheVelocityOfThatMoment) {
 TEST(ShapeTrack, GivesAWayBesideAVehicleItsVelocityInTheWorld) {
     Track track;
     track.keys = {{0, {-3, 1, 2}, 0.4, 1}, {4.5, {3, 1.5, 1}, 0.4, 1}};
-    expectVelocityOfItsMoment(track, 1);  // before 0 it is the way's end
+    expectVelocityOfItsMoment(track, 1);  // before time 0 the track is at its end
 }
 
 }  // namespace

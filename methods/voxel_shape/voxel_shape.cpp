@@ -16,14 +16,14 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// Shapes of the data folder by name; `car` is one of them even where its file is missing, which is then said on use.
+/// Returns the names of the shapes in the data folder. Always lists `car`, so that a missing file is reported on use.
 std::vector<std::string> shapeNames() {
     std::vector<std::string> names = files::listData("shapes", ".toml");
     if (std::ranges::find(names, "car") == names.end()) names.emplace_back("car");
     return names;
 }
 
-/// Leaves a choice to the shape's file.
+/// The choice that leaves a setting to the shape's file.
 constexpr const char* preset = "preset";
 
 template <typename Enumeration>
@@ -33,7 +33,7 @@ std::vector<std::string> presetOr(const Choices<Enumeration>& choices) {
     return words;
 }
 
-/// What a parameter with the choices `presetOr(choices)` names, or `initial`.
+/// Returns the value that a parameter with the choices `presetOr(choices)` selects, or `initial` for `preset`.
 template <typename Enumeration>
 Enumeration unlessPreset(const ParameterValues& values, const char* name, const Choices<Enumeration>& choices,
                          Enumeration initial) {
@@ -57,7 +57,7 @@ Shape shapeOf(const ParameterValues& values) {
     if (values.real("fill_seconds") >= 0) shape.motion.fillSeconds = static_cast<float>(values.real("fill_seconds"));
     shape.voxeliser = unlessPreset(values, "voxeliser", voxelisers, shape.voxeliser);
     if (shape.fill == Fill::solid && shape.voxeliser != Voxeliser::conservative)
-        throw InputError("shape '" + shape.name + "': is solid, which needs voxeliser=conservative; got " +
+        throw InputError("shape '" + shape.name + "': fill = \"solid\" needs voxeliser=conservative; got " +
                          std::string(voxelisers.wordOf(shape.voxeliser)));
     shape.heldWithin = values.real("held_within");
     Look& look = shape.look;
@@ -80,7 +80,7 @@ VoxelShape::VoxelShape(const Shape& shape) : order_(ledger_), merged_(ledger_) {
 void VoxelShape::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) {
     scene_ = &scene;
     device_ = &device;
-    // Each shape's chance is its own.
+    // A seed of its own for each shape.
     for (std::size_t i = 0; i < shapes_.size(); ++i)
         shapes_[i].prepare(ledger_, scene, device, setup.seed ^ (i * 0x9e3779b97f4a7c15ULL));
     picture_ = std::make_unique<ShapePicture>(device, shapes_.front().shape().look);
@@ -105,7 +105,7 @@ void VoxelShape::update(const Frame& frame) {
 void VoxelShape::simulate(const Frame& frame) {
     for (LivingShape& shape : shapes_) shape.step(frame);
     if (shapes_.size() == 1) return;
-    // All of them are at the frame's moment now.
+    // All shapes are at the frame's time now.
     const auto timing = frame.clock.measureDetail("cross");
     const float rate = shapes_.front().shape().drawnAlongPerSecond;
     const float share = 1 - std::exp(-rate * static_cast<float>(frame.stepSeconds));
@@ -179,46 +179,44 @@ std::optional<std::uint64_t> VoxelShape::stateHash() const {
 MethodInfo describe() {
     MethodInfo info;
     info.title = "Voxel-shaped particles";
-    info.summary = "A mesh becomes a grid of voxels that say how the particles in them look and move.";
+    info.summary = "Voxelises a mesh; each voxel determines how the particles in it look and move.";
     info.source = "JuckelBeckhaus2007";
-    info.parameters.dataFile("shape", "car", "shapes", ".toml", shapeNames(), "what is made of particles, and how")
-        .integer("shape_particles", 0, 0, 10'000'000, "", "particles that the shape holds; 0: as its file says")
+    info.parameters.dataFile("shape", "car", "shapes", ".toml", shapeNames(), "the shape made of particles")
+        .integer("shape_particles", 0, 0, 10'000'000, "", "particles that the shape holds; 0: as in its file")
         .integer("particles_per_voxel", 0, 0, 100'000, "",
-                 "particles that each voxel holds; 0: its share of the shape's, or as the file says")
+                 "particles that each voxel holds; 0: its share of the shape's, or as in the file")
         .real("fill_seconds", -1, -1, 100, "s",
-              "in which voxels make up for what they lack; 0: at once; below 0: as the shape's file says")
+              "time in which voxels replace missing particles; 0: at once; negative: as in the shape's file")
         .integer("resolution", 0, 0, maximumVoxelsASide, "voxels",
-                 "along the mesh's longest side; 0: as the shape's file says")
-        .choice(
-            "mode", Mode::fixed, modes,
-            "no voxel holds more than its maximum density; or the paper's law, by which that limits births alone and "
-            "its slices are the voxels")
+                 "along the mesh's longest side; 0: as in the shape's file")
+        .choice("mode", Mode::fixed, modes,
+                "fixed: no voxel holds more than its maximum density; paper: the maximum density limits births only, "
+                "and the voxels are slices")
         .choice("voxeliser", preset, presetOr(voxelisers),
-                "every voxel that the surface touches, by the CPU; the paper's slices, by the GPU; or slices along all "
-                "axes; preset: as the shape's file says, in mode=paper the slices")
-        .choice("render", preset, presetOr(renders), "what a particle is drawn as")
-        .real("sprite_pixels", 0, 0, 255, "pixels", "width of points and sprites; 0: as the shape's file says")
-        .choice("blend", preset, {preset, "alpha", "additive"}, "cover what is behind, or add light to it")
-        .choice(
-            "sort", preset, presetOr(orders),
-            "far to near, by a radix sort or the paper's quicksort; the nearest ones alone; every few frames; or not")
-        .integer("sort_nearest", 2000, 0, 10'000'000, "", "how many sort=nearest sorts")
-        .integer("sort_every", 4, 1, 1000, "frames", "how often sort=every sorts")
+                "every voxel that the surface touches (CPU); the paper's slices along z (GPU); or slices along all "
+                "axes; preset: as in the shape's file, with mode=paper slices")
+        .choice("render", preset, presetOr(renders), "how a particle is drawn")
+        .real("sprite_pixels", 0, 0, 255, "pixels", "width of points and sprites; 0: as in the shape's file")
+        .choice("blend", preset, {preset, "alpha", "additive"}, "alpha: cover what is behind; additive: add light")
+        .choice("sort", preset, presetOr(orders),
+                "far to near by a radix sort or the paper's quicksort; only the nearest; every few frames; or never")
+        .integer("sort_nearest", 2000, 0, 10'000'000, "", "number of particles that sort=nearest sorts")
+        .integer("sort_every", 4, 1, 1000, "frames", "interval at which sort=every sorts")
         .real("held_within", 0, 0, 1, "share",
-              "by which the particles that the voxels hold may differ from the shape's number; a run in which they do "
-              "fails; 0: not asked");
+              "maximum relative deviation of the particles held from the shape's number; a run that exceeds it "
+              "fails; 0: unchecked");
     info.facts = {
         {"fading", "particles", FactOver::maximumOfFrames,
-         "particles outside of the shape's voxels, or in a full one, which fade: maximum of the recorded frames"},
+         "fading particles, outside the shape's voxels or waiting at a full one: maximum of the recorded frames"},
         {"inside", "particles", FactOver::lastFrame, "particles that the shape's voxels hold after the last frame"},
         {"silhouette_iou", "share", FactOver::lastFrame,
-         "pixels that the particles cover by more than half and the shape's mesh covers, of those that either does: "
-         "after the last frame; empty where the shape is of no mesh"}};
+         "intersection over union of the pixels that particles cover by more than half and those the mesh covers: "
+         "after the last frame; empty if the shape has no mesh"}};
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<VoxelShape>(shapeOf(values));
     };
     info.cannotTake = [](const scene::Scene& scene) {
-        return scene.vehicle ? std::string() : std::string("needs a vehicle, which shapes are made of or follow");
+        return scene.vehicle ? std::string() : std::string("needs a vehicle, whose mesh or motion shapes use");
     };
     return info;
 }

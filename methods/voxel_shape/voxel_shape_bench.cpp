@@ -1,5 +1,5 @@
-// 40,000 point sprites of 4 pixels, unsorted: uploaded and drawn by the method beside a bare draw of the same, which
-// binds, draws and waits; its buffer was written once. Before anything is timed the pictures of both are compared.
+// Upload and drawing of 40,000 unsorted point sprites of 4 pixels, compared with a bare draw of the same sprites. The
+// bare draw binds, draws and waits; its buffer is written once. Both pictures are compared before timing.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// The paper's figure at rest in the middle of the picture.
+/// Returns the preset `figure` at rest in the middle of the picture.
 Shape figure() {
     Shape shape = readShape(files::dataFolder() / "shapes" / "figure.toml");
     shape.track.followsVehicle = false;
@@ -86,7 +86,7 @@ void spritesAgainstABareDraw(benchmark::State& state) {
 }
 BENCHMARK(spritesAgainstABareDraw)->UseManualTime()->Unit(benchmark::kMillisecond)->MinTime(3);
 
-/// All of a frame but the drawing, in each order.
+/// Updates a frame without drawing, in each order.
 void update(benchmark::State& state, Order order) {
     TestMoment moment(0, 640, 480, {0, 1.6, 5}, {0, 0, -1});
     Shape shape = figure();

@@ -20,7 +20,7 @@ Shape preset(const std::string& name) {
     return readShape(files::dataFolder() / "shapes" / (name + ".toml"));
 }
 
-/// A moment with a vehicle that is a ball of 2 m with balls for wheels, seen from the side.
+/// A moment with a vehicle, viewed from the side: a ball of 2 m with balls as wheels.
 class Moment : public TestMoment {
  public:
     Moment() : TestMoment(0, 480, 360, {0, 1.6, 9}, {0, 0, -1}) {
@@ -74,7 +74,7 @@ TEST(Presets, OfTheGridBurnAndFade) {
         EXPECT_GT(light, 100) << name;
         EXPECT_TRUE(!shape.look.additive || left + right == 0) << "light covers nothing";
         if (std::string(name) == "fade") {
-            // On the left particles are seen far outside their voxel, on the right none is.
+            // On the left, particles appear far outside their voxel; on the right, none does.
             float leftmost = 0, rightmost = 0;
             for (const float x : method.system().particles().store.x) {
                 leftmost = std::min(leftmost, x);
@@ -171,9 +171,9 @@ TEST(ShapeFile, SaysInOneLineWhatIsWrong) {
     };
     folder.write("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const std::string grid = "[grid]\ncells = [2, 1, 1]\nedge_metres = 1\n";
-    expect("", "expected either a mesh, a [grid], or voxels_from");
+    expect("", "expected exactly one of mesh, [grid] and voxels_from");
     expect("voxels_from = \"no.vti\"\n", "no.vti: the voxels cannot be read");
-    expect("voxels_from = \"no.vti\"\nparticles = 3\n", "no particles go with it");
+    expect("voxels_from = \"no.vti\"\nparticles = 3\n", "particles are not allowed with it");
     expect("mesh = \"vehicle\"\nresolution = 300\n", "resolution");
     expect("mesh = \"vehicle\"\nresolutoin = 30\n", "resolutoin");
     expect("mesh = \"none.ply\"\n", "none.ply");
@@ -188,7 +188,7 @@ TEST(ShapeFile, SaysInOneLineWhatIsWrong) {
     expect(grid + "[[edit]]\ncentre = [0, 0, 0]\nradius_metres = 5\nactive = false\nopacity = 0.1\n",
            "contradicts itself");
     expect(grid + "[[edit]]\ncentre = [0, 0, 0]\nradius_metres = 5\nactive = false\n", "no active voxel");
-    expect(grid + "[place]\n[[place.key]]\ntime_seconds = 2\n[[place.key]]\ntime_seconds = 1\n", "rise");
+    expect(grid + "[place]\n[[place.key]]\ntime_seconds = 2\n[[place.key]]\ntime_seconds = 1\n", "increase from 0");
 }
 
 TEST(ShapeFile, EditsSetWhatTheySay) {

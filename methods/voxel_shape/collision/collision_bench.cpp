@@ -1,4 +1,4 @@
-// Collision of 40,000 particles with the bunny subdivided twice: all three steps, the particles all about its surface.
+// Collision of 40,000 particles around the surface of the bunny, subdivided twice: all three steps.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// Every triangle becomes four.
+/// Splits every triangle into four.
 scene::Mesh subdivided(const scene::Mesh& mesh) {
     scene::Mesh finer;
     finer.positions = mesh.positions;
@@ -36,14 +36,14 @@ void collision(benchmark::State& state) {
     const auto bunny = files::dataFolder() / "shapes" / "meshes" / "bunny.ply";
     const bool there = std::filesystem::exists(bunny);
     scene::Mesh mesh = meshes::readMesh(there ? bunny : bunny.parent_path() / "hare.ply", glm::vec3(1));
-    // Of the bunny's npm package 3,674 triangles become 58,784.
+    // The bunny of the npm package has 3,674 triangles; subdivided, 58,784.
     mesh = subdivided(subdivided(mesh));
     scene::Scene scene;
     scene.solids.push_back({"bunny", std::make_shared<scene::Mesh>(mesh)});
     scene.solidPoses.push_back({});
     state.SetLabel((there ? "bunny, " : "hare, ") + std::to_string(mesh.indices.size() / 3) + " triangles");
 
-    // The shape is the bunny too, a little aside, so that its voxels and particles are where the solid is.
+    // The shape is the bunny too, slightly displaced, so that its voxels and particles are at the solid's surface.
     const Lattice lattice = latticeAround(mesh, 50);
     MemoryLedger ledger;
     ShapeSystem system(ledger, surfaceVoxels(mesh, lattice), Voxel(), 1);

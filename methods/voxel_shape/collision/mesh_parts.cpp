@@ -9,7 +9,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// Numbers that are joined into groups; the minimum number of a group stands for it.
+/// Disjoint sets of numbers; a set is represented by its minimum.
 class Groups {
  public:
     explicit Groups(std::size_t count) : leader_(count) { std::iota(leader_.begin(), leader_.end(), std::size_t{0}); }
@@ -17,7 +17,7 @@ class Groups {
         while (leader_[i] != i) i = leader_[i] = leader_[leader_[i]];
         return i;
     }
-    /// Whether they were two groups before.
+    /// Joins two sets; returns whether they were separate.
     bool join(std::size_t a, std::size_t b) {
         a = of(a), b = of(b);
         leader_[std::max(a, b)] = std::min(a, b);
@@ -47,7 +47,7 @@ std::vector<scene::Mesh> partsOf(const scene::Mesh& mesh) {
             const glm::vec3& p = mesh.positions[mesh.indices[3 * t + k]];
             groups.join(t, firstAt.try_emplace({p.x, p.y, p.z}, t).first->second);
         }
-    // Until no two boxes meet: a box that has grown may meet more.
+    // Repeat until no two boxes overlap: a box that has grown may overlap more.
     for (bool joined = true; joined;) {
         joined = false;
         std::map<std::size_t, Box> boxes;

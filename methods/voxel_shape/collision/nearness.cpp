@@ -22,9 +22,9 @@ MarkedVoxels surfaceOf(const scene::Mesh& mesh, float cellMetres) {
 Nearness::Nearness(const scene::Mesh& mesh, float cellMetres, float reachMetres) {
     MarkedVoxels solid = surfaceOf(mesh, cellMetres);
     const std::vector<std::uint8_t> onSurface = solid.marked;
-    (void)markInside(solid);  // what encloses nothing has its surface alone
+    (void)markInside(solid);  // a mesh that encloses nothing keeps only its surface
     const float edge = solid.lattice.edgeMetres;
-    const float reach = reachMetres / edge + std::sqrt(3.0f) / 2;  // in cells, from middle to middle
+    const float reach = reachMetres / edge + std::sqrt(3.0f) / 2;  // in cells, from centre to centre
     const int rim = static_cast<int>(std::ceil(reach));
     lattice_ = {solid.lattice.counts + 2 * rim, solid.lattice.origin - edge * static_cast<float>(rim), edge};
     near_.assign(lattice_.size(), 0);

@@ -18,7 +18,7 @@ namespace {
 constexpr float gapMetres = 1e-3f;
 constexpr std::uint32_t scatterStream = 8;
 
-/// Along a surface, at most as long as 1, anywhere with equal chance; the same for a particle at every hit.
+/// Returns a vector in the surface, uniform on the unit disc; the same for a particle at every hit.
 glm::vec3 alongSurface(const glm::vec3& normal, std::uint64_t serial) {
     const auto toss = maths::uniform4(0, scatterStream, serial);
     const glm::vec2 point = maths::discPoint(toss[0], toss[1]);
@@ -125,12 +125,12 @@ std::size_t ShapeCollision::stopParticles(ShapeParticles& particles, float stepS
             const glm::vec3 velocity(s.velocityX[i], s.velocityY[i], s.velocityZ[i]);
             const glm::vec3 now = s.position(i), way = stepSeconds * velocity, before = now - way;
             const float length = glm::length(way);
-            // A way that begins away from a solid and is shorter than the reach cannot get to it.
+            // A path shorter than the reach that begins away from all solids cannot hit one.
             if (!(length > 0) || (length <= reachMetres_ && !nearAny(close, before))) continue;
             const auto hit = tree_.firstHit(before, now);
             if (!hit) continue;
             ++found;
-            // Back along the way itself, which is free up to the hit.
+            // Step back along the path, which is free up to the hit.
             const glm::vec3 stop = before + std::max(0.0f, hit->share - gapMetres / length) * way;
             const float into = glm::dot(velocity, hit->normal);
             const glm::vec3 along = velocity - into * hit->normal;

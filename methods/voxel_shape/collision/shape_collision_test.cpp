@@ -18,7 +18,7 @@ namespace {
 
 constexpr float dt = 1.0f / 60;
 
-/// A closed box about the origin.
+/// Returns a closed box around the origin.
 scene::Mesh boxMesh(const glm::vec3& half) {
     scene::Mesh mesh;
     for (int corner = 0; corner < 8; ++corner) {
@@ -127,7 +127,7 @@ TEST(ShapeCollision, SwitchesOffEveryVoxelThatTouchesASolidAndOnAgainAfterwards)
             const Voxel& voxel = system.grid().voxels()[i];
             off += !voxel.isOn();
             const glm::vec3 centre(glm::inverse(turned) * glm::vec4(pose.toWorld(lattice.centre(lattice.cell(i))), 1));
-            // Distance from the box: voxels nearer than half an edge overlap it for sure; those far off stay on.
+            // Distance from the box: voxels closer than half an edge overlap it; distant ones stay on.
             const float away = glm::length(glm::max(glm::abs(centre) - half, glm::vec3(0)));
             ASSERT_FALSE(away < lattice.edgeMetres / 2 && voxel.isOn());
             ASSERT_FALSE(away > 2.6f * lattice.edgeMetres && !voxel.isOn());
@@ -137,7 +137,7 @@ TEST(ShapeCollision, SwitchesOffEveryVoxelThatTouchesASolidAndOnAgainAfterwards)
     }
 }
 
-/// A ball of particles through a wall; the state's hash at the end.
+/// Moves a ball of particles through a wall; returns the hash of the final state.
 std::uint64_t throughAWall(bool check) {
     const scene::Mesh ball = sphereMesh(1, 16);
     const Lattice lattice = latticeAround(ball, 24);
@@ -145,7 +145,7 @@ std::uint64_t throughAWall(bool check) {
     ShapeSystem system(ledger, surfaceVoxels(ball, lattice), Voxel(), 1);
     system.grid().shareOut(6000);
     const glm::vec3 half(0.4f, 4, 1.2f);
-    // The corner of a wall: half of the ball goes past it.
+    // The corner of a wall: half of the ball passes it.
     ShapeCollision collision(sceneWith(boxMesh(half), glm::translate(glm::mat4(1), {4, 0, 1.2f})), lattice.edgeMetres,
                              {});
     Motion motion;
@@ -202,7 +202,7 @@ TEST(ShapeCollision, TurnsBackWhatLedIntoTheSurfaceAndSlowsWhatLedAlongIt) {
     particles.resize(1);
     ShapeCollision collision(sceneWith(boxMesh({1, 1, 1}), glm::mat4(1)), 0.1f, {0.5f, 0.2f});
     particles::ParticleStore& s = particles.store;
-    // Has just moved from (−1.05, 0, 0) by (0.1, 0.05, 0) into the side x = −1.
+    // The particle has just moved from (−1.05, 0, 0) by (0.1, 0.05, 0) into the side x = −1.
     s.x[0] = -0.95f;
     s.y[0] = 0.05f;
     s.z[0] = 0;
@@ -239,7 +239,7 @@ TEST(ShapeCollision, ScattersAlongTheSurfaceAloneAndAllWaysAlike) {
         sum += along;
         squares += along * along;
     }
-    // Uniform on a disc of radius R: mean 0, variance R²/4 along each axis, here 5.76.
+    // Uniform on a disc of radius R: mean 0, variance R²/4 along each axis, 5.76 here.
     EXPECT_LT(glm::length(sum) / count, 4 * std::sqrt(2 * 5.76 / count));
     EXPECT_NEAR(squares.x / count, 5.76, 0.5);
     EXPECT_NEAR(squares.y / count, 5.76, 0.5);

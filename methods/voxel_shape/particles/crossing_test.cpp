@@ -18,7 +18,7 @@ MemoryLedger& ledger() {
     return one;
 }
 
-/// A block of 8³ voxels of 0.25 m about a point that moves.
+/// Returns a block of 8³ voxels of 0.25 m around a moving point.
 ShapeSystem blockAt(const Pose& pose, std::uint64_t seed) {
     MarkedVoxels marked(Lattice{{8, 8, 8}, glm::vec3(-1), 0.25f});
     std::ranges::fill(marked.marked, std::uint8_t{1});

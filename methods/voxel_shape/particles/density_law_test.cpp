@@ -1,4 +1,4 @@
-// Whom voxels take in: no more than their maximum, or everybody, as in the paper.
+// Which particles voxels admit: up to their maximum density, or, as in the paper, all.
 #include <gtest/gtest.h>
 
 #include "methods/voxel_shape/particles/shape_system.h"
@@ -24,7 +24,7 @@ Motion law(bool fullVoxelsRefuse) {
     return motion;
 }
 
-/// A sphere of particles after some seconds.
+/// Returns a sphere of particles after some seconds.
 ShapeSystem sphereAfter(double seconds, const Motion& motion) {
     const scene::Mesh sphere = sphereMesh(1, 20);
     ShapeSystem system(ledger(), surfaceVoxels(sphere, latticeAround(sphere, 20)), Voxel(), 7);
@@ -54,8 +54,8 @@ TEST(DensityLaw, OfThePaperLetsAShapeHoldMoreThanWasAskedFor) {
     EXPECT_GT(before, wanted + wanted / 4);
 }
 
-/// A row of five voxels whose forces push towards the middle one, where the air slows particles down, after some
-/// seconds.
+/// Returns the counts after some seconds of a row of five voxels whose forces push towards the middle one, where the
+/// air slows particles down.
 ShapeCount gatheringAfter(double seconds, Motion motion) {
     motion.airDragPerSecond = 2;
     MarkedVoxels marked(Lattice{{5, 1, 1}, glm::vec3(0), 1});
@@ -70,7 +70,7 @@ ShapeCount gatheringAfter(double seconds, Motion motion) {
 }
 
 TEST(DensityLaw, OfThePaperFillsWithoutEndAShapeWhoseForcesGatherParticles) {
-    // As many a second, as long as one looks.
+    // The same number in every second, however long.
     const auto held = [](double seconds) { return static_cast<double>(gatheringAfter(seconds, law(false)).inside); };
     const double ten = held(10), twenty = held(20), forty = held(40);
     EXPECT_GT(ten, 1500);
@@ -108,7 +108,7 @@ TEST(DensityLaw, CountsWhoFadesApart) {
     EXPECT_EQ(count.fading, outside);
     EXPECT_GT(count.fading, 0u);
     EXPECT_EQ(count.inside + count.fading, system.particles().size());
-    // Voxels that are off have no room.
+    // Voxels that are off have no capacity.
     for (const std::uint32_t i : system.grid().active()) system.grid().voxels()[i].setSwitchedOff(true);
     EXPECT_EQ(system.count().room, 0u);
 }

@@ -8,7 +8,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// Of the lattice, along the longest side of the shape's; puffs are about so wide.
+/// Cells along the shape's longest side; a puff is about as wide as a cell.
 constexpr int cellsASide = 12;
 
 }  // namespace
@@ -33,7 +33,7 @@ void DustFlow::drawAlong(ShapeSystem& moved, const Puffs& dust, float share) {
     const float longest = lattice.edgeMetres *
                           static_cast<float>(glm::max(glm::max(lattice.counts.x, lattice.counts.y), lattice.counts.z));
     const float edge = longest / cellsASide;
-    // A cell more on each side: particles that have just left are drawn along as well.
+    // One more cell on each side, to include particles that have just left.
     const glm::vec3 origin = lattice.origin - edge;
     counts_ = glm::ivec3(glm::ceil((lattice.maximumCorner() - lattice.origin) / edge)) + 3;
     nodes_.assign(

@@ -15,7 +15,7 @@ MemoryLedger& ledger() {
     return one;
 }
 
-/// A block of 8³ voxels of 0.25 m.
+/// Returns a block of 8³ voxels of 0.25 m.
 ShapeSystem blockAt(const glm::vec3& position) {
     MarkedVoxels marked(Lattice{{8, 8, 8}, glm::vec3(-1), 0.25f});
     std::ranges::fill(marked.marked, std::uint8_t{1});
@@ -27,7 +27,7 @@ ShapeSystem blockAt(const glm::vec3& position) {
     return system;
 }
 
-/// Puffs anywhere within 3 m of a place, as fast as `velocityAt` says.
+/// Returns puffs at random places within 3 m of a point, with the velocities `velocityAt`.
 template <typename Velocity>
 particles::ParticleStore dustAbout(const glm::vec3& place, int count, const Velocity& velocityAt) {
     particles::ParticleStore dust(ledger());

@@ -12,15 +12,15 @@ namespace {
 
 constexpr std::size_t voxelsABlock = 4096;
 enum Stream : std::uint32_t { fillStream = 1, placeStream, velocityStream };
-/// Animations begin at any of so many pictures.
+/// An animation starts at one of this many pictures.
 constexpr float firstPictures = 64;
 
-/// Of `lacking`, as many as a share gives; what is left of a whole one is born with that probability.
+/// Returns `lacking`·`share`, rounded up with the probability of its fraction: `uniform` is in [0, 1).
 std::uint32_t birthsOf(std::uint32_t lacking, float share, float uniform) {
     return std::min(lacking, static_cast<std::uint32_t>(static_cast<float>(lacking) * share + uniform));
 }
 
-/// The velocity, in the shape's frame, that a voxel's rotation gives a particle that is born at `r` from its centre.
+/// Returns the velocity, in the shape's frame, of a particle that is born at `r` from the centre of a rotating voxel.
 glm::vec3 rotationAt(const Voxel& voxel, const glm::vec3& r) {
     const glm::vec3 t = glm::cross(voxel.force, r);
     switch (voxel.forceKind()) {
@@ -28,7 +28,7 @@ glm::vec3 rotationAt(const Voxel& voxel, const glm::vec3& r) {
         case Force::gravity:
             return glm::vec3(0);
         case Force::orbit: {
-            // A circle: as fast as |ω|·|r|, across r and the axis.
+            // A circular orbit: speed |ω|·|r|, perpendicular to r and the axis.
             const float across = glm::length(t);
             return across > 0 ? t * (glm::length(voxel.force) * glm::length(r) / across) : glm::vec3(0);
         }
@@ -45,7 +45,7 @@ glm::vec3 rotationAt(const Voxel& voxel, const glm::vec3& r) {
 Emission::Emission(MemoryLedger& ledger, std::uint64_t seed)
     : seed_(seed), births_(ledger.account("births")), starts_(ledger.account("births")) {}
 
-/// The number of them all.
+/// Returns the number of births in all voxels.
 std::size_t Emission::countBirths(const VoxelGrid& grid, float share) {
     const std::span<const std::uint32_t> active = grid.active();
     const std::span<const Voxel> voxels = grid.voxels();

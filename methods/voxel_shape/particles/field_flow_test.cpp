@@ -12,7 +12,7 @@ namespace {
 
 const std::vector<std::filesystem::path> names{"a.vti", "b.vti"};
 
-/// 3 m a side about the origin.
+/// Samples a field in a cube of 3 m around the origin.
 template <typename Field>
 volumes::VectorSeries seriesOf(const Field& field, const std::vector<double>& times) {
     std::vector<volumes::VectorGrid> grids;
@@ -57,7 +57,7 @@ TEST(FieldFlow, GivesTheShareOfALinearFieldExactly) {
     }
 }
 
-/// The largest error of place after half a turn of a rigid rotation, in steps of `dt`.
+/// Returns the maximum error of position after half a turn of a rigid rotation in `steps` steps.
 double errorOfHalfATurn(int steps) {
     const double omega = 2;
     const volumes::VectorSeries series =

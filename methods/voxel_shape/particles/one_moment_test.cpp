@@ -1,4 +1,4 @@
-// Particles and lattice are looked at at one moment: a shape that moves holds what it would hold at rest.
+// Particles and lattice are evaluated at the same time: a moving shape holds the same particles as one at rest.
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
@@ -34,7 +34,7 @@ glm::mat3 anyRotation(Random& random) {
         glm::rotate(glm::mat4(1), 3 * unitOf(random), glm::normalize(glm::vec3(unitOf(random), unitOf(random), 1.1f))));
 }
 
-/// One of the 24 that take axes to axes.
+/// Returns one of the 24 rotations that map axes to axes.
 glm::mat3 rightAngles(Random& random) {
     const glm::mat3 x(1, 0, 0, 0, 0, 1, 0, -1, 0), y(0, 0, -1, 0, 1, 0, 1, 0, 0);
     glm::mat3 rotation(1);
@@ -42,7 +42,7 @@ glm::mat3 rightAngles(Random& random) {
     return rotation;
 }
 
-/// Some voxels of a box, of an edge that floats hold exactly, each with looks and room of its own.
+/// Returns random voxels of a box. The edge is exact in floats; each voxel has a look and a maximum density of its own.
 VoxelGrid anyShape(Random& random) {
     const Lattice lattice{{between(random, 2, 9), between(random, 2, 9), between(random, 2, 9)},
                           glm::vec3(between(random, -4, 4), between(random, -4, 4), between(random, -4, 4)) / 4.0f,
@@ -70,8 +70,8 @@ struct Newborn {
     glm::vec3 place, velocity;  ///< relative to the shape's
 };
 
-/// Puts the newborn on a lattice so fine that nothing is seen of it and so coarse that no sum of theirs is rounded.
-/// Returns where they are then; or puts them where `like` says, which must be where they are but for rounding.
+/// Rounds newborns to a lattice that is fine enough not to matter and coarse enough that no sum is rounded. Returns
+/// their places; or, given `like`, moves them to those places, from which only rounding may separate them.
 std::vector<Newborn> settle(ShapeSystem& system, std::uint64_t born, const std::vector<Newborn>* like) {
     particles::ParticleStore& s = system.particles().store;
     const Pose& pose = system.pose();
@@ -95,7 +95,7 @@ std::vector<Newborn> settle(ShapeSystem& system, std::uint64_t born, const std::
     return list;
 }
 
-/// All that is not a place or a velocity, bit by bit; and those, relative to the shape's.
+/// Compares everything except places and velocities bit by bit, and these relative to the shape's.
 void expectSame(const ShapeSystem& still, const ShapeSystem& moving) {
     const ShapeParticles &a = still.particles(), &b = moving.particles();
     ASSERT_EQ(a.size(), b.size());
@@ -149,7 +149,7 @@ TEST(OneMoment, MakesAShapeAtConstantSpeedTheSameAsAtRestWhereNothingIsRounded) 
     EXPECT_GT(entered, 1000u) << "some change their voxel";
 }
 
-/// Largest distance of two empirical distributions.
+/// Returns the maximum distance between two empirical distributions.
 double kolmogorovSmirnov(std::vector<float> a, std::vector<float> b) {
     std::ranges::sort(a);
     std::ranges::sort(b);
@@ -192,7 +192,7 @@ TEST(OneMoment, MakesAShapeAtAnyConstantSpeedLookAsAtRest) {
         }
         const auto count = [](const ShapeSystem& system) { return static_cast<double>(system.particles().size()); };
         EXPECT_NEAR(count(moving) / count(still), 1, 0.005) << glm::length(going.velocity) << " m/s";
-        // Two samples of one distribution lie further apart once in a million times.
+        // Two samples of the same distribution exceed this limit with probability 10⁻⁶.
         const double limit = 2.69 * std::sqrt(1 / count(still) + 1 / count(moving));
         for (int axis = 0; axis < 3; ++axis) {
             const auto along = [axis](const ShapeSystem& system) {
@@ -206,7 +206,7 @@ TEST(OneMoment, MakesAShapeAtAnyConstantSpeedLookAsAtRest) {
     }
 }
 
-/// Whether a particle lies in an active voxel, by its own arithmetic in double precision.
+/// Returns whether a particle lies in an active voxel, computed independently in double precision.
 bool liesInShape(const ShapeSystem& system, std::size_t i) {
     const Pose& pose = system.pose();
     const Lattice& lattice = system.grid().lattice();
@@ -227,7 +227,7 @@ TEST(OneMoment, LeavesBehindExactlyWhatLiesOutsideWhereAShapeJumps) {
         Motion still;
         for (int step = 0; step < 3; ++step) system.step({}, still, dt);
         ASSERT_EQ(system.particles().size(), 5000u);
-        // There is room for whoever comes to another voxel: so only places decide.
+        // Unlimited capacity: only places decide.
         for (Voxel& voxel : system.grid().voxels()) voxel.maximumDensity = 1'000'000;
         still.fillSeconds = 1e9f;
         Pose there;
@@ -241,7 +241,7 @@ TEST(OneMoment, LeavesBehindExactlyWhatLiesOutsideWhereAShapeJumps) {
         const auto left = std::ranges::count(expected, false);
         EXPECT_GT(left, 1000);
         EXPECT_LT(left, 5000);
-        int wrong = 0;  // a rounding error from a face may be on either side of it
+        int wrong = 0;  // a particle within rounding error of a face may be on either side
         for (std::size_t i = 0; i < 5000; ++i)
             wrong += expected[i] == (system.particles().place[i] >= ShapeParticles::outside);
         EXPECT_LE(wrong, 1) << "seed " << seed;
@@ -249,7 +249,8 @@ TEST(OneMoment, LeavesBehindExactlyWhatLiesOutsideWhereAShapeJumps) {
 }
 
 TEST(OneMoment, LetsParticlesKeepTheirMomentumWhereAShapeAcceleratesTurnsOrGrows) {
-    // Born at local r into x(0) = r and v = velocityAt(r), they go straight on; the shape goes on by its own law.
+    // Particles born at local r start from x(0) = r with v = velocityAt(r) and move straight; the shape moves by its
+    // own law.
     constexpr float dt = 1.0f / 60;
     const scene::Mesh ball = sphereMesh(1, 20);
     for (unsigned seed = 1; seed <= 10; ++seed) {
@@ -288,7 +289,8 @@ TEST(OneMoment, LetsParticlesKeepTheirMomentumWhereAShapeAcceleratesTurnsOrGrows
     }
 }
 
-/// Where one particle is after a second in a shape that accelerates and turns, with an orbit in its only voxel.
+/// Returns the position of a particle after one second in a shape that accelerates and turns, with an orbit in its only
+/// voxel.
 glm::vec3 afterASecond(int stepsASecond) {
     const float dt = 1.0f / static_cast<float>(stepsASecond);
     MarkedVoxels marked(Lattice{{1, 1, 1}, glm::vec3(-1), 2});

@@ -16,10 +16,10 @@ namespace {
 
 constexpr std::uint32_t nowhere = 0xffffffffu;
 
-/// Fewer are let in by one thread.
+/// Fewer arrivals are admitted by one thread.
 constexpr std::size_t arrivalsInABlock = 2048, partsOfVoxels = 8;
 
-/// Particles that the loops pass over one after the other.
+/// Particles per run; every loop passes over one run before the next loop starts.
 constexpr std::size_t runSize = 128;
 
 constexpr std::size_t fourWords = 16;
@@ -28,23 +28,23 @@ static_assert(offsetof(Voxel, fadingColour) == offsetof(Voxel, colour) + 8);
 static_assert(offsetof(Voxel, fadingSizeMetres) == offsetof(Voxel, sizeMetres) + 4);
 static_assert(offsetof(Voxel, lifetimeSeconds) == offsetof(Voxel, sizeMetres) + 8);
 
-/// What the loops over one run hand on to each other.
+/// Intermediate results passed between the loops over one run.
 struct Scratch {
-    // What the voxel says that each particle was in or met last. Four numbers a particle, one particle after the other:
-    // plain loads and a few shuffles read sixteen of them, where a gather takes a load for each of its numbers.
+    // Attributes of the voxel that each particle is in or met last, four numbers per particle in sequence. Plain loads
+    // and a few shuffles read sixteen of them; a gather needs one load per number.
     alignas(64) std::array<float, 4 * runSize> force;            ///< vector and number
-    alignas(64) std::array<std::uint32_t, 4 * runSize> colours;  ///< of who is in it, and outside
-    alignas(64) std::array<std::uint32_t, 4 * runSize> looks;    ///< size, fading size, lifetime, pictures a second
+    alignas(64) std::array<std::uint32_t, 4 * runSize> colours;  ///< inside, and outside (fading)
+    alignas(64) std::array<std::uint32_t, 4 * runSize> looks;    ///< size, fading size, lifetime, pictures per second
     std::array<std::uint32_t, runSize> flags;
 
-    std::array<std::uint32_t, runSize> here;    ///< index of the voxel where it is now, or `nowhere`
-    std::array<float, runSize> rx, ry, rz;      ///< from its centre, in voxels
-    std::array<std::uint8_t, runSize> waits;    ///< 1: outside still, where it has asked before
-    std::array<std::uint8_t, runSize> changes;  ///< 1: leaves its voxel, or has come to another one
+    std::array<std::uint32_t, runSize> here;    ///< index of the voxel at its position, or `nowhere`
+    std::array<float, runSize> rx, ry, rz;      ///< from the voxel's centre, in voxels
+    std::array<std::uint8_t, runSize> waits;    ///< 1: still outside the voxel that refused it before
+    std::array<std::uint8_t, runSize> changes;  ///< 1: leaves its voxel, or has reached another one
 };
 
-/// What the voxels say, brought together. Most particles stay with their voxel: so those of the next run, which goes to
-/// `end` at the latest, are fetched before they are asked for. What comes behind `end` may be another thread's.
+/// Gathers the voxels' attributes. Most particles stay in their voxel, so the voxels of the next run are prefetched, up
+/// to `end` at most: particles beyond `end` may belong to another thread.
 void copyVoxels(const ShapeParticles& particles, std::size_t first, std::size_t count, std::size_t end,
                 const Voxel* voxels, Scratch& scratch) {
     const std::uint32_t* const place = particles.place.data();
@@ -52,7 +52,7 @@ void copyVoxels(const ShapeParticles& particles, std::size_t first, std::size_t 
         const std::size_t ahead = std::min(first + i + runSize, end - 1);
         __builtin_prefetch(voxels + (place[ahead] & ~ShapeParticles::outside));
         const Voxel& voxel = voxels[place[first + i] & ~ShapeParticles::outside];
-        // Not the whole voxel: its density may be another thread's just now.
+        // Not the whole voxel: another thread may be changing its density.
         const auto* const bytes = reinterpret_cast<const std::byte*>(&voxel);
         std::memcpy(&scratch.force[4 * i], bytes + offsetof(Voxel, force), fourWords);
         std::memcpy(&scratch.colours[4 * i], bytes + offsetof(Voxel, colour), fourWords);
@@ -62,8 +62,8 @@ void copyVoxels(const ShapeParticles& particles, std::size_t first, std::size_t 
     }
 }
 
-/// The voxel that each particle is in: one multiplication by a matrix. Where it is the same as before, what has been
-/// copied says whether the particle may be there.
+/// Finds the voxel that contains each particle, by one matrix multiplication. If the voxel is unchanged, the gathered
+/// flags tell whether the particle may be in it.
 void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t count, const KernelStep& step,
             Scratch& scratch) {
     const float* const __restrict x = particles.store.x.data() + first;
@@ -84,7 +84,7 @@ void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t coun
         const float gy = m[0][1] * x[i] + m[1][1] * y[i] + m[2][1] * z[i] + offset.y;
         const float gz = m[0][2] * x[i] + m[1][2] * y[i] + m[2][2] * z[i] + offset.z;
         const bool within = (gx >= 0) & (gy >= 0) & (gz >= 0) & (gx < counts.x) & (gy < counts.y) & (gz < counts.z);
-        // Clamped, so that the index is that of a cell.
+        // Clamp, so that the index is valid.
         const int cx = static_cast<int>(gx > 0 ? (gx < maximum.x ? gx : maximum.x) : 0.0f);
         const int cy = static_cast<int>(gy > 0 ? (gy < maximum.y ? gy : maximum.y) : 0.0f);
         const int cz = static_cast<int>(gz > 0 ? (gz < maximum.z ? gz : maximum.z) : 0.0f);
@@ -93,7 +93,7 @@ void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t coun
         const bool on = (flags[i] & (Voxel::active | Voxel::switchedOff)) == Voxel::active;
         const bool outside = place[i] >= ShapeParticles::outside;
         here[i] = within ? index : nowhere;
-        // Neither for those outside who stay there: in no voxel, or in the same one, switched off.
+        // Neither flag is set for particles that stay outside: in no voxel, or in the same one, switched off.
         waits[i] = (same & on & outside) ? 1 : 0;
         changes[i] = (same ? !(on | outside) : (within | !outside)) ? 1 : 0;
         rx[i] = gx - static_cast<float>(cx) - 0.5f;
@@ -102,7 +102,7 @@ void lookUp(const ShapeParticles& particles, std::size_t first, std::size_t coun
     }
 }
 
-/// Forces as velocities (see Force), then the air and gravity, then the way of a step.
+/// Applies the forces as changes of velocity (see Force), then air and gravity, then the displacement of the step.
 void move(ShapeParticles& particles, std::size_t first, std::size_t count, const KernelStep& step,
           const Scratch& scratch) {
     float* const __restrict x = particles.store.x.data() + first;
@@ -123,7 +123,7 @@ void move(ShapeParticles& particles, std::size_t first, std::size_t count, const
     const float response = step.response, keeps = step.airKeeps;
 #pragma GCC ivdep
     for (std::size_t i = 0; i < count; ++i) {
-        // Outside no kind applies. Sums of truths, not choices: the compiler must see no branch here.
+        // No force applies outside. Multiply by 0 or 1 instead of selecting: a branch here prevents vectorisation.
         const std::uint32_t kind = (flags[i] >> Voxel::forceShift) | (place[i] & ShapeParticles::outside);
         const auto is = [kind](Force one) {
             return static_cast<float>(static_cast<int>(kind == static_cast<std::uint32_t>(one)));
@@ -138,17 +138,17 @@ void move(ShapeParticles& particles, std::size_t first, std::size_t count, const
         const float tx = wy * rz - wz * ry, ty = wz * rx - wx * rz, tz = wx * ry - wy * rx;
         const float cx = wy * tz - wz * ty, cy = wz * tx - wx * tz, cz = wx * ty - wy * tx;
         const float pull = isOrbit * (wx * wx + wy * wy + wz * wz);
-        // acceleration a, and the velocity u that a rotation draws to, in the shape's frame
+        // acceleration a, and the velocity u that a rotation pulls to, in the shape's frame
         const float ax = isLinear * wx - pull * rx + isRotation * cx;
         const float ay = isLinear * wy - pull * ry + isRotation * cy;
         const float az = isLinear * wz - pull * rz + isRotation * cz;
-        // The push lasts a step: its direction is that of the middle, t + ½·dt·c, or every circle would widen.
+        // Use the direction at the middle of the step, t + ½·dt·c; otherwise every circle would widen.
         const float along = isHelix * k, outwards = isSpiral * k - 0.5f * dt;
         const float ux = tx + along * wx - outwards * cx;
         const float uy = ty + along * wy - outwards * cy;
         const float uz = tz + along * wz - outwards * cz;
 
-        // The shape's own velocity here, which u is relative to.
+        // The shape's own velocity here; u is relative to it.
         const float ox = x[i] - origin.x, oy = y[i] - origin.y, oz = z[i] - origin.z;
         const float sx = velocity.x + spin.y * oz - spin.z * oy + growth * ox;
         const float sy = velocity.y + spin.z * ox - spin.x * oz + growth * oy;
@@ -173,8 +173,9 @@ void move(ShapeParticles& particles, std::size_t first, std::size_t count, const
     }
 }
 
-/// Linear in time: each step covers the share dt / (time left) of what is left. In a voxel that is the way to its looks
-/// within its interpolation time; outside, the way to the last voxel's fading looks within its lifetime.
+/// Interpolates linearly in time: each step covers the share dt / (time left) of the remaining difference. Inside a
+/// voxel the target is its look, within its interpolation time; outside, the fading look of the last voxel, within its
+/// lifetime.
 void changeLooks(ShapeParticles& particles, std::size_t first, std::size_t count, const Scratch& scratch, float dt,
                  std::uint8_t* __restrict dead) {
     particles::ParticleStore& store = particles.store;
@@ -199,7 +200,7 @@ void changeLooks(ShapeParticles& particles, std::size_t first, std::size_t count
         const float left = in ? settling[i] : life - age[i];
         const float share = left > dt ? dt / left : 1.0f;
 
-        // By its bits: of a choice between two loads the compiler makes a branch.
+        // Select by bit mask: for a choice between two loads the compiler emits a branch.
         const auto chosen = [bits = 0u - static_cast<std::uint32_t>(out)](std::uint32_t inside, std::uint32_t outside) {
             return inside ^ ((inside ^ outside) & bits);
         };
@@ -227,8 +228,8 @@ void changeLooks(ShapeParticles& particles, std::size_t first, std::size_t count
     }
 }
 
-/// Few particles change their voxel in a step. By now they have moved and looked as the voxel that they leave told
-/// them.
+/// Moves the few particles that change their voxel in a step. Their motion and look of this step still came from the
+/// old voxel.
 void changePlaces(ShapeParticles& particles, std::size_t first, std::size_t count, std::span<Voxel> voxels,
                   const Scratch& scratch, const std::uint8_t* dead, std::uint8_t* arriving) {
     std::uint32_t* const place = particles.place.data() + first;
@@ -288,7 +289,7 @@ void admit(ShapeParticles& particles, std::span<const std::uint32_t> arrivals, s
         for (std::size_t k = first; k < first + count; ++k)
             targets[k] = particles.place[arrivals[k]] & ~ShapeParticles::outside;
     });
-    // Who comes first matters among those to one voxel: so a thread takes all arrivals to some of the voxels.
+    // Arrivals at the same voxel must be admitted in order, so each thread handles all arrivals at a range of voxels.
     const std::size_t parts = arrivals.size() < arrivalsInABlock ? 1 : partsOfVoxels;
     const std::size_t part = (voxels.size() + parts - 1) / parts;
     parallel::forEachBlock(voxels.size(), part, [&](std::size_t firstVoxel, std::size_t count) {

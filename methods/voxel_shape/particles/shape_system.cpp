@@ -11,10 +11,10 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// What a thread takes at a time: below, a second one does not pay, and the kernel looks ahead within it only.
+/// Particles per block of a thread: smaller blocks do not pay off, and the kernel prefetches only within a block.
 constexpr std::size_t blockSize = 4 * particles::chunkSize;
 
-/// Notes of each chunk of a block the particles whose flag is 1.
+/// Notes the flagged particles of a block, chunk by chunk.
 void note(particles::NotedParticles& list, std::size_t first, std::span<const std::uint8_t> flags) {
     for (std::size_t done = 0; done < flags.size(); done += particles::chunkSize)
         list.note((first + done) / particles::chunkSize, flags.data() + done,
@@ -61,7 +61,7 @@ void ShapeSystem::live(const Motion& motion, float stepSeconds) {
     admit(particles_, arrivals, targets_, grid_.voxels(), motion.fullVoxelsRefuse);
 }
 
-/// The last particles move into the holes (ascending) that lie before them.
+/// Fills the holes (ascending) with the last particles.
 void ShapeSystem::bury(std::span<const std::uint32_t> holes) {
     std::size_t end = particles_.size();
     std::size_t lastHole = holes.size();

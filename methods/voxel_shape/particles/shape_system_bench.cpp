@@ -1,4 +1,4 @@
-// A step of particles with look-up, interpolation and a force each, on grids of 16³ to 256³.
+// A step of particles with look-up, interpolation and one force, on grids of 16³ to 256³.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -17,13 +17,13 @@ MemoryLedger& ledger() {
     return one;
 }
 
-/// A ball of particles: every voxel of a cube is active, and each has a force.
+/// Returns a block of particles: every voxel of a cube is active and has a force.
 ShapeSystem cubeOf(int resolution, std::uint32_t particles, Force force) {
     MarkedVoxels marked(Lattice{glm::ivec3(resolution), glm::vec3(-1), 2.0f / static_cast<float>(resolution)});
     std::fill(marked.marked.begin(), marked.marked.end(), std::uint8_t{1});
     Voxel voxel;
     voxel.interpolationSeconds = 0.2f;
-    // So weak an acceleration that the particles are still there after thousands of steps.
+    // The acceleration is weak enough to keep the particles inside for thousands of steps.
     voxel.setForce(force, {0, force == Force::linear ? 1e-3f : 2.0f, 0}, force == Force::linear ? 0.0f : 0.02f);
     ShapeSystem system(ledger(), marked, voxel, 1);
     system.grid().shareOut(particles);
@@ -41,7 +41,7 @@ void step(benchmark::State& state, Force force) {
     state.counters["MiB_voxels"] = static_cast<double>(system.grid().voxels().size_bytes()) / (1 << 20);
 }
 
-/// The same without births: what the paper calls the update.
+/// A step without births: the paper's update.
 void update(benchmark::State& state, Force force) {
     const auto particles = static_cast<std::uint32_t>(state.range(1));
     ShapeSystem system = cubeOf(static_cast<int>(state.range(0)), particles, force);

@@ -22,7 +22,7 @@ MemoryLedger& ledger() {
     return one;
 }
 
-/// A row of voxels of 1 m along x, from (0, 0, 0) on, all active.
+/// Returns a row of active voxels of 1 m along x, starting at (0, 0, 0).
 MarkedVoxels rowOfVoxels(int count) {
     MarkedVoxels marked(Lattice{{count, 1, 1}, glm::vec3(0), 1});
     std::ranges::fill(marked.marked, std::uint8_t{1});
@@ -47,14 +47,14 @@ ShapeSystem sphereSystem(std::uint32_t particles, int resolution = 20) {
     return system;
 }
 
-/// Hardly any births: one particle stays the only one.
+/// Births are so rare that a single particle stays alone.
 Motion withoutBirths() {
     Motion motion;
     motion.fillSeconds = 1e9f;
     return motion;
 }
 
-/// One particle in the middle of the first of voxels that have room for one each.
+/// Returns one particle in the middle of the first of several voxels with a capacity of one each.
 ShapeSystem oneParticle(int voxels, const glm::vec3& velocity) {
     ShapeSystem system(ledger(), rowOfVoxels(voxels), pattern(), 1);
     system.grid().voxels()[0].maximumDensity = 1;
@@ -69,7 +69,7 @@ ShapeSystem oneParticle(int voxels, const glm::vec3& velocity) {
     return system;
 }
 
-/// Checks the voxels' densities against a count of the particles.
+/// Compares the voxels' densities with a count of the particles.
 void expectDensitiesAreCounts(const ShapeSystem& system) {
     std::map<std::uint32_t, std::uint32_t> counts;
     for (const std::uint32_t place : system.particles().place)
@@ -80,7 +80,7 @@ void expectDensitiesAreCounts(const ShapeSystem& system) {
 
 TEST(ShapeSystem, GivesBirthInActiveVoxelsAloneAndNeverHasMoreInOneThanItsMaximum) {
     ShapeSystem system = sphereSystem(5000);
-    // A third of the voxels is off for now.
+    // A third of the voxels is off at first.
     for (std::size_t k = 0; k < system.grid().active().size(); k += 3)
         system.grid().voxels()[system.grid().active()[k]].setSwitchedOff(true);
     Motion motion;
@@ -118,7 +118,7 @@ TEST(ShapeSystem, FillsEveryVoxelToItsMaximumAndKeepsItThereWhereNothingMoves) {
     EXPECT_EQ(system.particles().size(), 5000u);
     for (const std::uint32_t i : system.grid().active())
         ASSERT_EQ(system.grid().voxels()[i].density, system.grid().voxels()[i].maximumDensity);
-    // Immortal inside: they are the first ones still, long after their lifetime.
+    // Particles inside do not age: after their lifetime they are still the first ones.
     for (int step = 0; step < 120; ++step) system.step({}, {}, dt);
     EXPECT_EQ(*std::ranges::max_element(system.particles().store.serial), 4999u);
     EXPECT_EQ(*std::ranges::max_element(system.particles().store.age), 0.0f);
@@ -126,10 +126,10 @@ TEST(ShapeSystem, FillsEveryVoxelToItsMaximumAndKeepsItThereWhereNothingMoves) {
 
 TEST(ShapeSystem, LetsAParticleThatLeavesFadeByItsLastVoxelAndDie) {
     ShapeSystem system = oneParticle(1, {0, 3, 0});
-    for (int step = 0; step < 10; ++step) system.step({}, withoutBirths(), dt);  // 0.5 m: just at the rim
+    for (int step = 0; step < 10; ++step) system.step({}, withoutBirths(), dt);  // 0.5 m: exactly at the face
     const particles::ParticleStore& store = system.particles().store;
     ASSERT_NEAR(store.opacity[0], 0.5f, 1e-5f);
-    int outside = -1;  // in the step in which it leaves it looks as before
+    int outside = -1;  // in the step in which it leaves, it still has its old look
     float opacityBefore = store.opacity[0];
     while (store.size() == 1 && outside < 100) {
         system.step({}, withoutBirths(), dt);
@@ -200,7 +200,7 @@ TEST(ShapeSystem, LetsNobodyIntoAFullVoxelUntilThereIsRoom) {
     EXPECT_EQ(store.position(0), opaque);
     EXPECT_EQ(system.grid().voxels()[1].density, 1u);
     EXPECT_NEAR(store.opacity[0], 0.5f * (1 - 9 * dt / 0.5f), 1e-4f) << "it fades while it waits";
-    // The other one goes away, upwards.
+    // The other particle leaves upwards.
     store.y[1] = 5;
     for (int step = 0; step < 3; ++step) system.step({}, withoutBirths(), dt);
     EXPECT_EQ(system.particles().place[0], 1u);
@@ -220,7 +220,7 @@ TEST(ShapeSystem, BringsAParticleToItsVoxelsLooksLinearlyOverItsTimeOrAtOnce) {
         int inside = -1;
         for (int step = 0; step < 90; ++step) {
             system.step({}, withoutBirths(), dt);
-            if (system.particles().place[0] != 1 || ++inside == 0) continue;  // 0: it has just come in
+            if (system.particles().place[0] != 1 || ++inside == 0) continue;  // 0: it has just entered
             const float share = seconds > 0 ? std::min(static_cast<float>(inside) * dt / seconds, 1.0f) : 1.0f;
             const particles::ParticleStore& store = system.particles().store;
             ASSERT_NEAR(store.green[0], share, 1e-4f);
@@ -234,7 +234,7 @@ TEST(ShapeSystem, BringsAParticleToItsVoxelsLooksLinearlyOverItsTimeOrAtOnce) {
 }
 
 TEST(Forces, KeepAnOrbitWithinHalfAStepsTurnOfItsRadius) {
-    // |r/r₀ − 1| ≤ ω·dt for a circle by v += −ω²·r·dt, x += v·dt, whose energy is kept.
+    // |r/r₀ − 1| ≤ ω·dt for a circle by v += −ω²·r·dt, x += v·dt, which conserves energy.
     for (const float rate : {1.0f, 3.0f, 6.0f}) {
         ShapeSystem system = oneParticle(1, {0, 0, 0});
         system.grid().voxels()[0].setForce(Force::orbit, {0, rate, 0}, 0);
@@ -261,7 +261,7 @@ TEST(Forces, GravitySwingsAParticleThroughTheMiddleAndBack) {
     system.particles().store.x[0] = 0.9f;
     for (int step = 1; step <= 300; ++step) {
         system.step({}, withoutBirths(), dt);
-        // x = A·cos(ωt), by a scheme whose phase is right to (ω·dt)².
+        // x = A·cos(ωt); the scheme's phase is accurate to (ω·dt)².
         ASSERT_NEAR(store.x[0] - 0.5f, 0.4f * std::cos(4 * dt * (static_cast<float>(step) + 0.5f)), 0.004f) << step;
         ASSERT_EQ(store.y[0], 0.5f);
     }
@@ -325,7 +325,7 @@ TEST(Motion, OfTheShapeIsGivenToNewbornsAndLeavesTheOthersAlone) {
     pose.velocity = {5, 0, 0};
     pose.angularVelocity = {0, 2, 0};
     pose.growth = 0.5f;
-    // Where the shape has gone without its particles is seen in the step after that.
+    // Particles that the shape leaves behind notice it one step later.
     for (int step = 1; step <= 2; ++step) {
         pose.position = pose.velocity * (static_cast<float>(step) * dt);
         system.step(pose, {}, dt);

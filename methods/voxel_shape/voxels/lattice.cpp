@@ -9,7 +9,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// The mesh keeps this share of a voxel clear of the lattice's rim, so that rounding puts no corner outside.
+/// Distance of the mesh from the lattice's boundary as a share of a voxel, so that rounding puts no vertex outside.
 constexpr float rim = 1e-3f;
 
 }  // namespace
@@ -19,7 +19,7 @@ void requireSoundMesh(const scene::Mesh& mesh, const char* what) {
     if (mesh.indices.size() < 3) throw InputError(name + ": got a mesh without triangles, expected at least one");
     for (const std::uint32_t index : mesh.indices)
         if (index >= mesh.positions.size())
-            throw InputError(name + ": a triangle names vertex " + std::to_string(index) + ", allowed: 0.." +
+            throw InputError(name + ": a triangle uses vertex " + std::to_string(index) + ", allowed: 0.." +
                              std::to_string(static_cast<std::int64_t>(mesh.positions.size()) - 1));
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         for (int axis = 0; axis < 3; ++axis)

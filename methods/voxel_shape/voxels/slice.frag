@@ -1,4 +1,4 @@
-// The colour that becomes the voxel's.
+// The surface colour, which becomes the voxel's.
 in vec3 surfaceColour;
 layout(location = 0) out vec4 colour;
 

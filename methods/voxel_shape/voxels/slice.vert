@@ -1,4 +1,4 @@
-// One layer of a lattice, seen along −z: what lies outside it is clipped away by the near and far planes.
+// One layer of a lattice, viewed along −z; the near and far planes clip everything outside it.
 layout(location = 0) in vec3 position;
 layout(location = 2) in vec3 vertexColour;
 uniform vec3 origin;
@@ -9,7 +9,7 @@ out vec3 surfaceColour;
 
 void main() {
     vec3 place = (position - origin) / edge;
-    // Reversed depth: 1 at the layer's upper side, where the eye is; 0 at its lower.
+    // Reversed depth: 1 at the layer's upper side, where the eye is, 0 at its lower side.
     gl_Position = vec4(place.xy / counts * 2.0 - 1.0, place.z - layer, 1.0);
     surfaceColour = vertexColour;
 }

@@ -10,7 +10,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// A mesh as draw::SolidMesh wants it, with normals and colours that are not there filled in.
+/// Converts a mesh for draw::SolidMesh; adds missing normals and colours.
 scene::Solid solidOf(const scene::Mesh& mesh) {
     auto whole = std::make_shared<scene::Mesh>(mesh);
     whole->normals.resize(mesh.positions.size(), glm::vec3(0, 1, 0));
@@ -46,7 +46,7 @@ MarkedVoxels slicePass(gpu::Device& device, const scene::Mesh& mesh, const Latti
         solid.draw(program, state);
         const std::vector<float> depths = depth.readFloats();
         const std::vector<float> colours = colour.readFloats();
-        const std::size_t first = lattice.index({0, 0, layer});  // texture rows rise from the bottom, as y does
+        const std::size_t first = lattice.index({0, 0, layer});  // texture rows count from the bottom, like y
         for (std::size_t i = 0; i < layerSize; ++i)
             if (depths[i] > 0) {
                 result.marked[first + i] = 1;
@@ -59,7 +59,7 @@ MarkedVoxels slicePass(gpu::Device& device, const scene::Mesh& mesh, const Latti
 MarkedVoxels slicesAlongAllAxes(gpu::Device& device, const scene::Mesh& mesh, const Lattice& lattice) {
     MarkedVoxels result(lattice);
     for (int turns = 0; turns < 3; ++turns) {
-        // (x, y, z) → (y, z, x), `turns` times: the axis looked along is another each time.
+        // (x, y, z) → (y, z, x), `turns` times, so that each axis becomes the viewing direction once.
         const auto turned = [turns](const auto& v) {
             return std::decay_t<decltype(v)>(v[turns % 3], v[(turns + 1) % 3], v[(turns + 2) % 3]);
         };

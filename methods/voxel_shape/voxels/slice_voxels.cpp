@@ -12,7 +12,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// Corners seen along z in steps of 1/256 pixel, to which rasterisers move them: areas are then exact.
+/// Corners projected along z, in steps of 1/256 pixel as in rasterisers, which makes areas exact.
 using Snapped = glm::i64vec2;
 constexpr float stepsAPixel = 256;
 
@@ -20,18 +20,19 @@ Snapped snapped(const glm::vec3& corner) {
     return {std::llround(corner.x * stepsAPixel), std::llround(corner.y * stepsAPixel)};
 }
 
-/// Twice the signed area of a, b and p.
+/// Returns twice the signed area of the triangle a, b, p.
 std::int64_t area(const Snapped& a, const Snapped& b, const Snapped& p) {
     return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-/// A pixel's middle on an edge belongs to the triangle on one side of it: where the edge is its left or its bottom one,
-/// in counter-clockwise order.
+/// Top-left rule: a pixel centre on an edge belongs to the triangle if the edge is its left or bottom one, in
+/// counter-clockwise order.
 bool takesItsEdge(const Snapped& a, const Snapped& b) {
     return b.y < a.y || (b.y == a.y && b.x > a.x);
 }
 
-/// Marks what the triangles of one row of constant y meet in it. `depths` has room for a row's voxels, x fastest.
+/// Marks the voxels in one row of constant y that triangles meet. `depths` is scratch for the voxels of a row, x
+/// fastest.
 void markRow(const TriangleBins& bins, int row, MarkedVoxels& result, std::vector<float>& depths) {
     const Lattice& lattice = result.lattice;
     depths.assign(depths.size(), -std::numeric_limits<float>::infinity());

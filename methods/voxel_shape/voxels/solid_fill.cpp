@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<glm::ivec3, 6> steps{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
 
-/// Goes from `front` on to every cell that `take(cell, from)` accepts, nearest first.
+/// Breadth-first search from `front` over all cells that `take(cell, from)` accepts.
 template <typename Take>
 void spread(const Lattice& lattice, std::vector<std::uint32_t> front, const Take& take) {
     std::vector<std::uint32_t> next;
@@ -32,8 +32,9 @@ void spread(const Lattice& lattice, std::vector<std::uint32_t> front, const Take
     }
 }
 
-/// 1 where a cell can be reached from beyond the lattice through unmarked cells. Row by row, to and fro, each cell from
-/// those beside it, until a sweep finds nothing new: few sweeps, for few shapes wind.
+/// 1 for each cell that is reachable from outside the lattice through unmarked cells. Sweeps row by row, forwards and
+/// backwards, each cell from its neighbours, until a sweep finds no new cell. Few sweeps suffice, since few shapes
+/// wind.
 class OutsideSweeps {
  public:
     explicit OutsideSweeps(const MarkedVoxels& surface)
@@ -48,7 +49,7 @@ class OutsideSweeps {
     [[nodiscard]] const std::vector<std::uint8_t>& reached() const { return reached_; }
 
  private:
-    /// Whether anything was found.
+    /// Returns whether the sweep reached a new cell.
     bool sweep(bool back) {
         bool any = false;
         for (int k = 0; k < counts_.z; ++k)
@@ -89,9 +90,9 @@ class OutsideSweeps {
 
     glm::ivec3 counts_;
     const std::uint8_t* marked_;
-    std::vector<std::uint8_t> outside_;  ///< a row beyond the lattice
+    std::vector<std::uint8_t> outside_;  ///< a row outside the lattice
     std::vector<std::uint8_t> reached_;
-    std::vector<std::size_t> found_;  ///< by row: how many are reached
+    std::vector<std::size_t> found_;  ///< cells reached, by row
 };
 
 }  // namespace
@@ -128,7 +129,7 @@ void fillSolid(MarkedVoxels& surface, const scene::Mesh& mesh) {
     if (fillInside(surface)) return;
     if (const std::size_t open = meshes::openEdges(mesh); open > 0)
         throw InputError("solid voxels: the mesh is open (" + std::to_string(open) +
-                         " edges of one triangle alone) and encloses nothing at this resolution; allowed: a closed "
+                         " open edges) and encloses nothing at this resolution; allowed: a closed "
                          "mesh, holes narrower than a voxel, or fill = \"surface\"");
 }
 

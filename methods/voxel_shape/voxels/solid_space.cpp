@@ -7,11 +7,11 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// 1 where the way up from `p` leaves through the triangle, which is wound counter-clockwise as seen from outside;
-/// −1 where it enters; 0 where it misses.
+/// Returns 1 if the ray upwards from `p` leaves through the triangle (counter-clockwise as seen from outside), −1 if it
+/// enters, 0 if it misses.
 int crossing(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& p) {
-    // From above the way is a point, and the triangle's edges span these areas with it. Two triangles see the edge that
-    // they share as areas of opposite sign, to the last bit.
+    // Seen from above, the ray is a point that spans these areas with the triangle's edges. For an edge shared by two
+    // triangles, the two areas are exactly opposite, to the last bit.
     const auto area = [&](const glm::dvec3& from, const glm::dvec3& to) {
         return (from.z - p.z) * (to.x - p.x) - (from.x - p.x) * (to.z - p.z);
     };

@@ -9,7 +9,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// A cube of edge 2 around the origin, wound counter-clockwise as seen from outside.
+/// A cube of edge 2 around the origin, counter-clockwise as seen from outside.
 scene::Mesh cube() {
     scene::Mesh mesh;
     for (int corner = 0; corner < 8; ++corner)

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float margin = 1.0f / 256;
 
-/// Marks what the triangles of one layer touch in it. `hits` has room for one layer.
+/// Marks the voxels of one layer that triangles touch. `hits` is scratch for one layer.
 void markLayer(const TriangleBins& bins, int layer, MarkedVoxels& result, std::vector<float>& hits) {
     const Lattice& lattice = result.lattice;
     const std::size_t first = lattice.index({0, 0, layer});

@@ -42,8 +42,8 @@ bool VoxelChange::contradictsItself() const {
 
 namespace {
 
-/// Where inactive voxels lie that `within` is true for, they become copies of the nearest active one by steps through
-/// faces, before they become active themselves.
+/// Turns each inactive voxel for which `within` holds into a copy of the nearest active one, counted in steps through
+/// faces. The copy stays inactive.
 template <typename Within>
 void giveNearestLooks(VoxelGrid& grid, const Within& within) {
     const Lattice& lattice = grid.lattice();

@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* versionName = "dustbench_voxels";
 
-/// One attribute: its name in the file, how many numbers it has, its range, and how to get at them.
+/// An attribute: its name in the file, number of components, range, and accessors.
 struct Attribute {
     const char* name;
     int components;
@@ -35,7 +35,7 @@ float fileNumber(const Voxel& voxel) {
     return voxel.forceKind() == Force::spiral ? voxel.forceNumber * glm::length(voxel.force) : voxel.forceNumber;
 }
 
-/// `force` comes after `force_kind` and `force_number`, which it needs.
+/// `force` must follow `force_kind` and `force_number`, which it needs.
 constexpr Attribute attributes[]{
     {"active", 1, 0, 1, [](const Voxel& v, int) { return v.isActive() ? 1.0f : 0.0f; },
      [](Voxel& v, const float* n) { v.setActive(n[0] >= 0.5f); }},
@@ -71,7 +71,7 @@ constexpr Attribute attributes[]{
      }},
 };
 
-/// Takes VTK's complaints instead of standard error.
+/// Catches VTK's errors and warnings, which would otherwise go to standard error.
 class Complaints {
  public:
     Complaints() {
@@ -100,7 +100,7 @@ Lattice latticeOf(vtkImageData& image, const std::filesystem::path& file) {
             fail(file, "got " + std::to_string(lattice.counts[axis]) + " voxels along one side, allowed: 1.." +
                            std::to_string(maximumVoxelsASide));
         if (!(spacing[axis] > 0) || std::abs(spacing[axis] / spacing[0] - 1) > 1e-5)
-            fail(file, "the voxels are no cubes: got spacings of " + std::to_string(spacing[0]) + ", " +
+            fail(file, "the voxels are not cubes: got spacings of " + std::to_string(spacing[0]) + ", " +
                            std::to_string(spacing[1]) + ", " + std::to_string(spacing[2]));
         lattice.origin[axis] =
             static_cast<float>(image.GetOrigin()[axis] + image.GetExtent()[2 * axis] * spacing[axis]);
@@ -187,10 +187,10 @@ VoxelGrid readVoxels(MemoryLedger& ledger, const std::filesystem::path& file) {
     reader->Update();
     vtkImageData* const image = reader->GetOutput();
     if (complaints.any() || !image || image->GetNumberOfCells() == 0)
-        fail(file, "not a whole file of VTK's image data (.vti)");
+        fail(file, "not a complete VTK image data file (.vti)");
     vtkDataArray* const version = image->GetFieldData()->GetArray(versionName);
     if (!version || version->GetNumberOfTuples() != 1)
-        fail(file, std::string("no file of voxels of dustbench: it has no field data '") + versionName + "'");
+        fail(file, std::string("not a dustbench voxel file: it has no field data '") + versionName + "'");
     if (version->GetComponent(0, 0) != voxelFileVersion)
         fail(file, "voxels of version " + std::to_string(std::lround(version->GetComponent(0, 0))) +
                        ", allowed: " + std::to_string(voxelFileVersion));

@@ -13,7 +13,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-/// A sphere whose voxels differ in every attribute.
+/// A sphere in which every attribute varies from voxel to voxel.
 VoxelGrid varied(MemoryLedger& ledger) {
     const scene::Mesh sphere = sphereMesh(1, 12);
     VoxelGrid grid(ledger, surfaceVoxels(sphere, latticeAround(sphere, 9)), Voxel());
@@ -76,9 +76,10 @@ TEST(VoxelFile, SaysInOneLineWhatIsWrong) {
         return changed.replace(at, what.size(), instead);
     };
     for (const std::size_t size : {std::size_t{0}, std::size_t{100}, text.size() / 2, text.size() - 40})
-        EXPECT_NE(message(text.substr(0, size)).find("not a whole file"), std::string::npos) << size;
-    EXPECT_NE(message("something else").find("not a whole file"), std::string::npos);
-    EXPECT_NE(message(with("dustbench_voxels", "somebodys_voxels")).find("no file of voxels"), std::string::npos);
+        EXPECT_NE(message(text.substr(0, size)).find("not a complete"), std::string::npos) << size;
+    EXPECT_NE(message("something else").find("not a complete"), std::string::npos);
+    EXPECT_NE(message(with("dustbench_voxels", "somebodys_voxels")).find("not a dustbench voxel file"),
+              std::string::npos);
     EXPECT_NE(message(with("\"lifetime_seconds\"", "\"livetime_seconds\"")).find("'lifetime_seconds'"),
               std::string::npos);
     VoxelGrid grid = varied(ledger);

@@ -9,7 +9,7 @@ namespace {
 constexpr int reach = 2;
 constexpr std::size_t voxelsABlock = 256;
 
-/// −Σ d/|d|² of the matter at distances d within reach.
+/// Returns −Σ d/|d|² over the matter at offsets d within reach.
 glm::vec3 awayFromMatter(const MarkedVoxels& matter, const glm::ivec3& cell) {
     glm::vec3 sum(0);
     for (int z = -reach; z <= reach; ++z)

@@ -1,4 +1,4 @@
-// Voxelising and filling; the bunny where data/shapes/fetch_bunny.py has fetched it, else the rock.
+// Voxelising and filling of the bunny, if data/shapes/fetch_bunny.py has fetched it, otherwise of the rock.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -49,7 +49,7 @@ void solid(benchmark::State& state) {
         benchmark::DoNotOptimize(voxels.marked.data());
     }
 }
-/// Millions of triangles.
+/// A mesh of millions of triangles.
 void fineSphere(benchmark::State& state) {
     const scene::Mesh mesh = sphereMesh(1, static_cast<int>(state.range(1)));
     state.SetLabel(std::to_string(mesh.indices.size() / 3) + " triangles");

@@ -67,12 +67,12 @@ TEST(SurfaceVoxels, MarkNothingThatTheSurfaceStaysAwayFrom) {
     const scene::Mesh sphere = sphereMesh(1, 60);
     const MarkedVoxels voxels = surfaceVoxels(sphere, latticeAround(sphere, 40));
     const float reach =
-        voxels.lattice.edgeMetres * std::sqrt(3.0f) / 2 + 2e-3f;  // half a diagonal, and the facets' sag
+        voxels.lattice.edgeMetres * std::sqrt(3.0f) / 2 + 2e-3f;  // half a diagonal plus the sag of the facets
     for (std::uint32_t i = 0; i < voxels.marked.size(); ++i) {
         const float away = std::abs(glm::length(voxels.lattice.centre(voxels.lattice.cell(i))) - 1);
         ASSERT_TRUE(!voxels.marked[i] || away <= reach) << away;
     }
-    // A slanted triangle leaves most of its bounding box alone.
+    // A slanted triangle leaves most of its bounding box unmarked.
     scene::Mesh slanted;
     slanted.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0.001f}};
     slanted.indices = {0, 1, 2};
@@ -102,12 +102,12 @@ TEST(Slices, OfTheGpuLieInTheConservativeSetAndAgreeWithTheirCopyOnTheCpu) {
         const Overlap both = overlapOf(drawn, copy), missed = overlapOf(whole, drawn);
         EXPECT_EQ(overlapOf(drawn, whole).onlyFirst, 0u) << name;
         EXPECT_GE(static_cast<double>(both.both) / static_cast<double>(both.either), 0.99) << name;
-        // The paper's own error: what is seen edge-on or lies between the pixels' middles.
+        // The paper's own error: parts that are edge-on or lie between the pixel centres.
         const double share = static_cast<double>(missed.onlyFirst) / static_cast<double>(whole.count());
         ::testing::Test::RecordProperty(std::string("missed_by_slices_") + name, std::to_string(share));
         EXPECT_GT(share, 0) << name;
         EXPECT_LT(share, 0.8) << name;
-        // Along all three axes less is missed, and still nothing found that is not there.
+        // Along all three axes fewer voxels are missed, and still none is marked wrongly.
         const MarkedVoxels three = slicesAlongAllAxes(device(), mesh, lattice);
         EXPECT_EQ(overlapOf(three, whole).onlyFirst, 0u) << name;
         EXPECT_EQ(overlapOf(drawn, three).onlyFirst, 0u) << name;
@@ -160,7 +160,7 @@ TEST(SolidFill, MarksWhatNoWayLeadsToFromOutside) {
             MarkedVoxels maze(Lattice{counts, glm::vec3(0), 1});
             std::bernoulli_distribution isWall(share);
             for (std::uint8_t& marked : maze.marked) marked = isWall(random) ? 1 : 0;
-            // The slow way: from each cell that was reached to its neighbours, one at a time.
+            // Reference: flood fill from each reached cell to its neighbours, one at a time.
             std::vector<std::uint8_t> inside(maze.marked.size(), 1);
             std::vector<glm::ivec3> reached;
             const auto reach = [&](const glm::ivec3& cell) {
@@ -213,10 +213,10 @@ TEST(Lattice, SaysWhatIsWrongWithAMesh) {
     EXPECT_NE(message(mesh, 8).find("vertex 3 is not a finite point"), std::string::npos);
     mesh = sphereMesh(1, 6);
     mesh.indices[4] = 10'000;
-    EXPECT_NE(message(mesh, 8).find("names vertex 10000"), std::string::npos);
+    EXPECT_NE(message(mesh, 8).find("uses vertex 10000"), std::string::npos);
     mesh = rectangleMesh({1, 2, 3}, {0, 0, 0}, {0, 0, 0});
     EXPECT_NE(message(mesh, 8).find("longest side is 0"), std::string::npos);
-    // Degenerate triangles are thin, not wrong.
+    // Degenerate triangles are valid.
     mesh = rectangleMesh({0, 0, 0}, {1, 1, 1}, {0, 0, 0});
     EXPECT_GE(surfaceVoxels(mesh, latticeAround(mesh, 8)).count(), 8u);
 }
