@@ -14,12 +14,12 @@ TEST(ObstacleExperiment, TellsAnObstacleFromNoneAndFromOneThatSwallowsTheStream)
     obstacles::ObstacleSettings settings;
     settings.isSolid = false;
     EXPECT_GT(obstacles::measureObstacleLeakage(settings).smokeInside, 0.5);
-    // Without a pressure nothing turns the stream aside.
+    // Without pressure the stream is not deflected.
     settings = {flow::PressureMethod::jacobi, 0};
     EXPECT_GT(obstacles::measureObstacleLeakage(settings).swallowed, 0.3);
 }
 
-/// As the harness lends it, but without worlds: this experiment asks for none.
+/// The harness's context, but without worlds: this experiment requests none.
 class Context final : public ExperimentContext {
  public:
     [[nodiscard]] std::uint64_t seed() const override { return 1; }
@@ -39,7 +39,7 @@ TEST(SightExperiment, FindsWhatIsDrawnWrong) {
     for (const auto& [name, error] : errors)
         if (name != "solid_unseen") EXPECT_LT(error, 1e-4) << name;
     EXPECT_GT(errors["solid_unseen"], 0.1);
-    // A ray that ends at an alpha of a half leaves the other half out.
+    // A ray that stops at an alpha of one half omits the other half.
     raycast::RaycastSettings settings;
     settings.stopAlpha = 0.5;
     EXPECT_GT(sight::maximumSightError(context.device(), settings, {{{0, 0, 9}, {0, 0, -1}, {}}}), 0.1);

@@ -19,7 +19,7 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-/// A ball of radius 1 of so many rings; its poles lie on the y axis.
+/// Returns a ball of radius 1 with `rings` rings; its poles lie on the y axis.
 scene::Mesh ball(int rings) {
     scene::Mesh mesh;
     const int sides = 2 * rings;
@@ -62,7 +62,7 @@ TEST(MeshCells, FillABallByItsVolumeAndNothingBeside) {
                 EXPECT_TRUE(distance > 9.8 || inside);
                 EXPECT_TRUE(distance < 10 || !inside);
             }
-    // Cut off by the box, on the side from which the rays come and on that to which they go.
+    // The box cuts the ball in half, where the rays enter or where they leave.
     for (const double x : {0.0, 40.0}) {
         cells.clear();
         cells.add(ball(24), placed({x, 18, 16}, 10), 1);
@@ -82,7 +82,7 @@ TEST(MeshCells, TakeOverlapsAndOpenPanels) {
     MeshCells one({40, 24, 24}, ledger.account("cells")), other({40, 24, 24}, ledger.account("cells"));
     one.add(ball(16), placed({14, 12, 12}, 8), 1);
     other.add(ball(16), placed({24, 12, 12}, 8), 1);
-    // Lamps: a panel before either end, facing outwards.
+    // Lamps: a panel in front of either end, facing outwards.
     for (const float x : {5.9f, 32.1f}) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         for (const glm::vec3& corner : {glm::vec3(x, 10, 10), {x, 14, 10}, {x, 14, 14}, {x, 10, 14}})
@@ -108,7 +108,7 @@ GridFluidSettings settingsOf(const char* fluid, glm::ivec3 cells) {
     return settings;
 }
 
-/// A vehicle that is a ball of 1.2 m, driving along +X at 12 m/s over dust whose puffs are all alike.
+/// A vehicle, a ball of 1.2 m, that drives along +X at 12 m/s over dust of identical puffs.
 class Drive : public TestMoment {
  public:
     static constexpr std::size_t puffs = 240;
@@ -124,7 +124,7 @@ class Drive : public TestMoment {
             dust.radius[i] = 1;
             dust.opacity[i] = 0.1f;
             dust.lifetime[i] = 4;
-            dust.age[i] = i == 0 ? 0.001f : 1;  // one birth a step: 60 a second, 240 alive
+            dust.age[i] = i == 0 ? 0.001f : 1;  // one birth per step: 60 per second, 240 alive
         }
         move();
     }
@@ -170,7 +170,7 @@ TEST(DustMass, IsThatOfTheSharedCloudWhileAllIsWithinTheBox) {
     EXPECT_NEAR(share, expected / (240 * puff), 0.03 * expected / (240 * puff));
 }
 
-/// Whether the flow's cells lie on the GPU.
+/// Returns whether the cells of the flow are in GPU memory.
 bool isSolvedOnGpu(const GridFluid& method) {
     const MemoryReport report = method.memory();
     return std::ranges::any_of(report,
@@ -221,11 +221,11 @@ TEST(GridFluid, FollowsTheVehicleByWholeCellsAndHandsOverAllItHas) {
     EXPECT_NEAR(collector.mass, method.opticalMassSquareMetres(), 1e-4 * collector.mass);
     EXPECT_EQ(collector.names,
               (std::vector<std::string>{"density", "temperature", "reaction", "velocity", "pressure", "solids"}));
-    // The body and its four wheels, as far as they do not overlap.
+    // The body and its four wheels, apart from their overlap.
     const double volume = collector.inside * std::pow(0.25, 3);
     EXPECT_NEAR(volume, 4.0 / 3 * std::numbers::pi * (1 + 4 * std::pow(0.33, 3)), 0.6);
 
-    // It is seen where it is, and drawn the same twice.
+    // It appears at its position, and two drawings are identical.
     const pictures::Image picture = drive.draw(method), again = drive.draw(method);
     EXPECT_GT(method.primitives(), 0);
     EXPECT_EQ(picture.pixels, again.pixels);
@@ -301,7 +301,7 @@ TEST(GridFluid, IsSolvedWhereThePictureIsMadeUnlessToldOtherwise) {
     method.prepare(moment.scene, {}, TestMoment::device());
     std::size_t onGpu = 0;
     for (const MemoryUse& use : method.memory()) onGpu += use.gpuBytes;
-    EXPECT_GE(onGpu, 16u * 16 * 16 * (3 * 24 + 4 + 12 + 4));  // three fields, kinds, pressure and what is shown
+    EXPECT_GE(onGpu, 16u * 16 * 16 * (3 * 24 + 4 + 12 + 4));  // three fields, kinds, pressure and the displayed field
 }
 
 TEST(GridFluid, RefusesWhatCannotFlow) {

@@ -33,8 +33,8 @@ struct Sight {
 ///     free_…      the camera outside, nothing in its way
 ///     solid_…     a ball before the box, within it, half within it, behind it
 ///     inside_…    the camera within the box, so near to it that the near plane cuts its front, and with a ball
-///     solid_unseen  control: a ray caster that is not told of the ball before the box
-/// Throws InputError where there is no OpenGL.
+///     solid_unseen  control: a ray caster that ignores the ball before the box
+/// Throws InputError if there is no OpenGL.
 [[nodiscard]] ExperimentInfo describe();
 
 }  // namespace dustbench::grid_fluid::sight

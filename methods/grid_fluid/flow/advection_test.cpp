@@ -1,4 +1,4 @@
-// Advection of a scalar in a given flow: its order, and what it does to a peak.
+// Advection of a scalar in a prescribed flow: order of convergence, and effect on a peak.
 #include "methods/grid_fluid/flow/advection.h"
 
 #include <gtest/gtest.h>
@@ -27,8 +27,8 @@ struct Carried {
     double peak;
 };
 
-/// A Gaussian of σ = 0.09 turns `turns` times about the middle of a unit square of n×n cells, 0.6 cells a step at its
-/// place.
+/// Rotates a Gaussian of σ = 0.09 by `turns` turns around the centre of a unit square of n×n cells. It moves by 0.6
+/// cells per step.
 Carried carryRound(int n, AdvectionRule rule, double turns) {
     const CellLayout layout(glm::ivec3(n, n, 1));
     MemoryLedger ledger;
@@ -41,7 +41,7 @@ Carried carryRound(int n, AdvectionRule rule, double turns) {
         const double x = (i + 0.5) / n - 0.5 - 0.22 * std::cos(at), y = (j + 0.5) / n - 0.5 - 0.22 * std::sin(at);
         return std::exp(-(x * x + y * y) / (2 * 0.09 * 0.09));
     };
-    // The flow, in cells per step; set again each step, for it is carried as well.
+    // The flow, in cells per step; restored at each step, since the velocity is advected as well.
     const auto setFlow = [&](CellField& field) {
         for (int k = -1; k <= 1; ++k)
             for (int j = -1; j <= n; ++j)
@@ -86,12 +86,12 @@ TEST(Advection, ConvergesAtItsOrder) {
 }
 
 TEST(Advection, ATurnCostsThePeakWhatIsKnownOfEachScheme) {
-    // Linear look-up a fraction f of a cell away adds f(1 − f) cells² to σ² along that axis. On a circle, 0.6 cells a
-    // step, its mean is 0.6·2/π − 0.36/2; the peak falls as σ² grows.
+    // Linear interpolation at a fraction f of a cell adds f(1 − f) cells² to σ² along that axis. On a circle at 0.6
+    // cells per step the mean is 0.6·2/π − 0.36/2; the peak decreases as σ² grows.
     const double before = std::pow(0.09 * 64, 2), steps = 2 * pi * 0.22 * 64 / 0.6;
     const double known = before / (before + steps * (0.6 * 2 / pi - 0.18));
     EXPECT_NEAR(carryRound(64, {AdvectionScheme::semiLagrangian}, 1).peak, known, 0.02);
-    // A second-order one keeps it but for what the clamp cuts off at the top.
+    // A second-order scheme keeps the peak except for what the clamp cuts off.
     EXPECT_NEAR(carryRound(64, {AdvectionScheme::macCormack, Limit::clamp}, 1).peak, 1, 0.05);
     EXPECT_NEAR(carryRound(64, {AdvectionScheme::macCormack, Limit::none}, 1).peak, 1, 0.04);
 }

@@ -1,7 +1,8 @@
-// A smoke step of 128×64×64 cells past a sphere, whole and by kernel, beside the memory's own speed.
+// A smoke step of 128×64×64 cells past a sphere, whole and by kernel, with the memory bandwidth for comparison.
 //
-// Spacing and step are 1, so that speeds are cells per step and the maximum divergence is that of other solvers.
-// `GB/s` is what a kernel must move at least, by its time; hold it against Triad in the same run.
+// Spacing and time step are 1, so that speeds are in cells per step and the maximum divergence is comparable with that
+// of other solvers. `GB/s` is the minimum memory traffic of a kernel divided by its time; compare it with Triad of the
+// same run.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -33,7 +34,7 @@ class Plume {
             inside.resize(settings.box.cellCount());
             setSphere(0);
         }
-        const int steps = cells.x > 128 ? 5 : 60;  // large ones are for their size, not for their flow
+        const int steps = cells.x > 128 ? 5 : 60;  // the large boxes measure size; the flow need not be developed
         for (int step = 0; step < steps; ++step) {
             if (moving) setSphere(step);
             solver->step(1, sources);
@@ -75,14 +76,14 @@ glm::ivec3 boxOf(const benchmark::State& state) {
     return {static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), static_cast<int>(state.range(2))};
 }
 
-/// What a kernel must read and write at least, by its time.
+/// Reports the minimum memory traffic of a kernel divided by its time.
 void countBytes(benchmark::State& state, double bytesPerCell) {
     const glm::dvec3 cells(boxOf(state));
     state.counters["GB/s"] = benchmark::Counter(bytesPerCell * cells.x * cells.y * cells.z * 1e-9,
                                                 benchmark::Counter::kIsIterationInvariantRate);
 }
 
-/// a = b + s·c over as many floats as there are cells, with the threads that the kernels use.
+/// a = b + s·c for one float per cell, with the threads that the kernels use.
 void triad(benchmark::State& state) {
     const glm::ivec3 box = boxOf(state);
     const std::size_t count =
@@ -116,7 +117,7 @@ void wholeStep(benchmark::State& state, bool moving) {
         static_cast<double>(plume.ledger.totalBytes()) / static_cast<double>(plume.settings.box.cellCount());
 }
 
-/// The plume's state apart from its solver, for one kernel at a time.
+/// The plume's state without its solver, to run one kernel at a time.
 struct Kernels {
     explicit Kernels(glm::ivec3 cells)
         : plume(cells, true),
@@ -143,7 +144,7 @@ struct Kernels {
     PressureSolver pressure;
     std::size_t floats;
     CellField from, to;
-    LedgerVector<float> borrowed;  ///< as the solver lends it: aligned, in large pages
+    LedgerVector<float> borrowed;  ///< scratch as the solver provides it: aligned, in large pages
     Advection advection;
     SolidCells solids;
     Projection projection;
@@ -157,14 +158,14 @@ void advect(benchmark::State& state, AdvectionScheme scheme) {
 
 void forces(benchmark::State& state) {
     Kernels kernels(boxOf(state));
-    // Too short a step to change the flow, however often it is repeated.
+    // The time step is too short to change the flow over all repetitions.
     for (auto _ : state)
         applyForces(kernels.from, kernels.layout, kernels.solids.conductance(), kernels.plume.settings.forces, 1, 1e-9f,
                     kernels.borrowed);
     countBytes(state, 24 + 16 + 16 + 48);
 }
 
-/// Operator, divergence, solution and gradient: all between the forces and the flow without divergence.
+/// The whole projection: operator, divergence, solution and gradient.
 void pressure(benchmark::State& state) {
     Kernels kernels(boxOf(state));
     kernels.fill(GhostUse::faces);
@@ -173,7 +174,7 @@ void pressure(benchmark::State& state) {
         kernels.build();
         kernels.gather();
         result = kernels.pressure.solve({PressureMethod::multigrid, 0, 30, 1e-3f});
-        // Into a copy that is not used: the input stays.
+        // Write to an unused copy, so that the input stays the same.
         kernels.projection.subtractGradient(kernels.to, kernels.layout, kernels.solids, kernels.pressure.finest());
     }
     state.counters["cycles"] = result.cycles;

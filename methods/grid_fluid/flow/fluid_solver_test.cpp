@@ -1,4 +1,4 @@
-// The whole solver against known solutions, conserved quantities and bad input.
+// The whole solver: known solutions, conserved quantities and bad input.
 #include "methods/grid_fluid/flow/fluid_solver.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,8 @@ void forCells(const CellLayout& layout, const Cell& cell) {
             for (int i = 0; i < layout.nx; ++i) cell(i, j, k, layout.at(i, j, k));
 }
 
-/// Root mean square error of the velocity of a Taylor-Green vortex in a closed box, relative to the exact one.
+/// Returns the root mean square error of the velocity of a Taylor-Green vortex in a closed box, relative to the exact
+/// solution.
 double taylorGreenError(int n) {
     FluidSettings settings;
     settings.box = {{n, n, 4}, pi / n, {0, 0, 0}};
@@ -62,7 +63,7 @@ TEST(FluidSolver, TaylorGreenDecaysAtTheKnownRate) {
     EXPECT_GT(std::log2(middle / fine), 0.9);
 }
 
-/// A plume in a box of 1.6 m or so, with or without a sphere that may move.
+/// A plume in a box of about 1.6 m, optionally with a sphere that may move.
 struct Plume {
     explicit Plume(glm::ivec3 cells = {24, 32, 24}, float tolerance = 1e-3f) {
         settings.box = {cells, 0.1, {0, 0, 0}};
@@ -112,7 +113,7 @@ TEST(FluidSolver, KeepsTheDivergenceBelowTheToleranceWithMovingSolids) {
         EXPECT_LE(report.divergencePerStep, 1e-3f) << "step " << step;
         EXPECT_LE(report.pressure.cycles, 6) << "step " << step;
     }
-    // Nothing is in the sphere, and it moves as it was told.
+    // The sphere is empty and has the velocity that was set.
     std::size_t cell = 0;
     forCells(plume.solver->layout(), [&](int, int, int, std::size_t at) {
         const float* record = plume.solver->cells().cell(at);
@@ -144,7 +145,7 @@ TEST(FluidSolver, APlumeRisesSymmetrically) {
 }
 
 TEST(FluidSolver, LosesLittleOfTheDensityOrNone) {
-    // A cloud in a closed box without sources loses 4.9 % in 40 steps: look-ups and the clamp do not conserve.
+    // A cloud in a closed box without sources loses 4.9 % in 40 steps: interpolation and clamp do not conserve.
     const auto kept = [](bool keepsDensity, int steps) {
         Plume plume;
         plume.settings.sides = closed;
@@ -153,7 +154,7 @@ TEST(FluidSolver, LosesLittleOfTheDensityOrNone) {
         for (int step = 0; step < 10; ++step) plume.solver->step(0.03, plume.sources);
         const double before = plume.sum(density);
         for (int step = 0; step < steps; ++step) {
-            // What a sphere covers on its way is given back.
+            // The density that a moving sphere covers is restored.
             if (keepsDensity) plume.setSphere({0.4 + 0.06 * step, 0.8, 1.2}, {2, 0, 0});
             plume.solver->step(0.03, {});
         }
@@ -272,7 +273,7 @@ TEST(FluidSolver, TakesWhatLiesOutsideAndVeryLongSteps) {
     FluidSource far = plume.sources[0];
     far.centreMetres = {1e30, -50, 0};
     plume.sources.push_back(far);
-    for (int step = 0; step < 5; ++step) plume.solver->step(5, plume.sources);  // hundreds of cells a step
+    for (int step = 0; step < 5; ++step) plume.solver->step(5, plume.sources);  // hundreds of cells per step
     EXPECT_TRUE(std::isfinite(plume.sum(density)));
 }
 

@@ -1,4 +1,4 @@
-// Advection and forces against slow, clear versions of themselves.
+// Advection and forces, compared with simple reference implementations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ TEST(Advection, EqualsThePlainOne) {
             const std::vector<PlainRecord> plain =
                 plainAdvection(world.from, world.layout, world.solids.conductance(), rule, 0.9,
                                static_cast<double>(std::max(speed, 1.0f)));
-            // A place on the border between two cells may fall to either side, where the extrema jump.
+            // A position on the border of two cells may be rounded to either side, where the extrema differ.
             int different = 0;
             for (int k = 0; k < 27; ++k)
                 for (int j = 0; j < 9; ++j)
@@ -62,7 +62,7 @@ TEST(Forces, CurlOfARigidRotationIsTwiceItsSpeed) {
 }
 
 TEST(Forces, ConfinementTurnsAroundAVortexRing) {
-    // A vortex along z: the force pushes along N × ω, which feeds the rotation where |ω| falls off outwards.
+    // A vortex along z. The force acts along N × ω and strengthens the rotation where |ω| decreases outwards.
     World world({16, 16, 4}, closed);
     const auto swirl = [](int i, int j) {
         const glm::vec2 d(static_cast<float>(i) - 7.5f, static_cast<float>(j) - 7.5f);
@@ -89,7 +89,7 @@ TEST(Forces, ConfinementTurnsAroundAVortexRing) {
     EXPECT_GT(fed, 0.1);
 }
 
-/// Forces of one cell in double precision, as their equations say; `before` is the state that they act on.
+/// Returns the forces on one cell by their equations, in double precision; `before` is the state that they act on.
 PlainRecord slowForces(const World& world, const CellField& before, glm::ivec3 at, const ForceSettings& settings,
                        double h, double dt) {
     const CellLayout& layout = world.layout;
@@ -108,7 +108,7 @@ PlainRecord slowForces(const World& world, const CellField& before, glm::ivec3 a
         };
         return glm::dvec3(slope(2, 1) - slope(1, 2), slope(0, 2) - slope(2, 0), slope(1, 0) - slope(0, 1));
     };
-    glm::dvec3 towards;  // the way in which |ω| grows
+    glm::dvec3 towards;  // direction in which |ω| increases
     for (int axis = 0; axis < 3; ++axis) {
         glm::ivec3 ahead = at, back = at;
         ++ahead[axis], --back[axis];

@@ -1,4 +1,4 @@
-// A box of random flow and random solids, for the tests of the kernels.
+// A box with random flow and random solids, for the tests of the kernels.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace dustbench::grid_fluid::flow {
 
-/// The state before and after, the solids, and numbers from a fixed seed.
+/// The states before and after, the solids, and a random generator with a fixed seed.
 struct World {
     explicit World(glm::ivec3 cells, Sides boxSides = openOverFloor)
         : layout(cells),
@@ -27,7 +27,7 @@ struct World {
                 from.cell(at)[lane] = value(random) * (lane < 3 ? speed : 1.0f);
         fillGhosts(from, layout, {sides, {0.3f, 0, 0}, false}, GhostUse::lookUp);
     }
-    /// Each cell is solid by chance, and one of many bodies.
+    /// Makes each cell solid with probability `share`, as part of one of many bodies.
     void setRandomSolids(double share) {
         const std::size_t count = layout.rows() * static_cast<std::size_t>(layout.nx);
         std::bernoulli_distribution chance(share);

@@ -1,4 +1,4 @@
-// The pressure and the projection against the equations that they solve.
+// Pressure and projection, checked with the equations that they solve.
 #include <gtest/gtest.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -19,7 +19,7 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-/// A field of the finest grid in the order of padded cells.
+/// Returns a field of the finest grid in the order of padded cells.
 std::vector<double> padded(const CellLayout& layout, const PoissonLevel& level, const SplitField& field) {
     std::vector<double> values(layout.padded(), 0.0);
     for (int k = 0; k < layout.nz; ++k)
@@ -33,7 +33,7 @@ PlainPressure plainOf(const World& world, const PoissonLevel& level) {
     return {world.layout, world.solids.conductance(), padded(world.layout, level, level.rightSide)};
 }
 
-/// Maximum of |∇·u| over the faces that the projection leaves.
+/// Returns the maximum of |∇·u| over the faces after the projection.
 float divergenceAfter(const World& world, const PoissonLevel& level) {
     const std::uint8_t* conductance = world.solids.conductance();
     PlainPressure plain(world.layout, conductance, plainDivergence(world.from, world.layout, conductance));
@@ -84,7 +84,8 @@ TEST(Pressure, IsThatOfThePlainSweeps) {
             gatherDivergence(world.from, world.layout, conductance, solver.finest());
             const PressureResult result = solver.solve({PressureMethod::multigrid, 0, 40, 1e-5f});
             EXPECT_LE(result.residual, 1e-5f);
-            // The right side as it was balanced; where nothing flows out, only differences of the pressure are known.
+            // Use the balanced right-hand side. Without outflow the pressure is defined up to a constant, so compare
+            // differences.
             PlainPressure plain = plainOf(world, solver.finest());
             for (int sweep = 0; sweep < 3000; ++sweep) plain.sweepGaussSeidel();
             ASSERT_LE(plain.maximumResidual(), 2e-6) << "share " << share;
@@ -142,7 +143,7 @@ TEST(Pressure, AllSweepsOfAPassAreThoseOneAfterTheOther) {
                         ASSERT_NEAR(level.pressure.cell(level.layout, i, j, k), plain.q[world.layout.at(i, j, k)],
                                     1e-5);
             EXPECT_NEAR(residual, level.residual(), 1e-5);
-            // Each residual is in one coarse cell.
+            // Each residual belongs to exactly one coarse cell.
             for (int k = 0; k < cells.z; k += 2)
                 for (int j = 0; j < cells.y; j += 2)
                     for (int i = 0; i < cells.x; i += 2) {
@@ -216,7 +217,7 @@ TEST(Pressure, ConvergesBehindThinWallsAndInClosedBoxes) {
 }
 
 TEST(Pressure, SaysWhatNoPressureCanBalance) {
-    // A wall of the box moves inwards and nothing can leave.
+    // A wall of the box moves inwards and the fluid cannot leave.
     World world({8, 8, 8}, closed);
     world.inside.assign(512, 0);
     world.motions = {{{1, 0, 0}}};

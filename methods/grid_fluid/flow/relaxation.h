@@ -1,13 +1,13 @@
 // Over-relaxation factors of the pressure's sweeps and coarse corrections, the same for every backend.
 //
-// A sweep solves red cells, then black cells. For the black cells alone this is a step of Richardson's method: an error
-// wave with Jacobi factor μ is multiplied by 1 − ω(1 − μ²) if the black half-sweep steps ω times as far. Coarse grids
-// handle μ² > 4/9; on the rest, three equal sweeps leave up to (4/9)³ = 0.09, and the three factors here 0.02. Red
-// cells never over-relax, so their previous values have no influence; nor do black cells in the last sweep before a
+// A sweep solves red cells, then black cells. Seen from the black cells only, this is a step of Richardson's method: an
+// error wave with Jacobi factor μ is multiplied by 1 − ω(1 − μ²) if the black half-sweep steps ω times as far. Coarse
+// grids handle μ² > 4/9; on the rest, three equal sweeps leave up to (4/9)³ = 0.09, and the three factors here 0.02.
+// Red cells never over-relax, so their previous values have no influence; nor do black cells in the last sweep before a
 // residual is taken, which then vanishes there.
 //
-// Source: Yavneh1996 (over-relaxed red-black sweeps in three dimensions). Departs: a factor for each sweep, for black
-// cells alone.
+// Source: Yavneh1996 (over-relaxed red-black sweeps in three dimensions). Departs: a factor per sweep, for black cells
+// only.
 #pragma once
 
 #include <array>

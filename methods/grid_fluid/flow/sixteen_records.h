@@ -99,7 +99,8 @@ class SixteenRecords {
     std::array<Float16, lanes> vectors_;
 };
 
-/// Iterates over a row's cells: `sixteenCells(first)` for sixteen consecutive fluid cells, else `cell(i)` one by one.
+/// Iterates over a row's cells: `sixteenCells(first)` for sixteen consecutive fluid cells, otherwise `cell(i)` one by
+/// one.
 template <typename SixteenCells, typename Cell>
 [[gnu::always_inline]] inline void forCells(const std::uint8_t* conductance, std::size_t cells,
                                             const SixteenCells& sixteenCells, const Cell& cell) {

@@ -1,7 +1,8 @@
-// The same smoke step past a sphere, by the solver on the CPU and by that on the GPU (or what OpenGL takes for one).
+// The same smoke step past a sphere with the CPU solver and with the GPU solver (on whatever device OpenGL uses).
 //
-// Spacing and step are 1, as in fluid_bench.cpp. The GPU is waited for after each stage, so that `advect_ms` and its
-// like are the stages' own. The column CPU counts all threads: it can be compared where other programs run as well.
+// Spacing and time step are 1, as in fluid_bench.cpp. The benchmark waits for the GPU after each stage, so that
+// `advect_ms` and the others are the times of the stages. The column CPU is the sum over all threads, which allows
+// comparisons while other programs run.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -21,7 +22,7 @@ gpu::Device& device() {
     return one;
 }
 
-/// Times a step's stages, each with all that it has queued.
+/// Times the stages of a step, each including the work that it has queued.
 class Stages final : public StageListener {
  public:
     void begin(Stage) override {}

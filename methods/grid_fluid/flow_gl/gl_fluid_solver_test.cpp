@@ -1,4 +1,4 @@
-// The solver on the GPU against that on the CPU, and against itself.
+// The GPU solver, compared with the CPU solver and with itself.
 #include "methods/grid_fluid/flow_gl/gl_fluid_solver.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ gpu::Device& device() {
     return one;
 }
 
-/// A box with a source, random flow in it and a ball that moves and turns, for either solver.
+/// A box with a source, random flow and a ball that moves and rotates, for either solver.
 struct Flow {
     explicit Flow(glm::ivec3 cells = {24, 20, 16}) {
         settings.box = {cells, 0.1, {0, 0, 0}};
@@ -42,7 +42,7 @@ struct Flow {
         sources[1].densityPerSecond = 0;
         sources[1].amountM3PerSecond = 0.2f;
     }
-    /// Velocities up to `speed` and all else between 0 and 1, smooth enough to be a flow.
+    /// Returns a smooth random state: velocities up to `speed`, other values between 0 and 1.
     [[nodiscard]] CellField randomState(MemoryLedger& ledger, float speed) const {
         const CellLayout layout(settings.box.cells);
         CellField state(layout, ledger.account("state"));
@@ -89,7 +89,7 @@ void forCells(const CellLayout& layout, const Cell& cell) {
             for (int i = 0; i < layout.nx; ++i) cell(i, j, k, layout.at(i, j, k));
 }
 
-/// The maximum difference of each number that cells hold, by the maximum value of its kind; velocities together.
+/// The maximum difference of each value in the cells, relative to the maximum value of its kind; velocities together.
 struct Difference {
     double velocity = 0, density = 0, temperature = 0, reaction = 0, mean = 0;
 };
@@ -116,7 +116,7 @@ Difference between(const CellField& one, const CellField& other, const CellLayou
     return result;
 }
 
-/// The same steps by both solvers.
+/// The same steps with both solvers.
 struct Pair {
     Pair(Flow& flow, bool withBall, int steps = 3) {
         flow::FluidSolver cpu(flow.settings, ledger);
@@ -192,7 +192,7 @@ TEST(GlFluidSolver, StepsAsTheCpuDoesWithTheDensityKeptAndASmoothBall) {
     flow.settings.keepsDensity = true;
     flow.settings.advection.limit = flow::Limit::revert;
     const Pair pair(flow, true);
-    // Where a corrected value is about as large as its limit, either may be taken: few cells, and not far apart.
+    // If a corrected value is close to its limit, the solvers may choose differently: in few cells, by little.
     EXPECT_LE(pair.difference.mean, 1e-6);
     EXPECT_LE(pair.difference.density, 0.05);
     EXPECT_LE(pair.difference.velocity, 0.05);
@@ -205,7 +205,7 @@ TEST(GlFluidSolver, StepsAsTheCpuDoesInAClosedBoxOfOddSize) {
     flow.settings.advection.limit = flow::Limit::none;
     const Pair pair(flow, true);
     pair.expectTheSame();
-    EXPECT_GT(pair.onGpu.pressure.unremovable, 0);  // a ball that changes its cells is a piston now and then
+    EXPECT_GT(pair.onGpu.pressure.unremovable, 0);  // a ball that occupies new cells acts as a piston at times
     EXPECT_LE(pair.onGpu.divergencePerStep, 2e-5f);
 }
 
@@ -306,7 +306,7 @@ TEST(GlFluidSolver, StopsWhereANumberIsLost) {
     solver.writeCells(state);
     EXPECT_EQ(lost(), "fluid: after step 1 the temperature of cell 3, 2, 5 is not a number");
 
-    // One that the step itself loses.
+    // A value that overflows within the step.
     state.cell(solver.layout().at(3, 2, 5))[flow::temperature] = 3e38f;
     solver.writeCells(state);
     EXPECT_EQ(lost().substr(0, 25), "fluid: after step 2 the v");
