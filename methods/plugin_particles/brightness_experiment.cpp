@@ -20,7 +20,7 @@ constexpr int directions = 100;
 constexpr std::size_t points = 400;
 constexpr float stepSeconds = 1.0f / 60;
 
-/// Particles before an eye that looks along −Z.
+/// Particles in front of an eye that looks along −Z.
 class Canvas {
  public:
     explicit Canvas(gpu::Device& device) : device_(device), store(ledger_) {
@@ -56,7 +56,7 @@ class Canvas {
         }
         return draw::readBack(layer.colour());
     }
-    /// So many pixels at the distance of the particles, in metres.
+    /// Converts pixels at the distance of the particles to metres.
     [[nodiscard]] float metresOf(float pixels) const {
         return pixels * distance / (view_.eyeToClip()[1][1] * height / 2);
     }
@@ -118,7 +118,7 @@ Finding lightAtFourTimes(const char* quantity, const char* part, gpu::Device& de
     return meanOf(quantity, ratios);
 }
 
-/// The same points in an order of its own.
+/// Places the same points, in reversed order if `reversed`.
 void scatter(Canvas& canvas, std::uint64_t seed, bool reversed) {
     canvas.store.resize(points);
     for (std::size_t k = 0; k < points; ++k) {

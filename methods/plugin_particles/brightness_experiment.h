@@ -1,4 +1,4 @@
-// Measures what ways to draw do to brightness: lines of fast particles, the order of additive light, white backgrounds
+// Measures how drawing methods affect brightness: lines of fast particles, order of additive light, white backgrounds
 // (claims R17 and R21).
 //
 // Units: m. Threads: that of the device. Source: Thesis, 4.1.1 (blending) and 4.1.3 (lines).
@@ -10,8 +10,8 @@ namespace dustbench::plugin_particles::brightness {
 
 /// The experiment `brightness`:
 ///     point_light_4x, line_light_4x, hybrid_light_4x
-///                              light of a particle, summed over the picture, at four times the speed over that at once
-///                              the speed: mean over 100 random directions across the view
+///                              light of a particle, summed over the picture, at four times the speed relative to the
+///                              original speed: mean over 100 random directions across the view
 ///     shuffled_additive, shuffled_clamped, shuffled_alpha
 ///                              largest difference of any pixel between two orders of the same 400 points: light added
 ///                              up, the same clamped in its own buffer, and alpha without sorting

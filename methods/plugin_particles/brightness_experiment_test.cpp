@@ -17,7 +17,7 @@ TEST(Brightness, FollowsFromTheWayOfDrawing) {
         EXPECT_EQ(found["point_light_4x"].value, 1);
         // α·L/2 of a line of L pixels along the longer axis: 4, but for the pixel at its end.
         EXPECT_NEAR(found["line_light_4x"].value, 4, 0.3);
-        // 10/2 + 1 pixels against 40/2 + 1, on the average over directions.
+        // 10/2 + 1 pixels against 40/2 + 1, averaged over directions.
         EXPECT_GT(found["hybrid_light_4x"].value, 2.5);
         EXPECT_LT(found["hybrid_light_4x"].value, found["line_light_4x"].value);
         EXPECT_LT(found["shuffled_additive"].value, 1e-5);

@@ -1,4 +1,4 @@
-// Meshes in the place of particles.
+// Draws a mesh for each particle.
 #include "methods/kit/draw/mesh_instances.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/meshes/mesh_file.h"

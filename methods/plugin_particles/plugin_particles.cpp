@@ -10,21 +10,21 @@
 namespace dustbench::plugin_particles {
 namespace {
 
-/// Systems whose particles are counted by facts of their own.
+/// Number of systems whose particles are counted as separate facts.
 constexpr std::size_t countedSystems = 4;
 
 std::string aliveFact(std::size_t system) {
     return "alive_" + std::to_string(system + 1);
 }
 
-/// Systems of the data folder; the default is one of them even where its file is missing, which is then said on use.
+/// Returns the systems of the data folder. Always lists the default, so that a missing file is reported on use.
 std::vector<std::string> systemNames() {
     std::vector<std::string> names = files::listData("particles", ".toml");
     if (std::ranges::find(names, "wheel_dust") == names.end()) names.emplace_back("wheel_dust");
     return names;
 }
 
-/// The first system has the run's seed, so that `wheel_dust` is the shared dust; the chance of each other is its own.
+/// The first system uses the run's seed, so that `wheel_dust` is the shared dust; the others get seeds of their own.
 std::uint64_t seedOf(std::size_t system, std::uint64_t seed) {
     return seed ^ (system * 0x9e3779b97f4a7c15ULL);
 }
@@ -34,7 +34,7 @@ std::int64_t shareOf(std::size_t system, std::size_t systems, std::int64_t parti
     return particles / count + (static_cast<std::int64_t>(system) < particles % count ? 1 : 0);
 }
 
-/// The system that a change's name begins with, which is cut off; a single system need not be named.
+/// Returns the system named at the beginning of a change, and removes that name; a single system need not be named.
 std::size_t systemOf(std::string_view& name, const std::vector<std::string>& systems) {
     const std::string_view first = name.substr(0, name.find('.'));
     const auto found = std::ranges::find(systems, first);
@@ -93,7 +93,7 @@ void PluginParticles::prepare(const scene::Scene& scene, const RunSetup& setup, 
     for (System& system : systems_) makePicture(system);
 }
 
-/// Unless it has it already.
+/// Keeps the present picture if its look is unchanged.
 void PluginParticles::makePicture(System& system) {
     const particles::RenderPart* part = system.particles.parts().render();
     std::string shownAs = part ? part->name() : "puff";
@@ -107,8 +107,8 @@ void PluginParticles::makePicture(System& system) {
 
 void PluginParticles::applyChanges(const Frame& frame) {
     if (applied_ == changes_.size()) return;
-    // Negative during preroll and warm-up. A change at a frame's very begin belongs to it, however its time is rounded:
-    // to a thousandth of a step.
+    // Negative during preroll and warm-up. A change at the beginning of a frame belongs to that frame despite rounding
+    // of its time: the tolerance is a thousandth of a step.
     const double now = (static_cast<double>(frame.index) + 1e-3) * frame.stepSeconds;
     std::vector<std::string> names;
     names.reserve(systems_.size());

@@ -1,10 +1,10 @@
-// Particle systems put together from parts: one or several with names, each with a simulation of its own.
+// Particle systems assembled from parts: one or several named systems, each with its own simulation.
 //
-// The systems are stepped in the order of their file and drawn in that order, each over those before it; they do not
-// see each other. With the harness's `particles=N` they share N evenly. With `wheel_dust` the state is that of the
-// shared dust, bit by bit. Parts and their parameters may change while the run goes on (kit/particles/part_change.h);
-// with several systems, a change's name begins with the system's. Source: Thesis, 3 (design), 4.1 (rendering). Departs:
-// structure of arrays instead of linked lists.
+// The systems are stepped and drawn in the order of their file, each drawn over the previous ones; they do not
+// interact. With the harness's `particles=N` they share N evenly. With `wheel_dust` the state equals that of the shared
+// dust, bit by bit. Parts and their parameters may change during a run (kit/particles/part_change.h); with several
+// systems, a change's name begins with the system's. Source: Thesis, 3 (design), 4.1 (rendering). Departs: structure of
+// arrays instead of linked lists.
 #pragma once
 
 #include <memory>
@@ -21,10 +21,11 @@ namespace dustbench::plugin_particles {
 
 class PluginParticles final : public Method {
  public:
-    /// One or more systems. `changes`: by time. Throws InputError if a change is impossible where its turn comes.
+    /// Takes one or more systems. `changes`: sorted by time. Throws InputError if a change will be impossible at its
+    /// time.
     explicit PluginParticles(std::vector<particles::NamedParts> systems, std::vector<Change> changes = {});
 
-    /// Throws InputError if fewer particles are asked for than there are systems.
+    /// Throws InputError if fewer particles are requested than there are systems.
     void prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) override;
     void update(const Frame& frame) override;
     void draw(const Frame& frame, gpu::Layer& layer) override;
@@ -34,7 +35,7 @@ class PluginParticles final : public Method {
     [[nodiscard]] std::int64_t primitives() const override;
     [[nodiscard]] std::optional<std::uint64_t> stateHash() const override;
     [[nodiscard]] bool wantsPreroll() const override { return true; }
-    /// `systems.toml`: the systems as they are now. Loading it gives the same parts.
+    /// Returns `systems.toml`: the current systems. Loading it gives the same parts.
     [[nodiscard]] std::vector<KeptFile> files() const override;
 
  private:
@@ -51,7 +52,7 @@ class PluginParticles final : public Method {
 
     std::vector<particles::NamedParts> parts_;  ///< until `prepare`
     std::vector<Change> changes_;
-    std::size_t applied_ = 0;  ///< of changes_
+    std::size_t applied_ = 0;  ///< number of changes applied
     std::vector<System> systems_;
     const scene::Scene* scene_ = nullptr;
     gpu::Device* device_ = nullptr;

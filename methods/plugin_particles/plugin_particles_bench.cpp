@@ -1,4 +1,4 @@
-// Benchmarks points and lines as a system draws them against a bare loop that uploads and draws the same.
+// Compares the time of drawing points and lines by a system with a bare loop that uploads and draws the same.
 //
 // The bare loop writes the columns into the instance buffer one particle after another, draws with the same shader into
 // the same layer, and waits. Before timing, both pictures are compared.
@@ -114,7 +114,7 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// In turns. `share_of_bare` is the median over the rounds of bare / system time: 1 means no overhead.
+/// Runs both in turn. `share_of_bare` is the median over the rounds of bare / system time: 1 means no overhead.
 void inTurns(benchmark::State& state, Workload& work, auto& bare, auto& system) {
     const pictures::Image a = pictureOf(work, bare), b = pictureOf(work, system);
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
@@ -153,7 +153,7 @@ BENCHMARK(points)
     ->MinTime(4);
 BENCHMARK(lines)->Arg(10'000)->Arg(100'000)->Arg(1'000'000)->UseManualTime()->Unit(benchmark::kMillisecond)->MinTime(4);
 
-/// What each way to draw takes for 10,000 particles.
+/// Times each way to draw 10,000 particles.
 void way(benchmark::State& state, const char* part, const particles::NamedValues& values) {
     Workload work(10'000);
     System system(work, part, values);

@@ -13,7 +13,7 @@
 namespace dustbench::plugin_particles {
 namespace {
 
-/// A fountain of one system; others get another name.
+/// A fountain of one system; other systems differ in name.
 std::string fountain(const std::string& name) {
     return "[[system]]\nname = \"" + name + R"("
 emission = { part = "stream", rate_per_second = 600, rate_per_metre = 0 }
@@ -146,7 +146,7 @@ TEST(PluginParticles, ChangeInTheFrameThatBeginsAtTheirTime) {
         EXPECT_NE(hashAfter(frame + 1, at), hashAfter(frame + 1, "")) << frame;
         EXPECT_EQ(hashAfter(frame + 10, at), hashAfter(frame + 10, at)) << frame;
     }
-    // Not during the preroll and the warm-up.
+    // Changes do not apply during preroll and warm-up.
     EXPECT_EQ(hashAfter(10, "0s:" + change, -10), hashAfter(10, "", -10));
     EXPECT_NE(hashAfter(11, "0s:" + change, -10), hashAfter(11, "", -10));
 }
@@ -171,7 +171,7 @@ TEST(PluginParticles, KeepTheirSystemsAsTheyAreAtTheEnd) {
     EXPECT_THAT(after[0].text, testing::HasSubstr("speed = 9\n"));
     EXPECT_THAT(before[0].text, testing::Not(testing::HasSubstr("speed = 9\n")));
 
-    // What was kept before the change, loaded and changed in the same way, has the same history.
+    // The state saved before the change, loaded and changed in the same way, has the same history.
     Moment again;
     PluginParticles loaded = made(before[0].text, "0.1s:two.velocity.speed=9");
     again.run(loaded, 13);
@@ -187,21 +187,21 @@ TEST(PluginParticles, RefuseImpossibleChangesAtOnce) {
     EXPECT_THAT(inputError([&] { made(two, "1s:one.velocity.sped=9"); }), testing::HasSubstr("did you mean 'speed'"));
     EXPECT_THAT(inputError([&] { made(fountain("one"), "1s:velocity.sped=9"); }),
                 testing::HasSubstr("did you mean 'speed'"));
-    // A parameter of a part that only an earlier change brings.
+    // A parameter of a part that only an earlier change adds.
     EXPECT_THAT(inputError([&] { made(two, "1s:one.size.end_metres=2"); }), testing::HasSubstr("of 'constant'"));
     EXPECT_NO_THROW(made(two, "1s:one.size.end_metres=2;0.5s:one.size.part=linear"));
     for (const char* bad : {"-1s:one.velocity.speed=9", "1:one.velocity.speed=9", "1s", "1s:=2", "1s:a=", "nans:a=2"})
         EXPECT_THAT(inputError([&] { made(two, bad); }), testing::HasSubstr(std::string("parameter at: got '") + bad));
 }
 
-/// A minute of every delivered system: their numbers stay at what is asked for, and their states are numbers.
+/// A minute of every delivered system: the numbers of particles stay at the requested ones, and the states are finite.
 TEST(PluginParticles, DeliveredSystemsAreStable) {
     for (const std::string& name : files::listData("particles", ".toml")) {
         Moment moment;
         moment.scene.vehicle.emplace();
         PluginParticles method(particles::systemsFromFile(files::findData("system", "particles", name, ".toml")));
         method.prepare(moment.scene, {1, 2000}, Moment::device());
-        double sum = 0;  // of the last 40 s; bursts make the number swing
+        double sum = 0;  // of the last 40 s, since bursts make the number oscillate
         for (int second = 0; second < 60; ++second) {
             for (scene::WheelState& wheel : moment.state.vehicle.wheels) wheel.velocity = {20, 0, 0};
             moment.state.vehicle.speed = 20;

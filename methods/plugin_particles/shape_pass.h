@@ -1,4 +1,4 @@
-// How one primitive is uploaded and drawn; a system's picture has the pass that its render part asks for.
+// How one primitive is uploaded and drawn; a system's picture uses the pass that its render part selects.
 //
 // Owns: the instances, on the GPU. Threads: the OpenGL thread. Source: Thesis, 4.1.
 #pragma once
@@ -23,8 +23,8 @@ struct Drawn {
     std::span<const std::uint32_t> order;
     float stepSeconds;
 
-    /// The way that particle `i` has come in `seconds` (0: a step), at most since its birth: straight along its
-    /// velocity, which is exact for a step without a collision.
+    /// Returns the path of particle `i` over the last `seconds` (0: a step), at most since its birth: straight along
+    /// its velocity, which is exact for a step without a collision.
     [[nodiscard]] glm::vec3 wayOf(std::size_t i, float seconds) const {
         const float lasted = std::min(seconds > 0 ? seconds : stepSeconds, puffs.age[i]);
         return lasted * glm::vec3(puffs.velocityX[i], puffs.velocityY[i], puffs.velocityZ[i]);
@@ -35,7 +35,7 @@ class ShapePass {
  public:
     virtual ~ShapePass() = default;
     virtual void upload(const Drawn& drawn) = 0;
-    /// Draws what was uploaded last into `layer`, as often as wanted.
+    /// Draws the last upload into `layer`; may be called repeatedly.
     virtual void draw(const scene::View& view, const gpu::Layer& layer) = 0;
     /// Primitives that a `draw` submits.
     [[nodiscard]] virtual std::size_t count() const = 0;
@@ -52,7 +52,7 @@ class ShapePass {
 [[nodiscard]] std::unique_ptr<ShapePass> makeObjectPass(gpu::Device& device, const particles::Look& look,
                                                         const scene::Lights& lights);
 
-/// Calls `put(value, i)` for each particle `i` in drawing order, with `value` where its floats belong.
+/// Calls `put(value, i)` for each particle `i` in drawing order; `value` points to the particle's floats in the buffer.
 template <typename Put>
 void fill(std::span<float> memory, std::size_t floats, const Drawn& drawn, const Put& put) {
     parallel::forEachBlock(drawn.puffs.size(), 16'384, [&](std::size_t first, std::size_t count) {

@@ -1,7 +1,7 @@
-// Puffs and sprites, and sprites that are blurred along their way.
+// Puffs and sprites, and sprites that are blurred along their path.
 //
-// Copy k of n stands at (k + 1)/n of the way and counts for w_k = 2(k + 1)/(n(n + 1)) of the sprite where it fades in,
-// else for 1/n: the copies together have the optical depth, or the light, of one sprite.
+// Copy k of n stands at (k + 1)/n of the path. It has the weight w_k = 2(k + 1)/(n(n + 1)) if the sprite fades in,
+// otherwise 1/n: together the copies have the optical depth, or the light, of one sprite.
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/layer_blend.h"
 #include "methods/kit/files/data_folder.h"

@@ -1,9 +1,8 @@
-// One system's particles on the screen, as its render part says.
+// Draws one system's particles as its render part specifies.
 //
-// Additive light is drawn into a buffer of its own and clamped there (kit/draw/layer_blend.h), unless the part says
-// otherwise. For glasses of red and green everything is drawn once for each eye; the opaque scene remains that of one
-// eye in the middle. Owns: the pass, the buffers and the order of drawing. Threads: the OpenGL thread.
-// Source: Thesis, 4.1.
+// Additive light is drawn into its own buffer and clamped there (kit/draw/layer_blend.h), unless the part says
+// otherwise. For red-green glasses everything is drawn once per eye; the opaque scene stays that of a single eye in the
+// middle. Owns: the pass, the buffers and the drawing order. Threads: the OpenGL thread. Source: Thesis, 4.1.
 #pragma once
 
 #include <memory>
@@ -18,7 +17,7 @@
 
 namespace dustbench::plugin_particles {
 
-/// The view of one of two eyes, `eyesMetres` apart; both look in the same direction.
+/// Returns the view of one of two eyes, `eyesMetres` apart; both look in the same direction.
 [[nodiscard]] scene::View seenBy(draw::Eye eye, const scene::View& view, float eyesMetres);
 
 class SystemPicture {
@@ -33,10 +32,10 @@ class SystemPicture {
     };
     /// Sorts, if needed, and uploads the particles.
     void upload(const Moment& moment, const StageClock& clock);
-    /// Draws what was uploaded last, as often as wanted.
+    /// Draws the last upload; may be called repeatedly.
     void draw(const scene::View& view, const gpu::Layer& layer);
 
-    /// Primitives that the last `draw` submitted.
+    /// Returns the number of primitives that the last `draw` submitted.
     [[nodiscard]] std::size_t count() const { return pass_->count() * (look_.stereo ? 2 : 1); }
     [[nodiscard]] MemoryReport memory() const;
 

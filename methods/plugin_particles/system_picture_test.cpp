@@ -18,7 +18,7 @@ Look lookOf(const char* part, const NamedValues& values = {}) {
     return particles::makePartOf<particles::RenderPart>(particles::PartKind::render, part, values)->look();
 }
 
-/// A few particles before an eye that looks along −Z, in a picture of 160 x 120.
+/// A few particles in front of an eye that looks along −Z, in a picture of 160 x 120.
 class Canvas : public TestMoment {
  public:
     explicit Canvas(std::size_t count) : TestMoment(count, 160, 120, {0, 0, 0}, {0, 0, -1}) {
@@ -125,14 +125,14 @@ TEST(SystemPicture, TheLeftEyeIsGreenAndTheRightOneRed) {
     Canvas canvas(1);
     const float luminance = 0.2126f + 0.7152f * 0.5f + 0.0722f * 0.25f;
     for (const auto& [blend, alpha] : {std::pair("additive", 0.0f), std::pair("alpha", 0.25f)}) {
-        // Each eye sees the point 6 pixels off the middle.
+        // Each eye sees the point 6 pixels from the middle.
         const std::string eyes = std::to_string(12 * canvas.pixelMetres(10));
         const pictures::Image image = canvas.drawn(
             lookOf("points", {{"pixels", "1"}, {"blend", blend}, {"stereo", "on"}, {"eyes_metres", eyes}}));
         expectNear(at(image, 86, 60), {0, 0.5f * luminance, 0, alpha}, 1e-5f);
         expectNear(at(image, 74, 60), {0.5f * luminance, 0, 0, alpha}, 1e-5f);
         expectNear(at(image, 80, 60), glm::vec4(0));
-        // Seen from one place both fall together: yellow.
+        // With both eyes at one place the pictures coincide: yellow.
         expectNear(at(canvas.drawn(lookOf("points",
                                           {{"pixels", "1"}, {"blend", blend}, {"stereo", "on"}, {"eyes_metres", "0"}})),
                       80, 60),
@@ -148,7 +148,7 @@ TEST(SystemPicture, AccumulationIsTheMeanOfThePicturesOfItsMoments) {
             canvas.put(0, 70, 60, 8, {1, 0.2f, 0.1f}, 0.9f);
             canvas.put(1, 80, 50, 10, {0.1f, 0.9f, 0.4f}, 0.7f);
             canvas.put(2, 76, 62, 13, {0.5f, 0.5f, 0.9f}, 0.8f);
-            // None overtakes another, so that the order of drawing is the same at all moments.
+            // No particle overtakes another, so the drawing order is the same at all times.
             canvas.dust.velocityX[0] = 2, canvas.dust.velocityY[1] = -3, canvas.dust.velocityZ[2] = 2;
             const pictures::Image got = canvas.drawn(lookOf("aa_sprites", {{"by", "accumulation"},
                                                                            {"copies", std::to_string(copies)},

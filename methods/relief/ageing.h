@@ -2,7 +2,7 @@
 //
 // paper    the texel falls to the bottom and turns white (Bergeron, 3.4 and 4)
 // scalar   the texel falls by a share of the depth (Bergeron, 3.4)
-// crater   the hit breaks off the volume V = ½·m·(v·sin α)²/ε, α between velocity and surface (Bitter1963: deformation
+// crater   the hit removes the volume V = ½·m·(v·sin α)²/ε, α between velocity and surface (Bitter1963: deformation
 //          wear without a threshold), as a paraboloid whose depth is a quarter of its radius
 // deposit  the particle stays: V = m/ρ, as a paraboloid of the same form
 //
@@ -31,7 +31,7 @@ struct AgeingSettings {
     double densityKilogramsPerCubicMetre = 1500;  ///< ρ of what is laid on
 };
 
-/// The volume that a hit takes off or lays on, before it is limited by face and bottom; for crater and deposit.
+/// Returns the volume that a hit removes or deposits, before clipping at face and bottom; for crater and deposit.
 [[nodiscard]] double volumeCubicMetres(const SurfaceHit& hit, const AgeingSettings& settings);
 
 [[nodiscard]] Impact impactOf(const SurfaceHit& hit, const AgeingSettings& settings, const TexelFrame& texels,

@@ -31,7 +31,7 @@ std::vector<Impact> randomImpacts(int side, int hits, std::uint64_t seed, std::u
     return impacts;
 }
 
-/// The exponents of several rounds as a finding: their mean and its 95 % interval.
+/// Returns the exponents of several rounds as a finding: their mean and its 95 % interval.
 Finding findingOf(const char* quantity, const std::vector<double>& exponents) {
     double mean = 0, squares = 0;
     for (const double exponent : exponents) mean += exponent / rounds;
@@ -56,10 +56,10 @@ Finding growth(const char* quantity, Search search, bool overTexels, std::uint64
     return findingOf(quantity, exponents);
 }
 
-/// R24: how often y falls in a step of the paper's law, of particles that start without vertical velocity.
+/// R24: how often y decreases in a step of the paper's law, for particles without initial vertical velocity.
 Finding loweredGreen(const std::string& quantity, const glm::vec3& gravity, std::uint64_t seed) {
     constexpr int count = 1000, steps = 5;
-    scene::Panel panel;  // large enough that none leaves it
+    scene::Panel panel;  // large enough that no particle leaves it
     panel.sizeMetres = glm::dvec2(1e4);
     panel.depthMetres = 1e4;
     auto relief = std::make_shared<scene::Relief>(flatRelief(2));

@@ -1,5 +1,5 @@
-// How the cost of ageing a surface grows with the number of hits and of texels, for both ways to do it (claim R25), and
-// what a hit does to the paper's texture (claim R24).
+// How the cost of ageing a surface grows with the numbers of hits and texels, for both search modes (claim R25), and what a
+// hit does to the paper's texture (claim R24).
 //
 // Threads: one. Source: Bergeron, 3.4, 4 and 5.
 #pragma once
@@ -12,10 +12,10 @@
 
 namespace dustbench::relief::ageing {
 
-/// The shortest of `repetitions` times to age a surface of side × side texels by `hits` random hits, in seconds.
+/// Returns the minimum of `repetitions` times to age a surface of side × side texels by `hits` random hits, in seconds.
 [[nodiscard]] double ageingSeconds(Search search, int side, int hits, std::uint64_t seed, int repetitions);
 
-/// The slope of log(seconds) over log(size) by least squares.
+/// Returns the slope of log(seconds) over log(size) by least squares.
 [[nodiscard]] double growthExponent(const std::vector<double>& sizes, const std::vector<double>& seconds);
 
 /// The experiment `ageing`:

@@ -33,7 +33,7 @@ double volumeTaken(const WornSurface& surface, const scene::Panel& panel, const 
            texels.texelAreaSquareMetres();
 }
 
-// From pits of many texels to pits far smaller than one: always the volume of the law.
+// From pits of many texels to pits far smaller than one: the volume always follows the law.
 TEST(Ageing, ACraterHasTheVolumeOfItsLawAtAnySize) {
     const scene::Panel panel = flatPanel(128, 1, 1);
     const TexelFrame texels(panel);
@@ -46,7 +46,7 @@ TEST(Ageing, ACraterHasTheVolumeOfItsLawAtAnySize) {
         EXPECT_NEAR(volumeCubicMetres(hit, settings), expected, 1e-12 * expected);
         surface.scatter(std::vector<Impact>{impactOf(hit, settings, texels, panel.depthMetres)});
         surface.takeOff();
-        // A paraboloid of 1.5 texels that is sampled at texels has a tenth more or less, depending on where it lies.
+        // A paraboloid of 1.5 texels sampled at the texels is off by up to a tenth, depending on its position.
         EXPECT_NEAR(volumeTaken(surface, panel, texels) / expected, 1, 0.12) << hardness;
     }
 }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr float marginMetres = 1e-3f;  // floats of a kilometre are exact to 6e-5 m; the exact test follows
 
-/// The distance of a point from the plane z = 0 of a pose.
+/// The signed distance of a point from the plane z = 0 of a pose.
 struct FacePlane {
     explicit FacePlane(const glm::dmat4& pose)
         : normal(pose[2]), offset(static_cast<float>(glm::dot(glm::dvec3(pose[2]), glm::dvec3(pose[3])))) {}

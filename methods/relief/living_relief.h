@@ -1,4 +1,4 @@
-// One panel with its relief: what enters it, moves in it, hits it and wears it.
+// One panel with its relief: particles that enter it, move in it, hit it and wear it.
 //
 // Units: m, m/s. Owns: surface, particles and their picture. Threads: the OpenGL thread; steps use the current oneTBB
 // arena. Source: Bergeron, 3 (create, move, collide, age the surface, draw it).
@@ -22,7 +22,7 @@
 
 namespace dustbench::relief {
 
-/// How a surface finds what hit it: each texel looks at each hit, or each hit writes its texels.
+/// How a surface applies hits: each texel visits all hits, or each hit writes its texels.
 enum class Search { gather, scatter };
 inline constexpr Choices<Search> searches{{"gather", Search::gather}, {"scatter", Search::scatter}};
 
@@ -37,11 +37,11 @@ struct ReliefSettings {
 
 class LivingRelief {
  public:
-    /// `scene` and the panel in it outlive this.
+    /// `scene` and the panel in it must outlive this object.
     LivingRelief(const scene::Scene& scene, const scene::Panel& panel, const ReliefSettings& settings,
                  gpu::Device& device, MemoryLedger& ledger);
 
-    /// Takes the dust that went through the face in this step and is not in `taken`, and adds it there.
+    /// Adds the dust that passed the face in this step and is not in `taken`, and inserts its serials there.
     void create(const Frame& frame, SerialSet& taken);
     void move(double stepSeconds);
     void age();

@@ -52,7 +52,7 @@ void Relief::simulate(const Frame& frame) {
     for (LivingRelief& relief : reliefs_) relief.age();
 }
 
-/// What went into a relief is not drawn outside of it.
+/// Particles inside a relief are not drawn outside it.
 void Relief::uploadDust(const Puffs& dust, const glm::vec3& eye) {
     const auto order = sort_.farToNear(draw::SortKind::radix, {dust.x, dust.y, dust.z}, eye);
     const auto seen = [&](std::uint32_t i) { return !taken_.contains(dust.serial[i]); };

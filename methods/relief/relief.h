@@ -1,7 +1,7 @@
 // Reliefs that dust wears away: particles enter a panel through its face, move within it, hit its surface and age it.
 //
-// Source: Bergeron. Departs: particles come from the shared dust, and are seen within the relief; both stood there as
-// future work.
+// Source: Bergeron. Departs: particles come from the shared dust and are drawn within the relief; the source names both
+// as future work.
 #pragma once
 
 #include <deque>

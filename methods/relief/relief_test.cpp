@@ -1,4 +1,4 @@
-// The whole method: dust that flies at a panel.
+// The whole method: dust that flies towards a panel.
 #include "methods/relief/relief.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 constexpr int width = 96, height = 72;
 constexpr double dt = 1.0 / 60;
 
-/// A wall of 4 m by 3 m at z = 0 that looks towards +z.
+/// A wall of 4 m by 3 m at z = 0 that faces +z.
 scene::Scene wallScene(unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> any(0, 1);
@@ -124,10 +124,10 @@ TEST_F(ReliefTest, EachParticleThatEntersHitsAndNoneTwice) {
     for (const unsigned seed : {1u, 2u, 3u}) {
         const Outcome outcome = run({{"ageing", "scalar"}, {"scalar", "0"}}, 60, seed);
         EXPECT_GT(through_, 200);
-        // Those within centimetres of the rim may leave by it.
+        // Particles within centimetres of the rim may leave by it.
         EXPECT_LE(outcome.hits, through_);
         EXPECT_GE(outcome.hits, through_ * 97 / 100);
-        EXPECT_EQ(outcome.primitives, 800 - through_);  // what went in is not drawn behind the wall
+        EXPECT_EQ(outcome.primitives, 800 - through_);  // particles inside the relief are not drawn behind the wall
     }
 }
 

@@ -12,7 +12,7 @@ namespace dustbench::volumes {
 namespace {
 
 constexpr std::size_t maximumBytes = std::size_t{4} << 30;
-constexpr double sameWithin = 1e-4;  ///< of a cell: grids that differ by less are one
+constexpr double sameWithin = 1e-4;  ///< of a cell: grids that differ by less count as equal
 
 std::size_t indexOf(const VectorGrid& grid, const glm::ivec3& cell) {
     return (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(grid.cells.y) +
@@ -30,7 +30,7 @@ std::string describe(const VectorGrid& g) {
                        g.spacing, g.origin.x, g.origin.y, g.origin.z);
 }
 
-/// Of the second in cells of the first.
+/// Returns the offset of the second grid in cells of the first.
 glm::dvec3 shift(const VectorGrid& a, const VectorGrid& b) {
     return (b.origin - a.origin) / a.spacing;
 }
@@ -45,7 +45,7 @@ bool isSamePlace(const VectorGrid& a, const VectorGrid& b) {
     return onOneLattice(a, b) && a.cells == b.cells && glm::ivec3(glm::round(shift(a, b))) == glm::ivec3(0);
 }
 
-/// Zeros around it, so that it fills `cells` from `first` on, in its own cells.
+/// Pads a grid with zeros so that it covers `cells` cells from `first` on, in its own cells.
 void pad(VectorGrid& grid, const glm::ivec3& first, const glm::ivec3& cells) {
     VectorGrid wide = grid;
     wide.cells = cells;
@@ -60,7 +60,7 @@ void pad(VectorGrid& grid, const glm::ivec3& first, const glm::ivec3& cells) {
     grid = std::move(wide);
 }
 
-/// Sparse grids end where the field does: they are brought to the box that holds all of them.
+/// Sparse grids end where the field does; pads them to their common bounding box.
 void bringTogether(std::vector<VectorGrid>& grids) {
     const VectorGrid& lead = grids.front();
     glm::ivec3 low(0), high = lead.cells;

@@ -1,7 +1,7 @@
-// A field of vectors that changes with time, read from files of one grid each, as `dustbench export` writes them.
+// A time-dependent vector field, read from files of one grid each as written by `dustbench export`.
 //
-// Trilinear between the centres of cells, constant from the outermost centres to the grid's faces, none beyond them;
-// linear in time, constant before the first and after the last.
+// Trilinear between cell centres, constant from the outermost centres to the grid's faces, undefined outside; linear in
+// time, constant before the first and after the last file.
 // Units: metres, seconds, and the field's own. Frame: the files', which is the world. Threads: const members are safe
 // from any.
 #pragma once
@@ -18,16 +18,16 @@ namespace dustbench::volumes {
 
 class DUSTBENCH_API VectorSeries {
  public:
-    /// Throws InputError where a file cannot be read, has no such field, lies on another grid, or has a time that is
-    /// not later than that of the file before.
+    /// Throws InputError if a file cannot be read, has no such field, has a different grid, or has a time that is not
+    /// later than that of the previous file.
     VectorSeries(std::span<const std::filesystem::path> files, const std::string& field);
-    /// From grids with times; `names` are for messages. Throws InputError likewise.
+    /// Takes grids with times; `names` are for messages. Throws InputError likewise.
     VectorSeries(std::vector<VectorGrid> grids, std::span<const std::filesystem::path> names);
 
-    /// The field at one moment; valid as long as the series.
+    /// The field at one time; valid as long as the series.
     class DUSTBENCH_API Moment {
      public:
-        /// None beyond the grid.
+        /// Returns the field at a point; empty outside the grid.
         [[nodiscard]] std::optional<glm::vec3> at(const glm::dvec3& point) const;
 
      private:
@@ -43,10 +43,10 @@ class DUSTBENCH_API VectorSeries {
     [[nodiscard]] std::size_t bytes() const;
 
  private:
-    std::vector<VectorGrid> grids_;  ///< all of one place and size, times rise
+    std::vector<VectorGrid> grids_;  ///< all of one place and size, times increase
 };
 
-/// The files that a path stands for, which may have `*` in its last part, sorted by name. Throws InputError where there
+/// Returns the files that a path stands for, sorted by name; its last part may contain `*`. Throws InputError if there
 /// is none.
 [[nodiscard]] DUSTBENCH_API std::vector<std::filesystem::path> matchingFiles(const std::filesystem::path& pattern);
 

@@ -22,7 +22,7 @@ VectorGrid sampled(const glm::ivec3& cells, const glm::dvec3& origin, double spa
     return grid;
 }
 
-/// Any linear field of place and time.
+/// A linear field of place and time.
 struct Linear {
     glm::dmat3 slope;
     glm::dvec3 constant, perSecond;

@@ -1,4 +1,4 @@
-// A relief by ray casting: the first point of the ray through this pixel, its light and its depth.
+// A relief by ray casting: the first hit of the ray through this pixel, its shading and its depth.
 in vec3 place;
 
 uniform vec3 eye;  // in the panel's frame
@@ -51,7 +51,7 @@ float sunShare(vec3 metres, vec3 normal) {
 }
 
 void main() {
-    if (gl_FrontFacing) discard;  // each ray once, by where it leaves the plate
+    if (gl_FrontFacing) discard;  // each ray once, at its exit from the plate
     vec3 way = place - eye;
     vec3 toLow = (vec3(-plate.xy, -plate.z) - eye) / way, toHigh = (vec3(plate.xy, 0.0) - eye) / way;
     vec3 entries = min(toLow, toHigh);
@@ -63,7 +63,7 @@ void main() {
     vec3 metres = from + t * (place - from);
     vec3 at = toTexels(metres);
 
-    // The first point may be within the plate: then its back or a rim is seen.
+    // If the ray starts inside the plate, it sees the back or a rim.
     bool cut = t == 0.0 && enter > 0.0 && enter > entries.z;
     bool back = t == 0.0 && eye.z < -plate.z && enter == entries.z;
     vec3 normal = normalAt(at.xy), albedo;

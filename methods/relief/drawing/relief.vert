@@ -1,4 +1,4 @@
-// The plate of a panel as a box of twelve triangles, from the vertex number alone.
+// The plate of a panel as a box of twelve triangles, generated from the vertex number.
 uniform mat4 panelToClip;
 uniform vec3 plate;  // half width, half height, depth; metres
 

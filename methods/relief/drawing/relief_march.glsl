@@ -1,5 +1,5 @@
-// Where a ray first meets the relief. Coordinates: u, v in texels, texel (i, j) at (i, j); depth 0 at the face, 1 at the
-// bottom. surface/surface_hit.h is the oracle.
+// Finds the first hit of a ray with the relief. Coordinates: u, v in texels, texel (i, j) at (i, j); depth 0 at the
+// face, 1 at the bottom. surface/surface_hit.h is the reference.
 layout(std430, binding = 1) readonly buffer Depths { float depths[]; };
 layout(std430, binding = 2) readonly buffer Blocks { float blocks[]; };
 layout(std430, binding = 3) readonly buffer Levels { ivec4 levels[]; };  // offset, columns, rows
@@ -22,7 +22,7 @@ float depthAt(vec2 place) {
 }
 
 #ifdef PAPER_MARCH
-// 15 linear and 5 binary steps. Source: Policarpo2005. Misses what is thinner than a linear step.
+// 15 linear and 5 binary steps. Source: Policarpo2005. Misses features thinner than a linear step.
 float firstHit(vec3 from, vec3 to) {
     float before = 0.0, after = missed;
     for (int k = 0; k <= LINEAR_STEPS; ++k) {
@@ -68,7 +68,7 @@ float hitInPatch(ivec2 patchPlace, vec3 from, vec3 way, float begin, float end) 
     float base = depthOf(corner);
     float alongU = depthOf(corner + ivec2(1, 0)) - base, alongV = depthOf(corner + ivec2(0, 1)) - base;
     float twist = depthOf(corner + ivec2(1, 1)) - alongU - alongV - base;
-    vec3 start = from + begin * way - vec3(corner, 0.0);  // from the patch's own begin: floats keep their digits
+    vec3 start = from + begin * way - vec3(corner, 0.0);  // from the patch's own start, which preserves float precision
     float a = -twist * way.x * way.y;
     float b = way.z - alongU * way.x - alongV * way.y - twist * (start.x * way.y + start.y * way.x);
     float c = start.z - base - alongU * start.x - alongV * start.y - twist * start.x * start.y;
@@ -76,8 +76,8 @@ float hitInPatch(ivec2 patchPlace, vec3 from, vec3 way, float begin, float end) 
     return hit == missed ? missed : begin + hit;
 }
 
-// Goes from block to block of the pyramid: over a block whose nearest depth the ray does not reach in one step, else a
-// level down; at the finest level the patch is solved.
+// Marches block by block through the pyramid. Skips a block whose minimum depth the ray does not reach, otherwise
+// descends a level; at the finest level it solves the patch.
 float firstHit(vec3 from, vec3 to) {
     vec3 way = to - from;
     vec2 start = from.xy + 1.0;  // patch (i, j) covers [i, i + 1] × [j, j + 1]

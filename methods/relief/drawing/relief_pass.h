@@ -20,7 +20,7 @@
 namespace dustbench::relief {
 
 enum class March {
-    paper,  ///< linear, then binary steps: may miss thin things
+    paper,  ///< linear, then binary steps: may miss thin features
     safe,   ///< over blocks that the ray cannot hit, then patch by patch: misses nothing
 };
 inline constexpr Choices<March> marches{{"paper", March::paper}, {"safe", March::safe}};
@@ -30,7 +30,7 @@ struct ReliefStyle {
     int linearSteps = 15, binarySteps = 5;  ///< of March::paper
     bool shadow = true;                     ///< the relief shades itself
     bool whiteHits = false;                 ///< the paper's mark of a hit
-    /// Wear and deposit of this share of the depth show in full.
+    /// Removed and deposited material of this share of the depth is shown at full strength.
     float visibleShare = 0.05f;
 };
 

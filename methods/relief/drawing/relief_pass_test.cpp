@@ -1,4 +1,4 @@
-// The picture of a relief against the oracle, surface_hit.h, pixel by pixel.
+// The picture of a relief, compared pixel by pixel with the reference surface_hit.h.
 #include "methods/relief/drawing/relief_pass.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr int width = 120, height = 90;
 
-/// Random hills, or needles: single texels that stand out of a plane above the bottom, which floats would meet or not.
+/// Random hills; or needles: single texels that rise to the face from a plane above the bottom, a hard case for floats.
 std::shared_ptr<const scene::Relief> reliefOf(int columns, int rows, bool needles, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> any(0, 1);
@@ -48,7 +48,7 @@ class ReliefPassTest : public testing::Test {
         panel_.relief = reliefOf(37, 29, false, 4);
     }
 
-    /// From a place in the panel's frame.
+    /// Returns a view from a place in the panel's frame.
     scene::View viewFrom(const glm::dvec3& eye, const glm::dvec3& target = {0, 0, -0.15}) const {
         scene::View view;
         view.width = width;
@@ -73,7 +73,7 @@ class ReliefPassTest : public testing::Test {
         return {target.layer().sceneDepth().readFloats(), draw::readBack(target.layer().colour())};
     }
 
-    /// Reversed depth of the first point of the ray through a pixel; 0: nothing there.
+    /// Returns the reversed depth of the first hit of the ray through a pixel; 0 if there is none.
     double expectedDepth(const DepthMap& map, const scene::View& view, int x, int y) const {
         const glm::dmat4 toPanel = glm::inverse(panel_.toParent);
         const glm::dvec3 eye(toPanel * glm::dvec4(view.camera.eye, 1));
@@ -131,7 +131,7 @@ TEST_F(ReliefPassTest, TheSafeMarchShowsWhatTheOracleSeesFromAllSides) {
             panel_.relief = reliefOf(37, 29, needles, 9);
             const Compared found = compare(viewFrom(eye), {});
             EXPECT_GT(found.seen, 300) << eye.x << ' ' << eye.y << ' ' << eye.z;
-            // Rays along an edge of plate or hill fall to either side in floats.
+            // Rays along an edge of plate or hill may be rounded to either side.
             EXPECT_LE(found.missed + found.differ, found.seen / 100) << eye.x << ' ' << eye.y << ' ' << eye.z;
         }
 }

@@ -5,7 +5,7 @@
 namespace dustbench::relief {
 namespace {
 
-/// Of a rotation and a translation.
+/// Inverts a rotation and translation.
 glm::dmat4 rigidInverse(const glm::dmat4& pose) {
     const glm::dmat3 back = glm::transpose(glm::dmat3(pose));
     glm::dmat4 inverse(back);
@@ -28,7 +28,7 @@ PanelFrame::PanelFrame(const glm::dmat4& toWorldBefore, const glm::dmat4& toWorl
     if (!(seconds > 0)) throw std::invalid_argument("PanelFrame: a step must be longer than 0 s");
 }
 
-/// The mean over the step, in the world.
+/// The panel's mean velocity over the step at this place, in the world.
 glm::dvec3 PanelFrame::velocityAt(const glm::dvec3& panelPlace) const {
     return (placed(after_, panelPlace) - placed(before_, panelPlace)) / seconds_;
 }

@@ -1,4 +1,4 @@
-// Between the world and a panel's frame: places and velocities, of a panel that may move and turn.
+// Transforms positions and velocities between the world and the frame of a panel, which may move and turn.
 //
 // Units: m, m/s. Threads: pure. Source: Bergeron, 5 (named there as future work).
 #pragma once
@@ -14,19 +14,19 @@ struct Moving {
     glm::dvec3 place{0}, velocity{0};
 };
 
-/// A panel's pose at the begin and at the end of a step.
+/// A panel's pose at the beginning and at the end of a step.
 class PanelFrame {
  public:
     PanelFrame() = default;
     PanelFrame(const glm::dmat4& toWorldBefore, const glm::dmat4& toWorldAfter, double seconds);
 
-    /// At the end of the step. The velocity is relative to the panel's own at that place.
+    /// Transforms at the end of the step. The velocity is relative to the panel's own at that place.
     [[nodiscard]] Moving toPanel(const Moving& world) const;
     /// The inverse of `toPanel`.
     [[nodiscard]] Moving toWorld(const Moving& panel) const;
-    /// A place of the begin of the step.
+    /// Transforms a place at the beginning of the step.
     [[nodiscard]] glm::dvec3 toPanelBefore(const glm::dvec3& world) const;
-    /// A direction of the world, such as gravity, at the end of the step.
+    /// Transforms a direction of the world, such as gravity, at the end of the step.
     [[nodiscard]] glm::dvec3 directionToPanel(const glm::dvec3& world) const;
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t blockSize = 4096;
 
-/// The share of the way at which it leaves the plate: by a rim or by the face. 1 or more: it does not.
+/// Returns the share of the path at which it leaves the plate, by a rim or by the face; 1 or more if it does not.
 double exitShare(const glm::dvec3& from, const glm::dvec3& way, const glm::dvec2& halfSize) {
     double share = HUGE_VAL;
     for (int axis = 0; axis < 2; ++axis)

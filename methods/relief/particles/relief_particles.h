@@ -59,7 +59,7 @@ class ReliefParticles {
  public:
     ReliefParticles(const scene::Panel& panel, MemoryLedger& ledger);
 
-    /// A newborn at its entry; it moves from the next step on.
+    /// Adds a newborn at its entry; it moves from the next step on.
     void add(const Motion& motion, const ParticleLook& look, std::uint64_t serial);
     /// Moves all, collides each along its whole way and removes what has ended. Hits are in the order of the particles.
     void step(const DepthMap& surface, const StepSettings& settings);

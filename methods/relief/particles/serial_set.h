@@ -1,5 +1,5 @@
-// A set of serials of particles. Serials grow with time and particles live for a while, so that the set is a window of
-// bits that moves along.
+// A set of serials of particles. Serials increase with time and particles live for a limited time, so the set is a
+// moving window of bits.
 //
 // Owns: its bits, booked on a ledger. Threads: any thread may ask; one writer.
 #pragma once

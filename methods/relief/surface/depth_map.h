@@ -32,7 +32,7 @@ class DepthMap {
     [[nodiscard]] std::span<const std::uint32_t> depths() const { return depths_; }
     [[nodiscard]] std::span<std::uint32_t> depths() { return depths_; }
 
-    /// Of a texel; outside the map, of the nearest texel.
+    /// Returns the depth of a texel; outside the map, that of the nearest texel.
     [[nodiscard]] double at(int column, int row) const;
     /// D(u, v).
     [[nodiscard]] double depthAt(double u, double v) const;

@@ -1,9 +1,9 @@
-// The depth nearest to the face within each block of a relief, by halving: what a march skips without missing anything.
+// The minimum depth within each block of a relief, by halving: blocks that a march may skip without missing a hit.
 //
 // Patch (i, j) lies between the texels (i − 1, j − 1) and (i, j), clamped at the rim: a relief of n texels has n + 1
 // patches a side. A block of level k holds 2ᵏ × 2ᵏ patches; the last level has one block.
 //
-// Units: shares of the depth. Owns: its levels, one after the other, booked on a ledger. Threads: one writer.
+// Units: shares of the depth. Owns: its levels, stored in sequence, booked on a ledger. Threads: one writer.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -10,8 +10,8 @@ namespace dustbench::relief {
 
 struct Impact {
     float u = 0, v = 0;       ///< texels
-    float radiusTexels = 0;   ///< of what is changed; 0: the nearest texel alone
-    std::uint32_t depth = 0;  ///< change at the middle
+    float radiusTexels = 0;   ///< of the changed area; 0: only the nearest texel
+    std::uint32_t depth = 0;  ///< change at the centre
 };
 
 /// h(ρ) = h₀·(1 − ρ²/r²): a paraboloid about the hit, or one texel. Whole steps, so that sums do not depend on the

@@ -22,7 +22,7 @@ class SurfaceHitTest : public testing::Test {
     MemoryLedger ledger_;
 };
 
-/// The first of `steps` equal pieces of the segment whose end is below the surface.
+/// Returns the first of `steps` equal pieces of the segment whose end is below the surface.
 std::optional<double> marched(const DepthMap& map, const glm::dvec3& from, const glm::dvec3& to, int steps) {
     for (int k = 0; k <= steps; ++k) {
         const double t = static_cast<double>(k) / steps;
@@ -32,7 +32,7 @@ std::optional<double> marched(const DepthMap& map, const glm::dvec3& from, const
     return std::nullopt;
 }
 
-// The march may step over a sliver of the surface and then hits later or not at all; it can never hit earlier.
+// The march may step over a sliver of the surface and then hits later or not at all; it never hits earlier.
 TEST_F(SurfaceHitTest, AMillionRandomSegmentsMeetTheSurfaceWhereAMarchDoesOrBefore) {
     const DepthMap map(randomRelief(23, 17, 5), ledger_);
     std::mt19937 random(7);
@@ -54,7 +54,7 @@ TEST_F(SurfaceHitTest, AMillionRandomSegmentsMeetTheSurfaceWhereAMarchDoesOrBefo
         ASSERT_GE(place.z, map.depthAt(place.x, place.y) - 1e-9) << "segment " << n;
         if (*exact > 0) {
             ASSERT_NEAR(place.z, map.depthAt(place.x, place.y), 1e-9) << "segment " << n;
-            // Nothing before it: a finer march over the way to it finds no hit.
+            // There is no earlier hit: a finer march along the path before it finds none.
             if (n % 50 == 0) {
                 const auto before = marched(map, from, glm::mix(from, to, *exact * (1 - 1e-9)), 2000);
                 ASSERT_FALSE(before && *before < 1) << "segment " << n;
@@ -63,14 +63,14 @@ TEST_F(SurfaceHitTest, AMillionRandomSegmentsMeetTheSurfaceWhereAMarchDoesOrBefo
         earlier += coarse && *exact < *coarse - 1.0 / steps ? 1 : 0;
     }
     EXPECT_GT(hits, 500'000);
-    EXPECT_GT(earlier, 100);  // slivers that a march misses are met
+    EXPECT_GT(earlier, 100);  // slivers that a march misses are hit
 }
 
 TEST_F(SurfaceHitTest, AFlatReliefIsAPlane) {
     scene::Relief flat{4, 4, std::vector<float>(16, 0.25f), {}};
     const DepthMap map(flat, ledger_);
     EXPECT_NEAR(*firstHit(map, {1.2, 0.7, 0}, {2.9, 3.1, 1}), 0.25, 1e-12);
-    EXPECT_NEAR(*firstHit(map, {1.2, 0.7, 0}, {1e6, -1e6, 0.5}), 0.5, 1e-12);  // a million texels a step
+    EXPECT_NEAR(*firstHit(map, {1.2, 0.7, 0}, {1e6, -1e6, 0.5}), 0.5, 1e-12);  // a million texels per step
     EXPECT_FALSE(firstHit(map, {1, 1, 0}, {2, 2, 0.2}));
     EXPECT_EQ(firstHit(map, {1, 1, 0.3}, {2, 2, 0}), 0.0);
     EXPECT_EQ(firstHit(map, {1, 1, 0.2}, {1, 1, 0.2}), std::nullopt);

@@ -1,7 +1,7 @@
-// A relief that wears: its depths, and for each texel how often it was hit, what was taken off and what was laid on.
+// A relief that wears: its depths, and per texel the number of hits, the amount removed and the amount deposited.
 //
-// Two ways to age it give the same bits. `gather` visits each texel and looks at each hit, as in the paper; its cost is
-// texels × hits. `scatter` visits each hit and writes the texels within its reach.
+// Two algorithms give the same bits. `gather` visits each texel and tests every hit, as in the paper; its cost is texels ×
+// hits. `scatter` visits each hit and writes the texels within its reach.
 //
 // Volumes: in steps of DepthMap times one texel. removed, laid on and present volume obey, exactly,
 //
@@ -29,11 +29,11 @@ class WornSurface {
  public:
     WornSurface(const scene::Relief& relief, MemoryLedger& ledger);
 
-    /// Adds the changes of all hits to what is pending, which is limited to `DepthMap::bottom`.
+    /// Adds the changes of all hits to the pending ones, limited to `DepthMap::bottom`.
     void gather(std::span<const Impact> impacts);
     void scatter(std::span<const Impact> impacts);
 
-    /// Takes off what is pending, down to the bottom: first what was laid on, then the surface itself.
+    /// Removes the pending amount, down to the bottom: first deposited material, then the surface itself.
     void takeOff();
     /// Lays on what is pending, up to the face.
     void layOn();
@@ -41,15 +41,15 @@ class WornSurface {
     [[nodiscard]] const DepthMap& depths() const { return depths_; }
     [[nodiscard]] std::span<const std::uint32_t> hits() const { return hits_; }
     [[nodiscard]] std::span<const std::uint32_t> worn() const { return worn_; }  ///< of the surface itself
-    [[nodiscard]] std::span<const std::uint32_t> laid() const { return laid_; }  ///< what lies on it
+    [[nodiscard]] std::span<const std::uint32_t> laid() const { return laid_; }  ///< deposited on it
 
     [[nodiscard]] std::uint64_t takenOffVolume() const { return takenOff_; }
     [[nodiscard]] std::uint64_t laidOnVolume() const { return laidOn_; }
-    /// Above the bottom, from the depths as they are.
+    /// The volume above the bottom, from the current depths.
     [[nodiscard]] std::uint64_t presentVolume() const;
     [[nodiscard]] std::uint64_t initialVolume() const { return initial_; }
 
-    /// What changed since the last call.
+    /// Returns the texels changed since the last call.
     [[nodiscard]] TexelRectangle takeChanged();
 
  private:
@@ -61,7 +61,7 @@ class WornSurface {
 
     DepthMap depths_;
     LedgerVector<std::uint32_t> hits_, worn_, laid_, pending_;
-    TexelRectangle waiting_;  ///< texels with something pending
+    TexelRectangle waiting_;  ///< texels with a pending amount
     TexelRectangle changed_;
     std::uint64_t initial_ = 0, takenOff_ = 0, laidOn_ = 0;
 };

@@ -115,7 +115,7 @@ std::string readVdb(const std::filesystem::path& file, const std::string& field,
 #endif
     openvdb::initialize();
     try {
-        // OpenVDB does not notice where a file ends too early, and goes on with what is in memory: the stream says so.
+        // OpenVDB does not detect a truncated file and continues with what is in memory; the stream detects the end.
         std::ifstream stream(file, std::ios::binary);
         stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
         openvdb::io::Stream stored(stream, /*delayLoad=*/false);
