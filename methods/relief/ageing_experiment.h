@@ -1,5 +1,5 @@
-// How the cost of ageing a surface grows with the numbers of hits and texels, for both search modes (claim R25), and what a
-// hit does to the paper's texture (claim R24).
+// How the cost of ageing a surface grows with the numbers of hits and texels, for both search modes (claim R25), and
+// what a hit does to the paper's texture (claim R24).
 //
 // Threads: one. Source: Bergeron, 3.4, 4 and 5.
 #pragma once

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t bodiesPerLeaf = 8, bodiesPerGroup = 32;
 constexpr int levels = 21;  // bits of a Morton code along each axis
 
-/// Two bodies at a time, so that each point is loaded and stored half as often; their order of addition is kept.
+/// Two bodies at a time, so that each point is loaded and stored half as often; the order of addition is unchanged.
 template <AttractionLaw law>
 void addPullOf(const Bodies& bodies, std::size_t count, const float* __restrict x, const float* __restrict y,
                const float* __restrict z, float* __restrict accelerationX, float* __restrict accelerationY,
@@ -43,7 +43,7 @@ void addPullOf(const Bodies& bodies, std::size_t count, const float* __restrict 
         }
 }
 
-/// Puts two zero bits before each of 21 bits.
+/// Inserts two zero bits before each of 21 bits.
 std::uint64_t spread(std::uint64_t v) {
     v = (v | v << 32) & 0x001f00000000ffffULL;
     v = (v | v << 16) & 0x001f0000ff0000ffULL;
@@ -91,7 +91,7 @@ void addPull(const Attraction& attraction, const Bodies& bodies, const Attracted
     });
 }
 
-/// What one group is pulled by.
+/// The bodies and cells that attract one group.
 struct AttractionTree::Sources {
     std::vector<float> x, y, z, mass;
 
@@ -132,7 +132,7 @@ void AttractionTree::build(std::span<const float> x, std::span<const float> y, s
     addCell(0, static_cast<std::uint32_t>(count), 0, edge);
 }
 
-/// Appends the cell of a run of bodies, and all within it; cells of one child only are skipped. Returns the sum of its
+/// Appends the cell of a run of bodies, and its descendants; skips cells with a single child. Returns the sum of its
 /// bodies' positions.
 AttractionTree::Sum AttractionTree::addCell(std::uint32_t first, std::uint32_t count, int level, float edge) {
     const auto place = static_cast<std::uint32_t>(cells_.size());
@@ -144,7 +144,7 @@ AttractionTree::Sum AttractionTree::addCell(std::uint32_t first, std::uint32_t c
     }
     const bool isLeaf = count <= bodiesPerLeaf || level == levels;
     cells_.push_back({0, 0, 0, static_cast<float>(count), edge, first, count, 0, isLeaf});
-    // A leaf that is too large for a group, of bodies at one place, is divided among several walks (see `pull`).
+    // A leaf with more bodies than a group, at one place, is divided among several walks (see `pull`).
     const bool endsGroup = isLeaf || count <= bodiesPerGroup;
     const bool isWithinGroup = !groups_.empty() && first < cells_[groups_.back()].first + cells_[groups_.back()].count;
     if (endsGroup && !isWithinGroup) groups_.push_back(place);

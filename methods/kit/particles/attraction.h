@@ -1,4 +1,4 @@
-// The pull of many bodies on each of some points: the sum of pairs, and the same through a tree.
+// The attraction of each of some points by many bodies: the sum over all pairs, and the same with a tree.
 //
 //     a_i = k·Σ_j m_j·f(s_ij)/s_ij·(x_j − x_i),   s² = |x_j − x_i|² + ε²
 //
@@ -34,7 +34,7 @@ struct Attracted {
 /// Adds the pull of all bodies, in their order: bit-identical however the points are divided.
 void addPull(const Attraction& attraction, const Bodies& bodies, const Attracted& points);
 
-/// What becomes of bodies that are far away: seen as one at their centre of mass, or left out.
+/// How distant bodies are treated: combined into one at their centre of mass, or ignored.
 enum class FarBodies { together, ignored };
 
 /// An octree of bodies. A cell is far from a group of points if edge < angle·distance, the distance from the group's
@@ -58,7 +58,7 @@ class AttractionTree {
         float x, y, z, mass;  ///< centre of mass
         float edge;
         std::uint32_t first, count;  ///< bodies, in the tree's order
-        std::uint32_t next;          ///< the cell after this one and all within it
+        std::uint32_t next;          ///< the cell after this one and all its descendants
         bool isLeaf;
     };
     struct Sum {

@@ -1,9 +1,9 @@
 // Laws of attraction, a = k·f(d)·r/d towards a point at r, softened.
 //
-// The thesis's laws are infinite at d = 0, and 1/log d also at d = 1. Here s = √(d² + ε²) takes the place of d
-// (Plummer1911): the pull is largest near d = ε, and 0 at the point itself, whose direction is undefined. 1/log d is
-// taken of 1 + s, which has no pole at 1 and does not turn round within it; as printed, it is limited to ±20, reached
-// where |log s| < 0.05.
+// The thesis's laws are infinite at d = 0, and 1/log d also at d = 1. Here s = √(d² + ε²) replaces d (Plummer1911): the
+// attraction is largest near d = ε, and 0 at the point itself, where its direction is undefined. 1/log d is evaluated
+// at 1 + s, which has no pole at 1 and no change of sign; as printed, it is limited to ±20, reached where
+// |log s| < 0.05.
 //
 // Units: m; k in m/s² times what f needs. Threads: pure. Source: Thesis, 5.2.2.
 #pragma once
@@ -26,7 +26,7 @@ inline constexpr const char* attractionLawHelp =
     "of the distance d, softened to √(d² + ε²); 1/log_1+d: the logarithm without its pole at 1 m; 1/log_d: as printed, "
     "repels within 1 m, limited to ±20";
 
-/// f(s)/s, which times r is the pull, from s².
+/// Returns f(s)/s from s²; its product with r is the attraction.
 template <AttractionLaw law>
 [[nodiscard]] inline float pullPerMetre(float s2) {
     if constexpr (law == AttractionLaw::inverse) return 1.0f / s2;
@@ -40,7 +40,7 @@ template <AttractionLaw law>
     return 1.0f / (s * std::copysign(size > 0.05f ? size : 0.05f, logarithm));
 }
 
-/// Calls `action.template operator()<law>()` for the law that is chosen at run time.
+/// Calls `action.template operator()<law>()` for the law chosen at run time.
 template <typename Action>
 void withLaw(AttractionLaw law, const Action& action) {
     switch (law) {

@@ -14,7 +14,7 @@ namespace dustbench::particles {
 
 /// Storage for values that live only during an update; allocated on the stack of the updating thread.
 struct alignas(64) ChunkScratch {
-    ChunkScratch() {}  // NOLINT: left as it is on purpose, each step writes what it reads
+    ChunkScratch() {}  // NOLINT: left uninitialised on purpose, each step writes what it reads
 
     std::array<std::array<float, chunkSize>, 10> values;
     std::array<std::uint8_t, chunkSize> dead;

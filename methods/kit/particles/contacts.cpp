@@ -8,8 +8,8 @@
 namespace dustbench::particles {
 namespace {
 
-/// Distance that a particle keeps from a surface after a contact, so that rounding does not put it behind: 1e-6 of the
-/// coordinates that entered the test, eight times their rounding.
+/// Distance from the surface after a contact, so that rounding does not put the particle behind it: 1e-6 of the
+/// coordinates in the test, eight times their rounding.
 float clearance(const glm::vec3& from, const glm::vec3& to, float extentMetres) {
     const glm::vec3 sum = glm::abs(from) + glm::abs(to);
     return 1e-6f * (sum.x + sum.y + sum.z + extentMetres);
@@ -30,7 +30,7 @@ void lower(std::size_t count, const float* __restrict share, float* __restrict f
     }
 }
 
-/// The first contact of each way.
+/// Finds the first contact of each path.
 void meetAll(const Ways& ways, const MetSurfaces& surfaces, float* share, float* first, std::uint8_t* by) {
     std::fill_n(first, ways.count, Surface::none);
     std::fill_n(by, ways.count, std::uint8_t{0});

@@ -1,8 +1,8 @@
-// Moves particles that meet surfaces in a step: each goes on from the first contact with what it leaves of its
-// velocity, for the rest of the step, until it meets nothing more.
+// Moves particles that hit surfaces in a step: each continues from the first contact with its new velocity for the rest
+// of the step, until there is no further contact.
 //
-// Threads: pure except for the chunk passed in. Source: Thesis, 5.3.2 and 6.1.1. Departs: the particle bounces where it
-// meets the surface; the thesis lets it start from where it was before.
+// Threads: pure except for the chunk passed in. Source: Thesis, 5.3.2 and 6.1.1. Departs: the particle bounces at the
+// point of contact; in the thesis it restarts from its previous position.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@
 
 namespace dustbench::particles {
 
-/// Where particles begin their way through a step, and how long it takes.
+/// Where particles begin their path in a step, and how long it takes.
 struct alignas(64) WayBegins {
-    WayBegins() {}  // NOLINT: left as it is on purpose, `take` writes what is read
+    WayBegins() {}  // NOLINT: left uninitialised on purpose, `take` writes what is read
 
     /// `seconds`: of each particle, or one for all if `each` is false.
     void take(const Chunk& chunk, const float* seconds, bool each);
@@ -43,7 +43,7 @@ class MetSurfaces {
 /// Most contacts of a particle in one step; after the last it stays at its place until the next step.
 inline constexpr int maximumContacts = 8;
 
-/// The chunk holds the positions at the end of the ways, were nothing in between.
+/// Resolves contacts. The chunk holds the positions that the particles would reach without any.
 void meetSurfaces(Chunk& chunk, const WayBegins& begins, const MetSurfaces& surfaces);
 
 }  // namespace dustbench::particles

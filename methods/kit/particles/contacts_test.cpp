@@ -1,4 +1,4 @@
-// Tests bounces and deaths at surfaces against closed forms.
+// Compares bounces and deaths at surfaces with closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace dustbench::particles {
 namespace {
 
-/// Particles born in the first step at points of a ball, in all directions; `more` holds the forces and lives.
+/// Particles born in the first step at points of a ball, in all directions; `more` contains forces and lives.
 std::string swarm(const std::string& place, double radius, const std::string& velocity, const std::string& forces,
                   const std::string& lives = "", int count = 500) {
     return "emission = { part = \"bursts\", count = " + std::to_string(count) +
@@ -48,7 +48,7 @@ TEST(Bounce, GoesThereAndBackExactlyBetweenTwoPlanes) {
         step(system, 1);
         const double way = 1 + 3 * static_cast<double>(system.store().age[0]);
         const double folded = std::fmod(way, 4);
-        // 1e-6 of a metre is kept off the surface at each of 140 bounces.
+        // Each of 140 bounces keeps a distance of 1e-6 m from the surface.
         ASSERT_NEAR(system.store().y[0], folded < 2 ? folded : 4 - folded, 1e-3);
         ASSERT_NEAR(std::abs(system.store().velocityY[0]), 3, 1e-6);
     }
@@ -67,7 +67,7 @@ TEST(Bounce, KeepsEnergyAtRestitution1WhateverTheSurface) {
             const glm::vec3 flown = system.store().position(i) - glm::vec3(0, 4, 0);
             turned += glm::length(flown) < 18.5f ? 1 : 0;
         }
-        EXPECT_GT(turned, 5u) << shape;  // flown 18.75 m, and not straight
+        EXPECT_GT(turned, 5u) << shape;  // a path of 18.75 m that is not straight
     }
 }
 
@@ -97,7 +97,7 @@ TEST(Bounce, IsSymmetricalAboutTheSurfacesNormal) {
     EXPECT_NEAR(system.store().y[0], normal.y + after * expected.y, 1e-3);
 }
 
-/// The share of particles that end on the other side of a surface which they fly at.
+/// Returns the share of particles that end on the other side of a surface towards which they fly.
 double shareThrough(const std::string& mode, double speed, bool gravity) {
     auto system = test::systemFrom(swarm(
         "[0, 2, 0]", 0.5,
@@ -115,7 +115,7 @@ double shareThrough(const std::string& mode, double speed, bool gravity) {
 TEST(Bounce, NothingPassesADiscAtAnySpeedWhereFixed) {
     for (const double speed : {0.0, 0.5, 30.0, 1000.0})
         for (const bool gravity : {false, true}) EXPECT_EQ(shareThrough("fixed", speed, gravity), 0) << speed;
-    // As printed the rest of the way after a contact is lost to rounding and to the margin: some pass.
+    // As printed, the rest of the path after a contact is lost to rounding and to the margin: some particles pass.
     EXPECT_GT(shareThrough("paper", 30, true), 0.01);
 }
 
@@ -126,7 +126,7 @@ TEST(Bounce, NothingEntersAMeshOrASphereAtAnySpeed) {
     const std::string file = testing::TempDir() + "/bounce_box.obj";
     std::ofstream(file) << box;
     for (const double speed : {5.0, 500.0}) {
-        // Out of the box, or out of the ball: neither leaves nor enters.
+        // The box and the ball are closed: particles neither leave nor enter.
         auto held = test::systemFrom(
             swarm("[0, 0, 0]", 0.5, "part = \"random\", speed = " + std::to_string(speed),
                   "{ part = \"bounce\", shape = \"mesh\", mesh = \"" + file + "\", restitution = 1 }", "", 200));
@@ -181,7 +181,7 @@ TEST(Collision, KillsWhatMeetsTheSurfaceAndNothingElse) {
         if (mode == "fixed") {
             EXPECT_EQ(left, above);
         } else {
-            // Dies up to one step's way before the surface, 20 m/s · 1/64 s.
+            // Dies up to one step before the surface: 20 m/s · 1/64 s.
             for (const std::uint64_t serial : above) EXPECT_TRUE(left.contains(serial));
         }
     }
@@ -213,7 +213,7 @@ TEST(Attractor, FollowsItsLawAndIsDefinedAtItsVeryPlace) {
         chunk.accelerationX = ax.data(), chunk.accelerationY = ay.data(), chunk.accelerationZ = az.data();
         part->push(chunk, once);
         for (std::size_t i = 0; i < 6; ++i) EXPECT_TRUE(std::isfinite(ax[i]) && std::isfinite(az[i])) << c.law;
-        EXPECT_EQ(ax[0], 0);  // at its very place
+        EXPECT_EQ(ax[0], 0);  // at its exact position
         for (const std::size_t i : {std::size_t{2}, std::size_t{3}, std::size_t{5}}) {
             const double d = static_cast<double>(x[i]) - 2;
             EXPECT_NEAR(static_cast<double>(ax[i]) / (-3 * c.f(d)), 1, 2e-5) << c.law << " at " << d;

@@ -1,6 +1,6 @@
 // The kind of part that moves particles: through the air it stirs, by acceleration, or by contact.
 //
-// Within a step all forces first `blow`, then all `push`; the particles move, as far as surfaces let them; then all
+// Within a step all forces first `blow`, then all `push`; the particles move, as far as surfaces allow; then all
 // `touch`. The order of the list therefore matters only among forces of the same sort. Source: Thesis, 3.1.3 and 5.1.
 #pragma once
 
@@ -19,7 +19,7 @@ class ForcePart : public Part {
     [[nodiscard]] PartKind kind() const final { return PartKind::force; }
 
     /// Called once per step before all chunks, to compute values shared by all particles, or from all of them: the
-    /// store holds the particles at the step's begin, and later in the step must not be read.
+    /// store holds the particles at the beginning of the step and must not be read later in the step.
     virtual void begin(const Step&, const ParticleStore&) {}
     /// Adds to the air's velocity, `chunk.airX`, `…Y`, `…Z`.
     virtual void blow(Chunk&, const Step&) const {}
@@ -28,7 +28,7 @@ class ForcePart : public Part {
     /// Corrects position and velocity of particles that have moved through a surface; the old position is x − v·dt.
     virtual void touch(Chunk&, const Step&) const {}
 
-    /// The surface that this part keeps particles out of, between `push` and `touch`; null: none.
+    /// The surface that particles cannot pass, between `push` and `touch`; null: none.
     [[nodiscard]] virtual const Surface* surface() const { return nullptr; }
     [[nodiscard]] virtual Contact contact() const { return {}; }
 

@@ -1,5 +1,5 @@
-// Benchmarks the thesis's forces in turns with what they are compared to: two discs with the shared dust's update, the
-// sum of pairs with a bare loop, the tree with the sum of pairs.
+// Measures the thesis's forces in turn with their references: two discs with the shared dust's update, the sum of pairs
+// with a bare loop, the tree with the sum of pairs.
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
@@ -72,7 +72,7 @@ struct Cloud {
     }
 };
 
-/// What the sum of pairs can reach: the same square root and division, one body at a time, nothing else.
+/// Upper bound for the sum of pairs: the same square root and division, one body at a time, nothing else.
 void bareLoop(std::size_t bodies, const float* __restrict bx, const float* __restrict by, const float* __restrict bz,
               std::size_t count, const float* __restrict x, const float* __restrict y, const float* __restrict z,
               float* __restrict ax, float* __restrict ay, float* __restrict az, float softening2) {

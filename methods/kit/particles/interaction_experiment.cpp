@@ -29,7 +29,7 @@ struct Bodies3 {
             x[i] = p.x, y[i] = p.y, z[i] = p.z;
         }
     }
-    /// Exactly, on `count` bodies from `first` on.
+    /// Computes the exact forces on `count` bodies from `first` on.
     void pullPairs(std::size_t first, std::size_t count) {
         constexpr std::size_t block = 256;
         for (std::size_t i = first; i < first + count; i += block) {
@@ -45,7 +45,8 @@ struct Bodies3 {
     }
 };
 
-/// Over the bodies from 0 to `count`: they are in no order, and so a sample. The interval is that of the mean square.
+/// Returns the error over the bodies from 0 to `count`. They are unordered and so a random sample. The interval is that
+/// of the mean square.
 Finding errorOf(std::string quantity, const Bodies3& exact, const Bodies3& tree, std::size_t count) {
     double sum = 0, squares = 0, size = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -62,7 +63,7 @@ Finding errorOf(std::string quantity, const Bodies3& exact, const Bodies3& tree,
             static_cast<std::int64_t>(count)};
 }
 
-/// The median time of the forces on all bodies.
+/// Returns the median time of the forces on all bodies.
 double medianSeconds(Bodies3& bodies, bool byTree) {
     return medianOf("",
                     [&] {
@@ -86,8 +87,8 @@ std::vector<double> timesOf(const std::vector<double>& counts, std::uint64_t see
     return seconds;
 }
 
-/// Where the ratio of the times, interpolated over the logarithm of the number, passes 1; between the two counts about
-/// it.
+/// Returns the number at which the ratio of the times, interpolated over the logarithm of the number, passes 1; the
+/// interval is given by the two adjacent counts.
 Finding crossover(std::uint64_t seed) {
     const std::vector<double> counts{128, 256, 512, 1024, 2048, 4096, 8192};
     const auto pairs = timesOf(counts, seed, false), tree = timesOf(counts, seed, true);
@@ -120,7 +121,7 @@ void measureTimes(std::uint64_t seed, std::vector<Finding>& findings) {
     findings.push_back(crossover(seed));
     findings.push_back(speedupOfFew(seed));
 
-    constexpr std::size_t count = 100'000, slice = 4096;  // the pairs of a slice take 1/24 of the time of all
+    constexpr std::size_t count = 100'000, slice = 4096;  // the pairs of a slice take 1/24 of the total time
     Bodies3 exact(count, seed), tree(count, seed);
     std::vector<double> speedups;
     for (int k = 0; k < repetitions; ++k) {

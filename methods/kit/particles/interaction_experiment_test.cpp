@@ -16,8 +16,8 @@ TEST(InteractionExperiment, ErrorGrowsWithTheAngleAndWorkLessThanItsSquare) {
         EXPECT_LT(found.at("rms_angle_0.6").high, 0.01);
         EXPECT_LT(found.at("rms_angle_0.3").high, found.at("rms_angle_0.6").low);
         EXPECT_LT(found.at("rms_angle_0.6").high, found.at("rms_angle_1.2").low);
-        // A cell's dipole vanishes about its centre of mass; the quadrupole's share falls as the angle's square, and
-        // errors of many cells add up as their root.
+        // A cell's dipole vanishes about its centre of mass; the quadrupole term decreases as the square of the angle,
+        // and errors of many cells add up as their root.
         EXPECT_GT(found.at("error_exponent").value, 1.5);
         EXPECT_LT(found.at("error_exponent").value, 3.5);
         EXPECT_GT(found.at("rms_ignored_0.6").low, 0.3);

@@ -1,4 +1,5 @@
-// Tests the forces between particles: conservation, the tree against all pairs, the same bits at any number of threads.
+// Tests the forces between particles: conservation, the tree compared with all pairs, equal bits at any number of
+// threads.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -14,7 +15,7 @@
 namespace dustbench::particles {
 namespace {
 
-/// A closed system: all are born in the first step and none dies.
+/// A closed system: all particles are born in the first step and none dies.
 std::string closed(int count, const std::string& interaction) {
     return "emission = { part = \"bursts\", count = " + std::to_string(count) +
            ", duration_seconds = 0, interval_seconds = 1e6 }\n"
@@ -102,7 +103,7 @@ struct Cloud {
     explicit Cloud(std::size_t count, std::uint64_t seed) : x(count), y(count), z(count) {
         for (std::size_t i = 0; i < count; ++i) {
             const auto u = maths::uniform4(seed, 1, i);
-            // Clumped: half of the bodies are in a tenth of the radius.
+            // Clumped: half of the bodies are within a tenth of the radius.
             const glm::vec3 p = (i % 2 ? 1.0f : 10.0f) * maths::denseBallPoint(u[0], u[1], u[2]);
             x[i] = p.x, y[i] = p.y, z[i] = p.z;
         }
@@ -130,7 +131,7 @@ Pull byTree(const Cloud& cloud, const Attraction& attraction, float angle, FarBo
     return pull;
 }
 
-/// Root mean square of the difference over that of the pull.
+/// Returns the root mean square of the difference relative to that of the attraction.
 double relativeError(const Pull& exact, const Pull& other) {
     double difference = 0, size = 0;
     for (std::size_t i = 0; i < exact.x.size(); ++i) {

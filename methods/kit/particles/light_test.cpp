@@ -1,4 +1,4 @@
-// Tests light on particles and light from particles against closed forms.
+// Compares light on particles and light from particles with closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace dustbench::particles {
 namespace {
 
-/// Particles on a line along x at y = 1, one colour, still.
+/// Particles on a line along x at y = 1, of one colour, at rest.
 ParticleSystem lit(const std::string& shadings, std::uint64_t seed = 1) {
     auto system = test::systemFrom(
         "emission = { part = \"stream\", rate_per_second = 1000, rate_per_metre = 0 }\n"

@@ -17,7 +17,7 @@ Newborns NewbornBlock::newborns(std::size_t first, std::size_t count, std::uint6
     std::size_t turn = serial % emitters.size();
     for (std::size_t i = 0; i < count; ++i) {
         const double at = births.firstSeconds + static_cast<double>(first + i) * births.spacingSeconds;
-        const double born = std::clamp(at, 0.0, stepSeconds);  // rounding may move the last birth slightly past the end
+        const double born = std::clamp(at, 0.0, stepSeconds);  // rounding may put the last birth slightly after the end
         serial_[i] = serial + i;
         emitter_[i] = &emitters[turn];
         turn = turn + 1 < emitters.size() ? turn + 1 : 0;

@@ -16,7 +16,7 @@ class NewbornBlock {
  public:
     static constexpr std::size_t size = 128;
 
-    NewbornBlock() {}  // NOLINT: left as it is on purpose, the parts write every column
+    NewbornBlock() {}  // NOLINT: left uninitialised on purpose, the parts write every column
 
     /// Births `first`..`first + count` of a step, numbered from `serial` on, with moment and age set.
     [[nodiscard]] Newborns newborns(std::size_t first, std::size_t count, std::uint64_t serial, const Births& births,

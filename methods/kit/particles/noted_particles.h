@@ -22,7 +22,7 @@ class DUSTBENCH_API NotedParticles {
     void prepare(std::size_t particles);
     /// Notes those of the chunk's `count` particles whose flag is 1 (the others are 0).
     void note(std::size_t chunk, const std::uint8_t* flags, std::size_t count);
-    /// Storage indices of all noted particles, ascending, for any number of threads.
+    /// Returns the storage indices of all noted particles, ascending, for any number of threads.
     [[nodiscard]] std::span<const std::uint32_t> collect();
 
  private:

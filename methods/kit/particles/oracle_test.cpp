@@ -1,4 +1,4 @@
-// Tests the particle engine against the reference implementation.
+// Compares the particle engine with the reference implementation.
 #include <gtest/gtest.h>
 
 #include "methods/kit/particles/plain_dust.h"

@@ -42,8 +42,8 @@ class DUSTBENCH_API Part {
     void setName(std::string name) { name_ = std::move(name); }
     [[nodiscard]] const ParameterValues& values() const { return values_; }
 
-    /// Carries on where `before`, which this part replaces in a living system, stops: a part that keeps something from
-    /// step to step (an accumulator) takes it over from one of its own class.
+    /// Continues from `before`, which this part replaces in a living system: a part with state that persists between
+    /// steps (an accumulator) copies it from a part of its own class.
     virtual void takeOver(const Part& /*before*/) {}
 
  private:

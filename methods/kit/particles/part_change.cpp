@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view partKey = "part", none = "none";
 
-/// Cuts `text` at its first point and returns what stands before it.
+/// Cuts `text` at its first point and returns the part before it.
 std::string_view cutFirst(std::string_view& text) {
     const std::string_view first = text.substr(0, text.find('.'));
     text.remove_prefix(std::min(first.size() + 1, text.size()));
@@ -32,7 +32,7 @@ std::vector<const Part*> partsOf(const PartList& parts, PartKind kind) {
     return found;
 }
 
-/// The place in its list of the part that `word` names or counts.
+/// Returns the position in its list of the part that `word` names or numbers.
 std::size_t placeOf(std::span<const Part* const> list, PartKind kind, std::string_view word) {
     std::size_t number = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
@@ -62,7 +62,7 @@ std::unique_ptr<Part> changed(const Part& part, std::string_view key, std::strin
     return key == partKey ? makePart(part.kind(), value) : withValue(part, key, value);
 }
 
-/// Whether the list remains a system with `part` (null: nothing) in the place of `index` (its end: added).
+/// Checks that the list remains a system with `part` (null: none) at `index` (the end: appended).
 void requireLifetimes(std::span<const Part* const> list, std::size_t index, const Part* part) {
     int giving = 0;
     for (std::size_t i = 0; i <= list.size(); ++i) {

@@ -17,7 +17,7 @@ std::unique_ptr<PartList> parts() {
     return partsFromText(test::everyForce, "test.toml");
 }
 
-/// The file that `changes` make of everyForce.
+/// Returns everyForce as a file after these changes.
 std::string after(std::initializer_list<std::pair<const char*, const char*>> changes) {
     const auto list = parts();
     for (const auto& [name, value] : changes) changePart(*list, name, value);
@@ -91,7 +91,7 @@ TEST(PartChange, AChangeToTheSameValueLeavesTheStateAloneAndAnotherDoesNot) {
     EXPECT_NE(hashAfter("force.wind.part", "none"), hashAfter("velocity.speed", "0.5"));
 }
 
-/// Each part of the table in the place of each other of its kind, while particles live.
+/// Replaces each part of the table by each other of its kind, while particles live.
 TEST(PartChange, SwapsAnyPartForAnyOtherOfItsKind) {
     const auto scene = test::sceneWithCar();
     for (const PartInfo& from : partTable())

@@ -25,9 +25,9 @@ class PartList {
 
     /// Adds a part by its kind: replaces the single part, or appends to the list.
     void set(std::unique_ptr<Part> part);
-    /// Puts a part in the place of the `index`-th of its list, from which it takes over; null removes that one.
+    /// Replaces the `index`-th part of its list by one that continues from it (Part::takeOver); null removes it.
     void setInList(PartKind kind, std::size_t index, std::unique_ptr<Part> part);
-    /// Takes over (Part::takeOver) from the parts of a living system that this list replaces.
+    /// Continues from the parts of a living system that this list replaces (Part::takeOver).
     void takeOver(const PartList& before);
 
     /// Null while the system is being assembled.

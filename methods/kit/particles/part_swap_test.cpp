@@ -1,4 +1,4 @@
-// Swaps any part for any other of its kind while 10,000 particles live.
+// Replaces each part by each other of its kind while 10,000 particles live.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int count = 10'000;
 
-/// Puts a part of this kind and name in the place of the last one, or adds it to an empty list. The lifetimes stay.
+/// Replaces the last part of a kind by the named one, or adds it to an empty list. The lifetimes stay.
 void put(PartList& parts, PartKind kind, const std::string& name) {
     if (kind == PartKind::force) parts.forces().clear();
     if (kind == PartKind::shading) parts.shadings().clear();
@@ -22,7 +22,7 @@ void put(PartList& parts, PartKind kind, const std::string& name) {
             parts.set(makePart(PartKind::life, "lifetime", {{"average_seconds", "0.8"}, {"variation_seconds", "0.2"}}));
     }
     NamedValues values;
-    // The exact sum over 10,000 particles takes a while; the test swaps, it does not measure.
+    // The exact sum over 10,000 particles is slow, and this test only swaps.
     if (name == "interaction") values.emplace_back("opening_angle", "1.5");
     parts.set(makePart(kind, name, values));
 }
@@ -35,7 +35,8 @@ bool isFinite(const ParticleStore& store) {
     return true;
 }
 
-/// 10,000 particles, then two steps with `first`, two with `second`, two with `first` again; the hash at the end.
+/// Returns the hash after 10,000 particles were made: two steps with `first`, two with `second`, two with `first`
+/// again.
 std::uint64_t swapped(ParticleSystem& system, PartKind kind, const std::string& first, const std::string& second,
                       int from) {
     static const auto scene = test::sceneWithCar();

@@ -59,7 +59,7 @@ std::unique_ptr<Part> readPart(files::TomlReader table, PartKind kind) {
     return at(table, "part", [&] { return info.create(values); });
 }
 
-/// The parts that a table holds; whatever else it holds must have been read before.
+/// Reads the parts in a table; all its other keys must have been read before.
 std::unique_ptr<PartList> readParts(files::TomlReader& table) {
     auto parts = std::make_unique<PartList>();
     for (std::size_t k = 0; k < partKindNames.size(); ++k) {

@@ -17,7 +17,7 @@
 namespace dustbench::particles {
 
 struct NamedParts {
-    std::string name;  ///< lower-case letters, digits and `_`; of a file without `[[system]]`: the file's stem
+    std::string name;  ///< lower-case letters, digits and `_`; without `[[system]]` the stem of the file name
     std::unique_ptr<PartList> parts;
 };
 
@@ -27,7 +27,7 @@ struct NamedParts {
 /// `name` is the file name used in messages.
 [[nodiscard]] DUSTBENCH_API std::vector<NamedParts> systemsFromText(std::string_view text, std::string name);
 
-/// Throws as above, and where the file holds several systems.
+/// Throws as above, and if the file holds several systems.
 [[nodiscard]] std::unique_ptr<PartList> partsFromFile(const std::filesystem::path& file);
 /// `name` is the file name used in messages.
 [[nodiscard]] std::unique_ptr<PartList> partsFromText(std::string_view text, std::string name);

@@ -18,7 +18,7 @@ namespace dustbench::particles {
 
 class DUSTBENCH_API ParticleStore {
  public:
-    /// Of the columns, those of the colour included.
+    /// Bytes of all columns, including the colour.
     static constexpr std::size_t bytesPerParticle = sizeof(std::uint64_t) + 13 * sizeof(float);
 
     explicit ParticleStore(MemoryLedger& ledger);

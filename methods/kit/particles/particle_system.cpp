@@ -26,7 +26,8 @@ constexpr std::size_t fewChunks = 4;  // with fewer chunks, a second thread does
 struct ParticleSystem::State {
     State(std::unique_ptr<PartList> list, std::uint64_t seedOfAll) : parts(std::move(list)), seed(seedOfAll) {}
 
-    /// Throws InputError unless the machine's memory holds so many particles. Only larger numbers are checked again.
+    /// Throws InputError unless the machine's memory can hold this many particles. Only larger numbers are checked
+    /// again.
     void requireRoom(double particles);
     void live(const MetSurfaces& surfaces, const Step& step);
     void bury(std::span<const std::uint32_t> holes);
@@ -36,7 +37,7 @@ struct ParticleSystem::State {
     std::unique_ptr<PartList> parts;
     std::uint64_t seed;
     std::uint64_t nextSerial = 0;
-    double roomFor = 0;  ///< particles for which there was memory when it was last checked
+    double roomFor = 0;  ///< particles for which the last check found memory
     EmitterTracker tracker;
     MemoryLedger ledger;
     ParticleStore store{ledger};

@@ -49,8 +49,8 @@ class DUSTBENCH_API ParticleSystem {
     /// For swapping parts between updates.
     [[nodiscard]] PartList& parts();
     [[nodiscard]] const PartList& parts() const;
-    /// Goes on with other parts from the next update on. With the same parts, as after saving and loading, it goes on
-    /// as if nothing had happened. Throws InputError if the list is incomplete.
+    /// Continues with other parts from the next update on. With the same parts, as after saving and loading, it
+    /// continues as if nothing had happened. Throws InputError if the list is incomplete.
     void replaceParts(std::unique_ptr<PartList> parts);
     [[nodiscard]] double meanLifetimeSeconds() const;
     /// Hash of every particle's state, in storage order.

@@ -25,7 +25,7 @@ using test::with;
 TEST(ParticleSystem, IsTheSameBitForBitAtAnyNumberOfThreads) {
     const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
     const auto scene = test::sceneWithCar();
-    // Random sizes and a source that is switched off and on again, so that holes are filled in every way.
+    // Random sizes and a source that is switched off and on again, so that holes are filled in every possible way.
     for (const std::int64_t count : {1, 37, 511, 2048, 9973, 30011}) {
         std::set<std::uint64_t> hashes;
         for (const int threads : {1, 2, 3, 8}) {
@@ -176,7 +176,7 @@ TEST(ParticleSystem, HoldsAtMost96BytesAParticleAndNoMoreAsTimeGoesOn) {
             if (i >= 149) minimum = std::min(minimum, system.store().size());
         }
         EXPECT_GT(minimum, 19000u);
-        EXPECT_EQ(bytes(), maximum);  // memory of the steady state is kept
+        EXPECT_EQ(bytes(), maximum);  // the memory of the steady state is kept
     }
 }
 

@@ -1,4 +1,4 @@
-// Benchmarks the cost of a particle update against the machine's memory bandwidth.
+// Measures the cost of a particle update relative to the machine's memory bandwidth.
 //
 // `bytes_per_second` counts the bytes that an update must read and write; BM_Triad is the upper bound. The particles
 // are wheel dust with all of its parts; births replace deaths of 0.5 % per step.
@@ -109,7 +109,7 @@ void updateArguments(benchmark::internal::Benchmark* bench) {
     for (const std::int64_t threads : {2, 1}) bench->Args({1'000'000, flat, threads});
     for (const auto variant : {noGusts, bezierColour, heightField}) bench->Args({1'000'000, variant, 2});
     for (const std::int64_t count : {10'000, 100'000}) bench->Args({count, flat, 2});
-    bench->Args({10'000, flat, 1});  // fits the cache: measures the arithmetic alone
+    bench->Args({10'000, flat, 1});  // fits the cache: measures arithmetic only
     bench->ArgNames({"particles", "variant", "threads"})->UseRealTime()->Unit(benchmark::kMicrosecond);
 }
 BENCHMARK(BM_Update)->Apply(updateArguments);

@@ -37,7 +37,7 @@ struct Look {
     std::string picture{};  ///< of sprites, a name in data/textures or a file; empty: a Gaussian
     int copies = 1;         ///< of anti-aliased sprites
     AntiAliasing by = AntiAliasing::copies;
-    bool fading = false;  ///< copies count for more the newer they are
+    bool fading = false;  ///< newer copies have more weight
     std::string mesh{};   ///< of objects, a name in data/scenes/meshes or a file
     bool alongVelocity = false;
     bool stereo = false;   ///< red and green glasses, the left eye green

@@ -48,7 +48,7 @@ TEST(SamplingExperiment, IntervalsHoldTheClosedForms) {
     }
     EXPECT_LE(misses, 1) << "of 16 intervals, of which 5 % miss";
     EXPECT_DOUBLE_EQ(found.at("tries_per_point").value * found.at("acceptance").value, 1);
-    // Density grows as the cube of the distance to the cube's surface: 3√3 exactly at the corner, less over a cap.
+    // Density increases as the cube of the distance to the cube's surface: 3√3 exactly at the corner, less over a cap.
     EXPECT_GT(found.at("corner_over_face_cube").low, 4);
     EXPECT_LT(found.at("corner_over_face_cube").high, 3 * std::numbers::sqrt3);
     EXPECT_GT(found.at("chi2_per_cell_cube").low, 100);

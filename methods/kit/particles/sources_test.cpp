@@ -25,7 +25,7 @@ constexpr double pi = std::numbers::pi;
 constexpr std::uint64_t seeds[] = {11, 12, 13};
 const glm::dvec3 place{3, -2, 5};
 
-/// A system whose particles are all born in one step of a second and keep still, or keep their velocity.
+/// A system whose particles are all born in one step of one second and stay at rest, or keep their velocity.
 ParticleSystem born(const std::string& position, const std::string& velocity, std::uint64_t seed, int count = 20000) {
     auto system = test::systemFrom(
         "emission = { part = \"stream\", rate_per_metre = 0, rate_per_second = " + std::to_string(count) +
@@ -41,7 +41,7 @@ ParticleSystem born(const std::string& position, const std::string& velocity, st
 
 const std::string still = "part = \"fixed\", speed = 0";
 
-/// Places relative to the source's.
+/// Returns positions relative to the source's.
 std::vector<glm::dvec3> placesOf(const std::string& position, std::uint64_t seed, int count = 20000) {
     const auto system = born(position, still, seed, count);
     std::vector<glm::dvec3> places;
@@ -105,7 +105,7 @@ TEST(SphereSource, DenseModeFallsAsTheSquareOfTheDistanceAndCrowdsAtThePoles) {
         expectUniform(mapped(places, length), 0, 2);
         expectUniform(mapped(places, [](const auto& p) { return std::asin(p.y / length(p)); }), -pi / 2, pi / 2);
         expectUniform(mapped(places, [](const auto& p) { return std::atan2(p.z, p.x); }), -pi, pi);
-        // Against a uniform ball: 64 times the density within R/8, and P(|sin β| > 0.99) = 0.09 and not 0.01.
+        // Compared with a uniform ball: 64 times the density within R/8, and P(|sin β| > 0.99) = 0.09 instead of 0.01.
         double near = 0, polar = 0;
         for (const glm::dvec3& p : places) {
             near += length(p) < 0.25 ? 1 : 0;
@@ -246,11 +246,11 @@ TEST(AwayVelocity, LeavesTheCentreAndItsSpeedGrowsWithTheDistance) {
         for (std::size_t i = 0; i < s.size(); ++i) {
             const glm::dvec3 v(s.velocityX[i], s.velocityY[i], s.velocityZ[i]);
             const glm::dvec3 from = glm::dvec3(s.position(i)) - static_cast<double>(s.age[i]) * v - place;
-            // The position has 2e-7 m per metre of rounding, the velocity no more than that divided by the distance.
+            // The position is rounded by 2e-7 m per metre, the velocity by at most that divided by the distance.
             ASSERT_NEAR(glm::length(v), 1 + 3 * glm::length(from), 2e-5);
             ASSERT_GT(glm::dot(v, from), (1 - 1e-4) * glm::length(v) * glm::length(from) - 1e-5);
         }
-        // From a point there is no outward direction: any will do.
+        // At the source itself no direction is outward: any direction is valid.
         chiSquareOfSphere(velocitiesOf("part = \"away\", speed = 1", seed));
     }
 }

@@ -1,4 +1,4 @@
-// What a sprite shows: a Gaussian, or a picture of data/textures.
+// The picture of a sprite: a Gaussian, or a picture of data/textures.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace dustbench::particles {
 
 /// Declares `picture`.
 void declarePicture(ParameterSet& set);
-/// Empty for the Gaussian.
+/// Returns the picture's name; empty for the Gaussian.
 [[nodiscard]] std::string pictureOf(const ParameterValues& values);
 
 }  // namespace dustbench::particles

@@ -1,4 +1,4 @@
-// The hash of a simulation of particles: time, vehicle and the systems. World and methods use the same, so that equal
+// The hash of a particle simulation: time, vehicle and systems. World and methods use the same function, so that equal
 // hashes mean equal states.
 //
 // Threads: pure.

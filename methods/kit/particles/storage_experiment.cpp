@@ -12,7 +12,7 @@ namespace {
 constexpr float seconds = 1.0f / 60, meanLifetime = 200 * seconds;
 constexpr int warmUpSteps = 400, timedSteps = 20;
 
-/// Newborns whose lifetimes differ by half the mean, so that the dead lie anywhere.
+/// Newborns whose lifetimes vary by half the mean, so that the dead are scattered.
 class Births {
  public:
     Births(std::uint64_t seed, std::size_t perStep) : seed_(seed), newborns_(perStep) {}
@@ -73,7 +73,7 @@ class Subject {
     Storage storage_;
 };
 
-/// Of two series that were measured in turns.
+/// Returns the ratio of two series that were measured in turn.
 Finding ratioOf(std::string quantity, const std::vector<double>& above, const std::vector<double>& below) {
     std::vector<double> ratios;
     for (std::size_t i = 0; i < above.size(); ++i) ratios.push_back(above[i] / below[i]);

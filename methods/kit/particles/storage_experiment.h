@@ -1,4 +1,4 @@
-// Measures what a linked list, arrays and a pool of the dead cost (claim R22).
+// Measures the cost of a linked list, of arrays and of a pool of the dead (claim R22).
 //
 // Threads: one. Source: Thesis, 3.1.4.
 #pragma once
@@ -10,12 +10,12 @@ namespace dustbench::particles::storage {
 /// The experiment `storage`, of 100,000 particles of which 1 in 200 dies per step, after 400 steps.
 ///
 /// scan_list_over_soa, scan_aos_over_soa: time of a scan over that of the structure of arrays, all with a pool.
-/// scan_list_over_aos: what links cost alone.
+/// scan_list_over_aos: the cost of the links alone.
 /// churn_without_over_with_list, …_aos, …_soa: time of removing the dead and adding newborns, without the pool of the
 /// dead over with it.
-/// allocation_without_over_with_list: the same without the walk that finds the dead: nodes given back and asked for
-/// again, over nodes taken from the pool.
-/// allocation_of_equals, scan_of_equals: controls, of two lists and two arrays of structures of the same kind.
+/// allocation_without_over_with_list: the same without the walk that finds the dead: time of freeing and allocating
+/// nodes, over that of taking them from the pool.
+/// allocation_of_equals, scan_of_equals: controls, two lists and two arrays of structures of the same kind.
 /// scan_ns_…, churn_ns_…: nanoseconds per particle and step, by `list`, `aos`, `soa`, with `_pool`.
 [[nodiscard]] DUSTBENCH_API ExperimentInfo describe();
 [[nodiscard]] std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, int repetitions);

@@ -12,7 +12,7 @@
 namespace dustbench::particles::storage {
 namespace {
 
-/// Sums of ages over 100 steps, in which births swell and cease.
+/// Sums of ages over 100 steps, in which births increase and stop.
 template <typename Storage>
 std::vector<double> history(std::uint64_t seed) {
     Storage storage;

@@ -2,8 +2,7 @@
 // structures, a structure of arrays.
 //
 // `scan` ages and moves all particles; `churn` removes the dead and adds newborns. The pool of a list keeps the nodes
-// of the dead; that of an array gives their places to newborns, where without it the survivors are moved together
-// first.
+// of the dead. That of an array gives their slots to newborns; without it the survivors are first moved together.
 //
 // Units: m, m/s, s. Owns: its particles. Threads: one caller at a time.
 // Source: Thesis, 3.1.2 (attributes) and 3.1.4 (list and pool).
@@ -51,7 +50,7 @@ class List {
         sweep();
         refill(newborns);
     }
-    /// Takes the dead out of the list.
+    /// Removes the dead from the list.
     void sweep() {
         for (Node** link = &first_; *link;) {
             Node* node = *link;
@@ -64,7 +63,7 @@ class List {
             free_ = node;
         }
     }
-    /// Adds newborns; without a pool, the nodes of the dead are given back first.
+    /// Adds newborns; without a pool, the nodes of the dead are freed first.
     void refill(const std::vector<Attributes>& newborns) {
         if constexpr (!pool)
             while (free_) delete std::exchange(free_, free_->next);
@@ -175,7 +174,7 @@ class StructureOfArrays {
     void copy(std::size_t from, std::size_t to) {
         for (auto& column : columns_) column[to] = column[from];
     }
-    /// How many newborns have been put into places of the dead; `kept`: particles that there are then.
+    /// Returns the number of newborns put into slots of the dead; `kept` becomes the number of particles then.
     std::size_t fillHoles(const std::vector<Attributes>& newborns, std::size_t& kept) {
         std::size_t used = 0;
         for (std::size_t i = 0; i < kept;) {

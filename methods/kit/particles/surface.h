@@ -1,4 +1,4 @@
-// Surfaces that particles meet on their way through a step, and what a contact does to them.
+// Surfaces that particles may hit during a step, and the response to a contact.
 //
 // Units: m. Frame: world. Threads: const members are safe from any.
 // Source: Thesis, 5.3.2 and 6.1. Departs: the way from the old to the new position is tested as a segment, so that no
@@ -20,16 +20,16 @@ struct Ways {
     [[nodiscard]] glm::vec3 to(std::size_t i) const { return {toX[i], toY[i], toZ[i]}; }
 };
 
-/// What a contact leaves of a velocity: v ← (1 − friction)·v∥ − restitution·v⊥.
+/// The velocity after a contact: v ← (1 − friction)·v∥ − restitution·v⊥.
 struct Contact {
     float restitution = 1;
     float friction = 0;
-    bool kills = false;  ///< the particle dies where it meets the surface
+    bool kills = false;  ///< the particle dies at the contact
 };
 
 class Surface {
  public:
-    /// The share of a way that meets nothing.
+    /// The share that stands for a path without contact.
     static constexpr float none = 2;
 
     virtual ~Surface() = default;

@@ -14,7 +14,8 @@ float sumOfSizes(const glm::vec3& v) {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-/// d = n·(x − p): met where d turns negative. What begins behind the plane is at once at the surface if it goes deeper.
+/// d = n·(x − p): hit where d becomes negative. A particle that starts behind the plane and moves deeper is hit at
+/// once.
 void meetHalfSpace(const Ways& ways, float* __restrict share, const glm::vec3 p, const glm::vec3 n) {
     for (std::size_t i = 0; i < ways.count; ++i) {
         const float before = n.x * (ways.fromX[i] - p.x) + n.y * (ways.fromY[i] - p.y) + n.z * (ways.fromZ[i] - p.z);
@@ -35,13 +36,13 @@ void meetSphere(const Ways& ways, float* __restrict share, const glm::vec3 c, co
         const float outside = ox * ox + oy * oy + oz * oz - radius * radius;
         const float root = towards * towards - (wx * wx + wy * wy + wz * wz) * outside;
         const float at = outside / (towards + std::sqrt(root > 0.0f ? root : 0.0f));
-        const float first = outside > 0.0f ? at : 0.0f;  // what is inside and goes deeper is at the surface
+        const float first = outside > 0.0f ? at : 0.0f;  // inside and moving deeper: hit at once
         const bool met = (towards > 0.0f) & (root >= 0.0f) & (first <= 1.0f);
         share[i] = met ? first : Surface::none;
     }
 }
 
-/// d = n·(x − c): met where d changes its sign within the radius.
+/// d = n·(x − c): hit where d changes its sign within the radius.
 void meetDisc(const Ways& ways, float* __restrict share, const glm::vec3 c, const glm::vec3 n, const float radius) {
     for (std::size_t i = 0; i < ways.count; ++i) {
         const float ox = ways.fromX[i] - c.x, oy = ways.fromY[i] - c.y, oz = ways.fromZ[i] - c.z;
@@ -100,7 +101,7 @@ class Disc final : public Surface {
     SurfaceNumbers n_;
 };
 
-/// Only ways whose bounding box meets the mesh's are handed to the tree.
+/// Only paths whose bounding box overlaps the mesh's are passed to the tree.
 class MeshSurface final : public Surface {
  public:
     MeshSurface(const ParameterValues& values, const glm::vec3& place) {

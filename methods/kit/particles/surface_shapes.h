@@ -16,7 +16,7 @@ inline constexpr Choices<SurfaceShape> surfaceShapes{{"half_space", SurfaceShape
                                                      {"disc", SurfaceShape::disc},
                                                      {"mesh", SurfaceShape::mesh}};
 
-/// The shape's numbers, for parts that follow the thesis's own test.
+/// The parameters of the shape, for parts that follow the thesis's own test.
 struct SurfaceNumbers {
     SurfaceShape shape;
     glm::vec3 place;
@@ -28,8 +28,8 @@ struct SurfaceNumbers {
 void declareSurface(ParameterSet& set);
 /// Throws InputError for a normal of zero length.
 [[nodiscard]] SurfaceNumbers surfaceNumbers(const ParameterValues& values);
-/// A half-space is met from outside; what is inside may leave. A sphere likewise. A disc and a mesh are met from both
-/// sides. Throws InputError if the mesh cannot be used.
+/// Makes the surface. A half-space or a sphere is hit from outside only; particles inside may leave. A disc or a mesh
+/// is hit from both sides. Throws InputError if the mesh cannot be used.
 [[nodiscard]] std::unique_ptr<Surface> makeSurface(const ParameterValues& values);
 
 }  // namespace dustbench::particles

@@ -1,4 +1,4 @@
-// For experiments that time: the median of some repetitions, and an exponent fitted to times.
+// For timing experiments: the median of repetitions, and an exponent fitted to times.
 //
 // Units: s. Threads: one caller at a time.
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace dustbench::particles {
 
-/// The calling thread's processor time for `work`: other programs of the machine disturb it less than the wall clock.
+/// Returns the calling thread's CPU time for `work`: other programs disturb it less than the wall clock.
 template <typename Work>
 [[nodiscard]] double secondsOf(const Work& work) {
     const auto now = [] {
@@ -26,14 +26,14 @@ template <typename Work>
     return now() - begin;
 }
 
-/// The median with minimum and maximum as its interval.
+/// Returns the median with minimum and maximum as its interval.
 [[nodiscard]] inline Finding medianOf(std::string quantity, std::vector<double> values) {
     std::ranges::sort(values);
     return {std::move(quantity), values[values.size() / 2], values.front(), values.back(),
             static_cast<std::int64_t>(values.size())};
 }
 
-/// b of y = a·xᵇ by least squares of the logarithms, with Student's 95 % interval (n from 3 to 10).
+/// Returns b of y = a·xᵇ by least squares of the logarithms, with Student's 95 % interval (n from 3 to 10).
 [[nodiscard]] inline Finding exponentOf(std::string quantity, const std::vector<double>& x,
                                         const std::vector<double>& y) {
     constexpr double t95[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306};

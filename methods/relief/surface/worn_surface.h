@@ -1,7 +1,7 @@
 // A relief that wears: its depths, and per texel the number of hits, the amount removed and the amount deposited.
 //
-// Two algorithms give the same bits. `gather` visits each texel and tests every hit, as in the paper; its cost is texels ×
-// hits. `scatter` visits each hit and writes the texels within its reach.
+// Two algorithms give the same bits. `gather` visits each texel and tests every hit, as in the paper; its cost is
+// texels × hits. `scatter` visits each hit and writes the texels within its reach.
 //
 // Volumes: in steps of DepthMap times one texel. removed, laid on and present volume obey, exactly,
 //

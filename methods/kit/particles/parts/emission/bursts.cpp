@@ -19,13 +19,13 @@ class Bursts final : public EmissionPart {
 
     [[nodiscard]] Births births(const Step& step) override;
     [[nodiscard]] bool neverEmits() const override { return count_ <= 0; }
-    /// The fraction that is due, and the place within the interval if that stays the same.
+    /// Takes over the fraction that is due, and the time within the interval if the interval stays the same.
     void takeOver(const Part& before) override;
     [[nodiscard]] double meanRatePerSecond() const override { return count_ / intervalSeconds_; }
 
  private:
     [[nodiscard]] double burstsUpTo(double seconds) const;
-    /// The inverse: the first moment at which so many bursts have passed.
+    /// The inverse: the first time at which this many bursts have passed.
     [[nodiscard]] double momentOf(double bursts) const;
 
     double count_, durationSeconds_, intervalSeconds_;

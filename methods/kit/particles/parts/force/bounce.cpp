@@ -1,7 +1,7 @@
 // Particles bounce on a surface: v ← (1 − friction)·v∥ − restitution·v⊥.
 //
-// fixed: the way of each step is tested as a segment, whatever the speed; the particle bounces where it meets the
-// surface (contacts.h). At restitution 1 without friction it keeps its energy and goes back as it came.
+// fixed: the path of each step is tested as a segment, at any speed; the particle bounces at the point of contact
+// (contacts.h). With restitution 1 and no friction it keeps its energy and retraces its path.
 // paper: positions are tested, the current one x and the predicted one x + v·dt. If the surface lies between them, v is
 // mirrored and scaled by the restitution, at the current position. On a disc: d(x)·d(x + v·dt) < error, then
 // |x − centre| < radius; so a fast particle misses it, and one that leaves it slowly is caught.
@@ -14,7 +14,7 @@
 namespace dustbench::particles::parts::force::bounce {
 namespace {
 
-/// v ← restitution·(v − 2(v·n)n) where `meets`.
+/// v ← restitution·(v − 2(v·n)n) if `meets`.
 struct Mirror {
     float restitution;
 

@@ -1,7 +1,7 @@
 // Air resistance, linear in the velocity relative to the air: a = k·(u − v).
 //
 // Limited to k·dt ≤ 1, so that a particle at most reaches the air's velocity in one step. This is stable at any rate,
-// and the terminal velocity is g/k at any step length. The thesis names air resistance without a formula; this is
+// and the terminal velocity is g/k at any step length. The thesis mentions air resistance without a formula; this is
 // Stokes' law, which holds for grains as small as dust.
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // Particles attract or repel each other: all pairs, or a tree of them.
 //
-// pairs: every particle pulls every other one, O(N²). tree: far cells pull as one body at their centre of mass, or not
-// at all (the thesis's two ways). The pull is that of the positions at the step's begin; newborns take part from the
-// next step on.
+// pairs: every particle attracts every other one, O(N²). tree: far cells attract as one body at their centre of mass,
+// or not at all (the thesis's two ways). The attraction uses the positions at the beginning of the step; newborns take
+// part from the next step on.
 #include <algorithm>
 
 #include "methods/kit/parallel/for_each_block.h"

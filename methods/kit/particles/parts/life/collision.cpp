@@ -1,6 +1,6 @@
-// Death where a particle meets a surface.
+// Death at the contact with a surface.
 //
-// fixed: dies at the end of the way that meets the surface (contacts.h). paper: dies if the surface lies between the
+// fixed: dies at the end of the path that hits the surface (contacts.h). paper: dies if the surface lies between the
 // current position and the predicted one, x + v·dt, before the forces of the step act.
 #include "methods/kit/particles/life_part.h"
 #include "methods/kit/particles/sampling_modes.h"

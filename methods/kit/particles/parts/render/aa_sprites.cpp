@@ -1,4 +1,4 @@
-// Sprites blurred along the way of the last step. Light and optical depth are those of one sprite, shared out.
+// Sprites blurred along the path of the last step. Together the copies have the light and optical depth of one sprite.
 #include "methods/kit/particles/render_part.h"
 #include "methods/kit/particles/sprite_picture.h"
 

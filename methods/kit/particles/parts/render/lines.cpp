@@ -1,4 +1,4 @@
-// Lines one pixel wide along the way of the last step: straight back along the velocity, at most to the birth.
+// Lines one pixel wide along the path of the last step: straight back along the velocity, at most to the birth.
 #include "methods/kit/particles/render_part.h"
 
 namespace dustbench::particles::parts::render::lines {
