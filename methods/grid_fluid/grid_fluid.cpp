@@ -27,7 +27,7 @@ bool vehicleIsNear(const flow::FluidBox& box, const scene::SceneState& state) {
     return glm::distance(place, nearest) < vehicleReachMetres;
 }
 
-/// Whether the fluid is solved on the GPU, given where the picture is drawn.
+/// Whether the fluid is solved on the GPU, given the backend that draws the picture.
 bool isSolvedOnGpu(SolverBackend wanted, raycast::Backend picture, const gpu::Device& device) {
     if (wanted != SolverBackend::automatic) return wanted == SolverBackend::openGl;
     return picture != raycast::Backend::cpu && !device.isSoftware();

@@ -9,8 +9,8 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-/// The side of the line from `a` to `b` on which a point of the y-z plane lies. The two triangles at an edge must agree
-/// to the last bit in either orientation, so the edge is always evaluated from its lesser end.
+/// Returns the side of the line from `a` to `b` on which a point of the y-z plane lies. Two triangles at an edge must
+/// agree to the last bit in either orientation, so the edge is always evaluated from its lesser end.
 bool isLeftOf(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& point) {
     const bool turned = std::tie(b.x, b.y) < std::tie(a.x, a.y);
     const glm::dvec2 &from = turned ? b : a, &to = turned ? a : b;
@@ -32,7 +32,7 @@ void MeshCells::clear() {
 void MeshCells::cross(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const glm::dvec3 minimum = glm::min(glm::min(a, b), c), maximum = glm::max(glm::max(a, b), c);
     const glm::dvec3 size(cells_);
-    // Triangles beside the box cross none of its rows; those before or behind it still count.
+    // Triangles next to the box cross none of its rows; those in front of it or behind it still count.
     if (maximum.y < 0 || maximum.z < 0 || minimum.y > size.y || minimum.z > size.z) return;
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     if (!(std::abs(normal.x) > 0)) return;

@@ -46,8 +46,8 @@ std::vector<std::uint8_t> ballAt(const glm::dvec3& centre, double ballRadius) {
     return inside;
 }
 
-/// Swallowed share of what the undisturbed stream, as seen from the ball, carries into the cells up to two edges from
-/// the ball.
+/// Returns the share that is swallowed of what the undisturbed stream, relative to the ball, carries into the cells up
+/// to two edges from the ball.
 double shareSwallowed(const flow::FluidSolver& solver, const glm::dvec3& centre, const glm::vec3& ballVelocity) {
     const std::vector<std::uint8_t> near = ballAt(centre, radius + 2 * edge);
     const auto isNear = [&](const glm::ivec3& cell) {

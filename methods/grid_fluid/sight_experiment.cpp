@@ -32,7 +32,7 @@ scene::View viewOf(const Sight& sight) {
     return view;
 }
 
-/// Distance along a ray of length 1 from the eye to the ball; infinite if it misses.
+/// Returns the distance along a ray of length 1 from the eye to the ball; infinite if it misses.
 double distanceToBall(const Sight& sight, const glm::dvec3& ray) {
     constexpr double never = std::numeric_limits<double>::infinity();
     if (!sight.ball) return never;
@@ -42,7 +42,7 @@ double distanceToBall(const Sight& sight, const glm::dvec3& ray) {
     return root >= 0 && -b > std::sqrt(root) ? -b - std::sqrt(root) : never;
 }
 
-/// Length of the ray within the box, up to a distance.
+/// Returns the length of the ray inside the box, up to a distance.
 double lengthWithin(const glm::dvec3& eye, const glm::dvec3& ray, double end) {
     double start = 0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -13,12 +13,12 @@ void forFluid(const CellLayout& layout, const std::uint8_t* conductance, const C
                 if (const std::size_t at = layout.at(i, j, k); conductance[at] == 1) cell(at);
 }
 
-/// u along an axis.
+/// Returns the component of u along an axis.
 double speed(const CellField& cells, std::size_t at, std::size_t axis) {
     return static_cast<double>(cells.cell(at)[axis]);
 }
 
-/// u_f of the face between a cell of fluid and a neighbour.
+/// Returns u_f of the face between a fluid cell and a neighbour.
 double faceSpeed(const CellField& cells, const std::uint8_t* conductance, std::size_t at, std::size_t neighbour,
                  std::size_t axis) {
     if (conductance[neighbour] == 0) return speed(cells, neighbour, axis);

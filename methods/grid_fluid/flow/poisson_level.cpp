@@ -15,8 +15,8 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-/// Of the six faces of each cell of a row; 0 where a cell is no fluid. A function of its own, so that the compiler sees
-/// that bytes written here are none that it reads.
+/// Sums the weights of the six faces of each cell of a row; 0 for cells that are not fluid. A separate function, so
+/// that the compiler sees that the bytes written do not alias the bytes read.
 void sumsOfWeights(const std::uint8_t* __restrict own, const CellLayout& cells, std::uint8_t* __restrict sums) {
     const std::uint8_t *below = own - cells.row, *above = own + cells.row, *before = own - cells.slab,
                        *behind = own + cells.slab;
@@ -36,7 +36,7 @@ void split(const std::uint8_t* __restrict row, std::size_t half, std::uint8_t* _
     }
 }
 
-constexpr std::size_t fewCells = 4096;  ///< not worth a second thread
+constexpr std::size_t fewCells = 4096;  ///< too few for a second thread
 
 /// Inverse of the sum of a cell's weights, 0 outside the fluid.
 class Reciprocals {
@@ -85,7 +85,7 @@ void PoissonLevel::build(const CellLayout& cells, const std::uint8_t* conductanc
         const int first = (j + k) & 1;
         const std::size_t at = layout.at(j, k);
         split(sums.data(), layout.half, bytes_[first] + at, bytes_[1 - first] + at);
-        // The last sixteen cells may extend beyond the row's end, where nothing is solved.
+        // The last sixteen cells may extend beyond the row's end; those entries are not solved.
         const std::size_t beyond = (16 - layout.half % 16) % 16;
         for (int colour = 0; colour < 2; ++colour) {
             std::fill_n(bytes_[colour] + at + layout.half, beyond, std::uint8_t{0});
@@ -167,8 +167,8 @@ void PoissonLevel::sweepBlack(bool fromZero, float relaxation, int k) {
 
 float PoissonLevel::smooth(const Pass& pass) {
     if (pass.fromZero) clearGhosts();
-    // Number 0 is the correction, then red and black take turns. A restriction takes two slabs at once, and so stays a
-    // slab farther behind.
+    // Stage 0 is the correction, then red and black alternate. A restriction processes two slabs at once and therefore
+    // lags one slab more.
     const std::size_t halfSweeps = 2 * pass.relaxations.size();
     const std::size_t stages = halfSweeps + (pass.restriction != nullptr ? 3 : 1);
     const std::size_t blocks = layout.cells() < fewCells ? 1 : 2 * parallel::threadCount();

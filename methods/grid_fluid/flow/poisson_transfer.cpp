@@ -30,10 +30,10 @@ void PoissonLevel::readFaces(int axis, int j, int k, FaceRow& row) const {
 void PoissonLevel::buildFrom(const PoissonLevel& finer) {
     const SplitLayout& fine = finer.layout;
     const auto nx = static_cast<std::size_t>(layout.nx), fineNx = static_cast<std::size_t>(fine.nx);
-    // Behind coarse cell I lies the face behind finer cell 2I + 1, or behind the last.
+    // The face behind coarse cell I is the one behind finer cell 2I + 1, or behind the last cell.
     const auto behind = [](int coarse, int cells) { return std::min(2 * coarse + 1, cells - 1); };
-    // The face behind a coarse cell lies between centres that are twice as far apart; at an odd end, whose last coarse
-    // cell is one finer cell, 1½ times as far from the cell before it and no farther from the side.
+    // The face behind a coarse cell lies between centres twice as far apart. At an odd end the last coarse cell is a
+    // single finer cell: its centre is 1½ times as far from the previous one, and no farther from the side.
     const auto scale = [](int coarse, int cells) {
         const int last = (cells + 1) / 2 - 1;
         if (cells == 1) return 1.0f;
@@ -82,7 +82,7 @@ void PoissonLevel::buildFrom(const PoissonLevel& finer) {
             loop(layout.half, [&](std::size_t m) {
                 sum[m] = (w.here[m] + w.beside[m]) + (w.below[m] + w.above[m]) + (w.near[m] + w.far[m]);
             });
-            // Behind the last cell of an odd row there is none, but its weight is beside it.
+            // An odd row has no cell of this colour at its end, but the loop computes a sum there.
             const bool odd = ((colour + j + k) & 1) != 0;
             if (odd && layout.nx % 2 != 0) sum[layout.half - 1] = 0;
         }
@@ -96,7 +96,7 @@ float PoissonLevel::restrictTo(PoissonLevel& coarse, int lastK) const {
     for (int J = 0; J < to.ny; ++J) {
         float sums[2064];
         std::fill_n(sums, layout.row, 0.0f);
-        // The red cell of fine columns 2I and 2I + 1 is number I of its row, whatever the row.
+        // The red cell of fine columns 2I and 2I + 1 has index I in every row.
         for (int k = 2 * K; k <= lastK; ++k)
             for (int j = 2 * J; j < std::min(2 * J + 2, layout.ny); ++j)
                 maximum = std::max(maximum, rowResidual<true>(0, j, k, sums));
@@ -137,7 +137,7 @@ void PoissonLevel::fillNatural(const std::uint8_t (&openSides)[6]) {
             minimum = std::min(minimum, evenSum[nx / 2]);
         }
         if (minimum <= 0) {
-            // Wholly solid cells take values from the adjacent fluid.
+            // Coarse cells that are entirely solid take values from the adjacent fluid.
             for (int i = 0; i < nx; ++i) {
                 if (sum_.cell(layout, i, j, k) > 0) continue;
                 float sum = 0, found = 0;

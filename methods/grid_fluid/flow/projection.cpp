@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t maximumCells = 4096;
 
-/// What the faces of a row's cells conduct across y and z where no solid is in the way: 1, or 2 along an open side.
+/// Conductances of the faces of a row's cells across y and z if there is no solid: 1, or 2 at an open side.
 struct RowFaces {
     RowFaces(const std::uint8_t* conductance, const CellLayout& layout, int j, int k)
         : own(conductance + layout.at(0, j, k)),
@@ -27,11 +27,13 @@ struct RowFaces {
           before(beyond(k == 0, -slab)),
           behind(beyond(k + 1 == layout.nz, slab)) {}
 
-    /// Towards `step`. A wall conducts 0, so that with 1 expected nothing is plain beside it.
+    /// Conductance towards `step`. For a wall, which conducts 0, the expected value stays 1, so no cell next to it is
+    /// plain.
     [[nodiscard]] std::uint8_t beyond(bool atSide, std::ptrdiff_t step) const {
         return atSide && own[step] != 0 ? own[step] : 1;
     }
-    /// True where sixteen cells are fluid and their faces conduct so, and 1 along x, the row's ends aside.
+    /// Whether sixteen cells are fluid and plain: their faces across y and z conduct as expected, those along x conduct
+    /// 1, apart from the ends of the row.
     [[nodiscard]] bool arePlain(std::size_t first) const {
         if ((first != 0 && own[first - 1] != 1) || (first + 16 < cells && own[first + 16] != 1)) return false;
         using Byte16 = std::uint8_t __attribute__((vector_size(16)));
@@ -53,7 +55,8 @@ struct RowFaces {
     std::uint8_t below, above, before, behind;
 };
 
-/// Over a row's cells: `sixteen(first)` or `plain(i)` where faces are plain, else `general(i)`, as at the row's ends.
+/// Visits a row's cells: `sixteen(first)` or `plain(i)` if their faces are plain, otherwise and at the row's end
+/// `general(i)`.
 template <typename Sixteen, typename Plain, typename General>
 [[gnu::always_inline]] inline void forCells(const RowFaces& faces, const Sixteen& sixteen, const Plain& plain,
                                             const General& general) {
@@ -129,14 +132,14 @@ struct Gradient {
     std::array<std::ptrdiff_t, 3> steps;
 };
 
-/// One number for each cell of a row, and for one more where their number is odd.
+/// One number per cell of a row, and one more if the number of cells is odd.
 using Row = std::array<float, maximumCells + 1>;
 /// −h·∇q of a row's plain cells.
 struct RowChanges {
     Row x, y, z;
 };
 
-/// The pressures of a row. Both neighbours of an even cell along any axis are odd ones, and the reverse.
+/// The pressures of a row. All neighbours of an even cell are odd cells, and vice versa.
 struct RowPressures {
     RowPressures(const PoissonLevel& level, int j, int k)
         : even(level.pressure.colour[(j + k) & 1] + level.layout.at(j, k)),
@@ -157,7 +160,7 @@ void changeAlong(const RowPressures q, Row& change) {
     }
 }
 
-/// ½(w₋·(q₋ − q) + w₊·(q − q₊)), its neighbours `step` away; where both conduct 1, q drops out.
+/// ½(w₋·(q₋ − q) + w₊·(q − q₊)), with neighbours at distance `step`; if both conduct 1, q cancels.
 void changeAcross(const RowPressures q, std::size_t step, float before, float behind, Row& change) {
     const float *even = q.even, *odd = q.odd;
     if (before == 1 && behind == 1) {
@@ -175,7 +178,7 @@ void changeAcross(const RowPressures q, std::size_t step, float before, float be
     }
 }
 
-/// u += change of a row's cells: of plain ones from `changes`, of all others by `general(i)`.
+/// Applies u += change to a row: plain cells from `changes`, all others by `general(i)`.
 template <typename General>
 void addChanges(const RowFaces& faces, RowChanges& changes, float* record, const General& general) {
     auto& [x, y, z] = changes;
@@ -263,7 +266,7 @@ void Projection::findBesideBlocked(const CellField& cells, const CellLayout& lay
 
 void Projection::subtractGradient(CellField& cells, const CellLayout& layout, const SolidCells& solids,
                                   const PoissonLevel& finest) {
-    // First, while the neighbours still have their previous velocities.
+    // First, while the neighbours still have their old velocities.
     findBesideBlocked(cells, layout, solids, finest);
     const Gradient gradient(layout, solids.conductance(), finest);
     forRowsInTiles<RowChanges>(layout, [&](int j, int k, RowChanges& changes) {

@@ -1,7 +1,7 @@
-// Subtracts the mean of the right side in each closed region; one group of threads per region.
+// Subtracts the mean of the right-hand side in each closed region; one group of threads per region.
 layout(std430, binding = 4) restrict buffer RightSide { float rightSide[]; };
 layout(std430, binding = 5) restrict readonly buffer Runs { ivec4 runs[]; };  // i, end, j, k
-layout(std430, binding = 6) restrict readonly buffer Regions { ivec2 regions[]; };  // first run, behind the last
+layout(std430, binding = 6) restrict readonly buffer Regions { ivec2 regions[]; };  // first run, end of runs
 layout(std430, binding = 7) restrict buffer Report { uint report[]; };
 uniform int slot, regionCount;
 

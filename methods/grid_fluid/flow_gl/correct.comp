@@ -4,12 +4,12 @@ layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };
 layout(std430, binding = 3) restrict readonly buffer GuessMoving { vec4 guessMoving[]; };
 layout(std430, binding = 4) restrict readonly buffer GuessCarried { vec2 guessCarried[]; };
-layout(std430, binding = 5) restrict buffer MovingThen { vec4 movingThen[]; };  // holds the places to begin with
+layout(std430, binding = 5) restrict buffer MovingThen { vec4 movingThen[]; };  // initially the departure points
 layout(std430, binding = 6) restrict writeonly buffer CarriedThen { vec2 carriedThen[]; };
 layout(std430, binding = 7) restrict readonly buffer Report { uint maximum[]; };
 uniform float cellsPerSpeed;
 
-// The eight surrounding cells, one after the other.
+// The eight surrounding cells in sequence.
 int corner(int low, int n) {
     return low + (n & 1) + (n >> 1 & 1) * stepAlong(1) + (n >> 2) * stepAlong(2);
 }

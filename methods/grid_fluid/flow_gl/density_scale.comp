@@ -1,4 +1,4 @@
-// Scales all densities to the total that they should have.
+// Scales all densities to the expected total.
 layout(std430, binding = 1) restrict buffer Moving { vec4 moving[]; };
 layout(std430, binding = 3) restrict readonly buffer Balance {
     double covered, due;

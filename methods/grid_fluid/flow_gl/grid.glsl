@@ -3,7 +3,7 @@
 // Cells are laid out as in flow::CellLayout: x runs fastest, with a ghost at either end of each axis.
 layout(local_size_x = 32, local_size_y = 4, local_size_z = 1) in;
 #define GROUP 128
-#define COLUMN 16  // cells along z that a thread takes where groups of threads gather something
+#define COLUMN 16  // cells along z per thread in reductions
 
 uniform ivec3 cells;
 
@@ -24,7 +24,7 @@ int stepAlong(int axis) {
     return axis == 0 ? 1 : axis == 1 ? cells.x + 2 : (cells.x + 2) * (cells.y + 2);
 }
 
-// Index of this group of threads, which may be past the last.
+// Index of this group of threads; may exceed the last.
 int groupNumber() {
     return int(gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y);
 }

@@ -1,5 +1,5 @@
 // The sum over a cell's six neighbours weighted by the conductances of their faces, and the sum of the conductances. On
-// the finest level the pressure is 0 wherever a face conducts anything but 1.
+// the finest level the pressure is 0 wherever a face conducts a value other than 1.
 layout(std430, binding = 1) readonly buffer Pressure { float pressure[]; };
 #ifdef FINEST
 layout(std430, binding = 3) restrict readonly buffer Diagonal { float diagonals[]; };

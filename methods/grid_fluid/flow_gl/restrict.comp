@@ -1,4 +1,4 @@
-// Sets the coarse right side to the residuals of the red cells, summed over each coarse cell. After a sweep the
+// Sets the coarse right-hand side to the residuals of the red cells, summed over each coarse cell. After a sweep the
 // residuals of black cells vanish.
 layout(std430, binding = 5) restrict writeonly buffer CoarseRightSide { float coarseRightSide[]; };
 uniform ivec3 coarse;

@@ -1,5 +1,4 @@
-// The strength at each source's centre for which all cells together receive its amount; one group of threads per
-// source.
+// The strength at each source's centre for which all cells together receive its amount; one thread group per source.
 layout(std430, binding = 4) restrict writeonly buffer Added { float added[]; };
 uniform int count;
 

@@ -1,4 +1,4 @@
-// Adds to each fluid cell the contributions of all sources that reach it, one after the other.
+// Adds to each fluid cell the contributions of all sources that reach it, in sequence.
 layout(std430, binding = 1) restrict buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict buffer Carried { vec2 carried[]; };
 layout(std430, binding = 4) restrict readonly buffer Added { float added[]; };

@@ -1,10 +1,10 @@
 // Sources: balls with a soft edge, as in flow::SourceReach.
 struct Source {
     ivec4 first, last;            // cells that it reaches
-    ivec4 middle;                 // a cell near the centre; w: 1 where `amount` says how much in all
+    ivec4 middle;                 // a cell near the centre; w: 1 if `amount` is the total
     vec4 offset;                  // from there to the centre; w: one over the radius
     vec4 velocity;                // w: share of it that the air takes on
-    float density, kelvin, reaction, amount;  // at the centre; of `amount`: of all cells together
+    float density, kelvin, reaction, amount;  // at the centre; `amount`: sum over all cells
 };
 layout(std430, binding = 3) restrict readonly buffer Sources { Source sources[]; };
 

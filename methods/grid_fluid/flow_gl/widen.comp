@@ -1,5 +1,5 @@
-// The coarse pressure prepared for interpolation: mirrored at walls, negated at open sides; wholly solid cells take
-// values from the adjacent fluid.
+// The coarse pressure prepared for interpolation: mirrored at walls, negated at open sides; cells that are entirely
+// solid take values from the adjacent fluid.
 layout(std430, binding = 1) restrict readonly buffer Pressure { float pressure[]; };
 layout(std430, binding = 2) restrict writeonly buffer Wide { float wide[]; };
 layout(std430, binding = 3) restrict readonly buffer Faces { vec4 faces[]; };
