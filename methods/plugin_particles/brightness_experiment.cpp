@@ -165,7 +165,8 @@ std::vector<Finding> measureBrightness(gpu::Device& device, std::uint64_t seed) 
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "What ways to draw do to brightness: fast lines, the order of additive light, white backgrounds.";
+    info.summary =
+        "Measures how drawing methods affect brightness: fast lines, order of additive light, white backgrounds.";
     info.source = "Thesis";
     info.run = [](ExperimentContext& context) { return measureBrightness(context.device(), context.seed()); };
     return info;

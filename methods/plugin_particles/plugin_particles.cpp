@@ -184,17 +184,17 @@ std::vector<KeptFile> PluginParticles::files() const {
 MethodInfo describe() {
     MethodInfo info;
     info.title = "Plugin particles";
-    info.summary = "Particle systems put together from parts: sources, velocities, forces, colours and ways to draw.";
+    info.summary = "Particle systems assembled from parts: sources, velocities, forces, colours and ways to draw.";
     info.source = "Thesis";
     info.parameters.dataFile("system", "wheel_dust", "particles", ".toml", systemNames(),
                              "what is simulated and drawn: one particle system, or several");
     info.parameters.changes("at",
-                            "changes of parts and their parameters while the run goes on: 2.5s:velocity.speed=8, "
+                            "changes of parts and their parameters during the run: 2.5s:velocity.speed=8, "
                             "1s:velocity.part=cone; with several systems 2s:smoke.velocity.speed=8");
     for (std::size_t i = 0; i < countedSystems; ++i)
         info.facts.push_back({aliveFact(i), "particles", FactOver::lastFrame,
                               "particles alive in system " + std::to_string(i + 1) +
-                                  " of the file after the last frame; empty where there are fewer systems"});
+                                  " of the file after the last frame; empty if there are fewer systems"});
     info.facts.push_back({"alive_max", "particles", FactOver::maximumOfFrames,
                           "particles alive in all systems of the file: maximum of the recorded frames"});
     info.facts.push_back({"systems", "systems", FactOver::lastFrame, "particle systems that the file holds"});

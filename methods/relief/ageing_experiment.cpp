@@ -137,7 +137,8 @@ double growthExponent(const std::vector<double>& sizes, const std::vector<double
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How the cost of ageing a relief grows with hits and texels, and what a hit does to its texture.";
+    info.summary =
+        "Measures how the cost of ageing a relief grows with hits and texels, and what a hit does to its texture.";
     info.source = "Bergeron";
     info.run = [](ExperimentContext& context) {
         std::vector<Finding> findings{growth("gather_over_hits", Search::gather, false, context.seed()),

@@ -152,7 +152,7 @@ MethodInfo describe() {
                 "what a hit does: paper: the texel falls to the bottom and turns white; scalar: it falls by `scalar`; "
                 "crater: a pit whose volume follows from energy and angle; deposit: the particle stays")
         .choice("search", Search::scatter, searches,
-                "gather: each texel looks at each hit, as in the paper; scatter: each hit writes its texels; the same "
+                "gather: each texel tests every hit, as in the paper; scatter: each hit writes its texels; the same "
                 "result")
         .choice("march", March::safe, marches,
                 "paper: linear, then binary steps, which may miss thin things; safe: misses nothing")
@@ -164,15 +164,13 @@ MethodInfo describe() {
         .real("hardness", 1e4, 1, 1e12, "J/m³", "energy that breaks off a volume under ageing=crater")
         .real("density", 1500, 1, 1e5, "kg/m³", "of what is laid on under ageing=deposit")
         .real("gravity", 9.8, 0, 1000, "m/s²", "within the relief")
-        .integer("maximum_age", 600, 1, 1'000'000, "steps", "after which a particle in the relief ends")
+        .integer("maximum_age", 600, 1, 1'000'000, "steps", "after which a particle in the relief dies")
         .real("grain_metres", 0.006, 0.0001, 1, "m", "radius at which a particle is drawn within the relief");
     info.facts = {
         {"hits", "hits", FactOver::lastFrame, "particles that hit the surface of a relief since the start"},
         {"worn_share", "share", FactOver::lastFrame, "volume taken off the reliefs, of their volume at the start"},
         {"mass_error", "share", FactOver::lastFrame,
-         "difference of the reliefs' volume from what was there, less what was taken off, plus what was laid on; of "
-         "the "
-         "volume at the start"}};
+         "error of the reliefs' volume balance, present = initial − removed + deposited; relative to initial"}};
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         Settings settings;
         ReliefSettings& relief = settings.relief;

@@ -164,7 +164,7 @@ std::vector<Finding> measureErrors(std::uint64_t seed) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "What forces between particles cost and how exact they are, by all pairs and by a tree.";
+    info.summary = "Measures the cost and the accuracy of forces between particles, by all pairs and by a tree.";
     info.source = "Thesis";
     info.run = [](ExperimentContext& context) {
         std::vector<Finding> findings = measureErrors(context.seed());

@@ -19,7 +19,7 @@ void declareMesh(ParameterSet& set) {
     set.dataFile("mesh", "hare", folder, extension, files::listData(folder, extension),
                  "a mesh of data/shapes/meshes, or the path of an OBJ, PLY or STL file")
         .real("scale", 1, 1e-6, 1e6, "", "factor on the mesh's size")
-        .boolean("open", false, "takes a surface with holes too");
+        .boolean("open", false, "also accepts a surface with holes");
 }
 
 std::vector<std::array<glm::vec3, 3>> trianglesOf(const ParameterValues& values) {
@@ -36,7 +36,7 @@ std::vector<std::array<glm::vec3, 3>> trianglesOf(const ParameterValues& values)
         throw InputError("parameter mesh: '" + name + "' has no triangle with an area, allowed: a surface");
     if (const std::size_t open = meshes::openEdges(mesh); open > 0 && !values.boolean("open"))
         throw InputError("parameter mesh: '" + name + "' has a hole (" + std::to_string(open) +
-                         " edges of one triangle alone), allowed: a closed surface, or open = true");
+                         " open edges), allowed: a closed surface, or open = true");
     return triangles;
 }
 

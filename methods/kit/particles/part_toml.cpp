@@ -114,7 +114,7 @@ std::vector<NamedParts> readSystems(files::TomlReader file, const std::string& s
 std::unique_ptr<PartList> onlySystem(std::vector<NamedParts> systems, const std::string& file) {
     if (systems.size() > 1)
         throw InputError(file + ": got " + std::to_string(systems.size()) +
-                         " particle systems, expected one: several together are for the method plugin_particles");
+                         " particle systems, expected one: several systems need the method plugin_particles");
     return std::move(systems.front().parts);
 }
 

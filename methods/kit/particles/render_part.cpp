@@ -4,12 +4,11 @@ namespace dustbench::particles {
 
 void RenderPart::declareBlending(ParameterSet& set, Blending initial) {
     set.choice("blend", initial, blendings, "cover what is behind, sorted far to near; or add light, in any order")
-        .boolean("clamped", true, "added light is clamped to 1 in a buffer of its own, whatever the scene behind it");
+        .boolean("clamped", true, "added light is clamped to 1 in its own buffer, independent of the scene behind it");
 }
 
 void RenderPart::declareStereo(ParameterSet& set) {
-    set.boolean("stereo", false,
-                "for glasses of red and green: the left eye's picture in green, the right one's in red")
+    set.boolean("stereo", false, "for red-green glasses: the left eye's picture in green, the right eye's in red")
         .real("eyes_metres", 0.065, 0, 10, "m", "distance of the two eyes, if stereo");
 }
 

@@ -145,7 +145,7 @@ std::vector<Finding> sampleDirections(std::uint64_t seed, std::int64_t draws) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How uniform the thesis's random points and directions are, and those that would mend them.";
+    info.summary = "Measures how uniform the thesis's random points and directions are, and their corrections.";
     info.source = "Thesis";
     info.run = [](ExperimentContext& context) { return sampleDirections(context.seed(), 4'000'000); };
     return info;

@@ -120,7 +120,8 @@ std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, i
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "What a linked list, arrays and a pool of the dead cost when particles are scanned and replaced.";
+    info.summary =
+        "Measures the cost of a linked list, arrays and a pool of the dead when particles are scanned and replaced.";
     info.source = "Thesis";
     info.run = [](ExperimentContext& context) { return measureStorage(context.seed(), 100'000, 7); };
     return info;

@@ -52,7 +52,7 @@ void ConstantColour::update(Chunk& chunk, const Step&) const {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "one colour for all, all their life";
+    info.help = "one constant colour for all particles";
     info.source = "Thesis, 4.4.1";
     info.parameters.choice("from", From::own, origins, "the scene's lit dust, or `colour`");
     declareVector(info.parameters, "colour", colourAxes, {1, 1, 1}, 0, 100, "", "linear RGB, where from = own");

@@ -51,7 +51,7 @@ PartInfo describe() {
     info.help = "a steady stream, faster with the vehicle's speed";
     info.source = "Thesis, 4.6.1";
     info.parameters.real("rate_per_second", 0, 0, 1e12, "1/s", "births per second, from all emitters together")
-        .real("rate_per_metre", 40, 0, 1e9, "1/m", "births per metre that the vehicle goes, besides");
+        .real("rate_per_metre", 40, 0, 1e9, "1/m", "additional births per metre driven");
     info.create = [](const ParameterValues& values) { return std::make_unique<Stream>(values); };
     return info;
 }

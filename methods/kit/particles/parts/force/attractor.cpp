@@ -54,7 +54,7 @@ PartInfo describe() {
     declareVector(info.parameters, "place", spaceAxes, {0, 0, 0}, -1e6, 1e6, "m", "of the point, in the world");
     info.parameters.real("strength", 10, -1e6, 1e6, "", "k: the acceleration in m/s² where f is 1; below 0 it repels")
         .real("softening_metres", 0.05, 1e-3, 1e4, "m",
-              "ε: the pull grows no further within it, because f is infinite at d = 0");
+              "ε: limits the attraction at small distances, since f is infinite at d = 0");
     info.create = [](const ParameterValues& values) { return std::make_unique<Attractor>(values); };
     return info;
 }

@@ -38,7 +38,7 @@ void Drag::push(Chunk& chunk, const Step& step) const {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "resistance of the air, towards its velocity";
+    info.help = "air resistance, proportional to the velocity relative to the air";
     info.source = "Thesis, 5";
     info.parameters.real("rate_per_second", 1, 0, 1e6, "1/s", "how fast particles take on the air's velocity");
     info.create = [](const ParameterValues& values) { return std::make_unique<Drag>(values); };

@@ -125,10 +125,10 @@ void Ground::touch(Chunk& chunk, const Step& step) const {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "the ground holds particles up and slows them";
+    info.help = "the ground supports particles and slows them";
     info.source = "Thesis, 5.3";
     info.parameters.real("lift", 0.3, 0, 10, "", "least height of a centre above the ground, in radii")
-        .real("friction_per_second", 2, 0, 1e6, "1/s", "how fast what touches the ground comes to rest");
+        .real("friction_per_second", 2, 0, 1e6, "1/s", "rate at which particles on the ground come to rest");
     info.create = [](const ParameterValues& values) { return std::make_unique<Ground>(values); };
     return info;
 }

@@ -88,11 +88,11 @@ PartInfo describe() {
     info.source = "Thesis, 5.4; BarnesHut1986; Plummer1911";
     info.parameters.choice("law", AttractionLaw::inverseSquare, attractionLaws, attractionLawHelp)
         .real("strength", 0.01, -1e6, 1e6, "",
-              "k of each particle: the acceleration in m/s² where f is 1; below 0 they repel")
+              "k of each particle: the acceleration in m/s² where f is 1; negative: repulsion")
         .real("softening_metres", 0.1, 1e-3, 1e4, "m",
-              "ε: the pull grows no further within it, because f is infinite at d = 0")
+              "ε: limits the attraction at small distances, since f is infinite at d = 0")
         .choice("method", Method::tree, methods, "pairs: every pair, exact; tree: far cells as one")
-        .real("opening_angle", 0.6, 0, 10, "", "a cell is far where edge < angle·distance; 0: none")
+        .real("opening_angle", 0.6, 0, 10, "", "a cell is far if edge < angle·distance; 0: none")
         .choice("far", FarBodies::together, farWords, "far cells pull from their centre of mass, or not at all");
     info.create = [](const ParameterValues& values) { return std::make_unique<Interaction>(values); };
     return info;

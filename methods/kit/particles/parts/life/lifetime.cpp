@@ -49,10 +49,10 @@ void Lifetime::giveLifetimes(Newborns& newborns, const Step& step) const {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "death of age, after a time drawn at birth";
+    info.help = "death by age, after a time drawn at birth";
     info.source = "Thesis, 4.7.2";
     info.parameters.real("average_seconds", 4, 0.01, 1e6, "s", "mean lifetime")
-        .real("variation_seconds", 1, 0, 1e6, "s", "largest departure from the mean, less than the mean");
+        .real("variation_seconds", 1, 0, 1e6, "s", "maximum deviation from the mean, less than the mean");
     info.create = [](const ParameterValues& values) { return std::make_unique<Lifetime>(values); };
     return info;
 }

@@ -27,7 +27,7 @@ void ConstantSize::initialise(Chunk& chunk, const Step&) const {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "one radius for all, all their life";
+    info.help = "one constant radius for all particles";
     info.source = "Thesis, 4.5";
     info.parameters.real("radius_metres", 0.5, 0, 1000, "m", "radius");
     info.create = [](const ParameterValues& values) { return std::make_unique<ConstantSize>(values); };

@@ -39,7 +39,7 @@ PartInfo describe() {
     info.help = "a radius drawn at birth and kept";
     info.source = "Thesis, 4.5";
     info.parameters.real("average_metres", 0.5, 0, 1000, "m", "mean radius")
-        .real("variation_metres", 0.25, 0, 1000, "m", "largest departure from the mean, at most the mean");
+        .real("variation_metres", 0.25, 0, 1000, "m", "maximum deviation from the mean, at most the mean");
     info.create = [](const ParameterValues& values) { return std::make_unique<RandomSize>(values); };
     return info;
 }
