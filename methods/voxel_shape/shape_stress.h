@@ -2,9 +2,9 @@
 // like any other colour of a voxel.
 //
 // Let u be the vector from a particle's place of birth to its position, both in the shape's own frame. A voxel that
-// holds n particles has the displacement d = sqrt(Σ|u|²/n) and the colour mix(its own, the stress colour, min(1,
-// d/full)). A shape at rest or at constant velocity has d = 0 except for the particles' own drift (`birth_speed`);
-// forces, air, solids and acceleration increase d.
+// holds n particles has the displacement d = sqrt(Σ|u|²/n); its colour is mix(own, stress, min(1, d/full)). A shape at
+// rest or at constant velocity has d = 0 except for the particles' own drift (`birth_speed`); forces, air, solids and
+// acceleration increase d.
 //
 // Source: JuckelBeckhaus2007, 6 (`visualization of stress fields`). Departs: the paper names no measure; there only
 // clusters of particles show stress.
