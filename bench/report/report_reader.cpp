@@ -88,14 +88,17 @@ void noteWhatIsNotDone(ReportData& data) {
     // Warnings that differ only in their numbers are of one kind.
     static const std::regex number("[0-9]+(\\.[0-9]+)?");
     std::map<std::string, RunWarnings> byKind;
+    const auto noteWarning = [&byKind](const std::string& warning, const std::string& runId) {
+        RunWarnings& kind = byKind[std::regex_replace(warning, number, "0")];
+        if (kind.warning.empty()) kind.warning = warning;
+        kind.runs.push_back(runId);
+    };
     for (const auto& [id, run] : data.runs) {
         if (run.status != RunStatus::done)
             data.notDone.push_back({id, std::string(runStatuses.wordOf(run.status)), run.reason});
-        for (const std::string& warning : run.warnings) {
-            RunWarnings& kind = byKind[std::regex_replace(warning, number, "0")];
-            if (kind.warning.empty()) kind.warning = warning;
-            kind.runs.push_back(id);
-        }
+        if (const auto invalid = run.cells.find("invalid"); invalid != run.cells.end() && !invalid->second.empty())
+            noteWarning("invalid: " + invalid->second, id);
+        for (const std::string& warning : run.warnings) noteWarning(warning, id);
     }
     for (auto& [kind, warnings] : byKind) data.warnings.push_back(std::move(warnings));
     std::ranges::stable_sort(data.warnings, std::greater(), [](const RunWarnings& entry) { return entry.runs.size(); });

@@ -146,8 +146,9 @@ std::vector<const StoredRun*> runsOf(const Suite& suite, int repetitions, const 
 const std::vector<std::string>& numericColumns() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> list = columnsAfterParameters();
-        std::erase_if(list,
-                      [](const std::string& name) { return name.starts_with("FILE_") || name == "metric_reference"; });
+        std::erase_if(list, [](const std::string& name) {
+            return name.starts_with("FILE_") || name == "metric_reference" || name == "invalid";
+        });
         return list;
     }();
     return names;

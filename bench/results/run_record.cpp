@@ -169,6 +169,7 @@ std::string toJson(const RunRecord& record) {
                  {"parameters", parametersObject(spec.parameters)},
                  {"state_hash", record.stateHash},
                  {"method_hash", record.methodHash.empty() ? Json(nullptr) : Json(record.methodHash)},
+                 {"validity", record.validity},
                  {"summary", columnsObject(record.summary)},
                  {"memory", memory},
                  {"provenance", provenance},

@@ -36,11 +36,12 @@ using Columns = std::vector<std::pair<std::string, Value>>;
 struct RunRecord {
     RunSpec spec;
     RunStatus status = RunStatus::done;
-    std::string reason;      ///< why it is not done; empty if done
-    std::string drive;       ///< the resolved one
-    std::string stateHash;   ///< 16 hexadecimal digits, of vehicle and shared dust after the last frame
-    std::string methodHash;  ///< of the method's own simulation; empty if it has none
-    Columns summary;         ///< cells of summary.csv, without parameters
+    std::string reason;                 ///< why it is not done; empty if done
+    std::string drive;                  ///< the resolved one
+    std::string stateHash;              ///< 16 hexadecimal digits, of vehicle and shared dust after the last frame
+    std::string methodHash;             ///< of the method's own simulation; empty if it has none
+    std::vector<std::string> validity;  ///< why no claim may use it (validity.h); empty if valid
+    Columns summary;                    ///< cells of summary.csv, without parameters
     std::vector<std::pair<std::string, MemoryUse>> memory;  ///< owner (`world`, `method`, `device`) and structure
     Provenance provenance;
 };

@@ -74,7 +74,8 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "ssim_mask",
                                  "rmse_linear_mask",
                                  "error_max",
-                                 "volume_picture"})
+                                 "volume_picture",
+                                 "invalid"})
             list.emplace_back(name);
         for (const MethodFact& fact : methodFacts()) list.push_back(fact.info.name);
         return list;

@@ -1,17 +1,21 @@
 #include "bench/run/measured_run.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include "bench/export/volume_exporter.h"
 #include "bench/measure/clock.h"
 #include "bench/measure/energy_meter.h"
 #include "bench/measure/memory_probe.h"
+#include "bench/measure/statistics.h"
 #include "bench/measure/steadiness.h"
 #include "bench/results/frame_files.h"
 #include "bench/results/input_files.h"
+#include "bench/results/method_time.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/summary.h"
+#include "bench/results/validity.h"
 #include "bench/run/frame_runner.h"
 #include "bench/run/judged_run.h"
 #include "bench/run/thread_limit.h"
@@ -81,6 +85,13 @@ class RunVolumes {
     std::vector<std::string>& warnings_;
     std::optional<VolumeExporter> exporter_;
 };
+
+DustCount dustCount(const RunSpec& spec, const FrameRunner& runner) {
+    std::vector<double> counts;
+    for (const FrameRecord& frame : runner.records()) counts.push_back(static_cast<double>(frame.particles));
+    const bool isShown = spec.method != baselineMethod && !runner.method().stateHash();
+    return {std::stoll(spec.parameters.at("particles")), median(counts), isShown};
+}
 
 /// Moments of a run that cannot be judged: their pictures are stored anyway, for inspection.
 std::vector<std::int64_t> momentsToShow(const RunSpec& spec, const Method& method) {
@@ -175,7 +186,11 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
 
     record.summary = identityColumns(record, threads);
     for (auto& column : measuredColumns(runner.records(), whole)) record.summary.push_back(std::move(column));
-    for (auto& column : runner.facts()) record.summary.push_back(std::move(column));
+    const Columns facts = runner.facts();
+    record.summary.insert(record.summary.end(), facts.begin(), facts.end());
+    record.validity = whyInvalid(info, facts, dustCount(spec, runner));
+    if (!record.validity.empty())
+        record.summary.emplace_back("invalid", fmt::format("{}", fmt::join(record.validity, "; ")));
     if (spec.imagesEvery > 0 || spec.judging) {
         const std::int64_t first = spec.imagesEvery > 0 ? 0 : spec.judging->momentsOf(spec.frames).front();
         record.summary.emplace_back("FILE_image", fmt::format("runs/{}/images/f{:06}.png", runId(spec), first));

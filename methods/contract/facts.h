@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,11 +18,21 @@ namespace dustbench {
 /// Which value of a fact is kept: the maximum over all recorded frames, or the value after the last one.
 enum class FactOver { maximumOfFrames, lastFrame };
 
+/// A run in which a fact lies outside says so, and no claim uses it: the method did not show what was asked of it.
+struct ValidRange {
+    double minimum = -std::numeric_limits<double>::infinity();
+    double maximum = std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] bool contains(double value) const { return minimum <= value && value <= maximum; }
+    bool operator==(const ValidRange&) const = default;
+};
+
 struct FactInfo {
     std::string name;  ///< lower case, `mass_kept`; methods that declare the same name give it the same meaning
     std::string unit;  ///< `m/s`, `particles`, `share`
     FactOver over = FactOver::lastFrame;
     std::string meaning;  ///< one line
+    ValidRange valid{};   ///< any value, if not declared
 
     bool operator==(const FactInfo&) const = default;
 };

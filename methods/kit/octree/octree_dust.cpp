@@ -27,8 +27,15 @@ constexpr float halfSideOfRadius = 1.5f;
 /// Minimum distance between the vehicle and the faces of the world, as a fraction of the world's edge.
 constexpr double vehicleMargin = 1.0 / 8;
 
-/// Midpoint between the minimum and the maximum; ignores NaN.
-double middleOf(std::span<const float> values) {
+/// Of the particles along an axis.
+struct Extent {
+    double minimum, maximum;
+    [[nodiscard]] double middle() const { return 0.5 * (minimum + maximum); }
+};
+using Extents = std::array<Extent, 3>;
+
+/// Ignores NaN. Of no numbers: infinity and −infinity.
+Extent extentOf(std::span<const float> values) {
     // Independent lanes, so that the comparisons do not wait for each other.
     constexpr std::size_t lanes = 16;
     std::array<float, lanes> minimum, maximum;
@@ -42,19 +49,45 @@ double middleOf(std::span<const float> values) {
             maximum[lane] = value > maximum[lane] ? value : maximum[lane];
         }
     }
-    return 0.5 * (static_cast<double>(*std::ranges::min_element(minimum)) +
-                  static_cast<double>(*std::ranges::max_element(maximum)));
+    return {static_cast<double>(*std::ranges::min_element(minimum)),
+            static_cast<double>(*std::ranges::max_element(maximum))};
 }
 
 /// Centre of the world. A trail lies behind its vehicle, so the world is centred on the dust but keeps the vehicle
 /// inside.
-glm::dvec3 worldMiddle(const Puffs& dust, const glm::dvec3& vehicle, double edgeMetres) {
+glm::dvec3 worldMiddle(const Extents& dust, const glm::dvec3& vehicle, double edgeMetres) {
     const double farthest = (0.5 - vehicleMargin) * edgeMetres;
-    const auto along = [farthest](std::span<const float> column, double vehicleAt) {
-        const double middle = middleOf(column);
+    const auto along = [farthest](const Extent& extent, double vehicleAt) {
+        const double middle = extent.middle();
         return std::isfinite(middle) ? std::clamp(middle, vehicleAt - farthest, vehicleAt + farthest) : vehicleAt;
     };
-    return {along(dust.x, vehicle.x), vehicle.y, along(dust.z, vehicle.z)};
+    return {along(dust[0], vehicle.x), vehicle.y, along(dust[2], vehicle.z)};
+}
+
+bool holds(const Lattice& lattice, const Extents& dust) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (dust[static_cast<std::size_t>(axis)].minimum < lattice.origin[axis] ||
+            dust[static_cast<std::size_t>(axis)].maximum >= lattice.origin[axis] + lattice.edgeMetres)
+            return false;
+    return true;
+}
+
+/// The smallest world that holds all particles, from the one that is set: each is twice as wide as the one before and
+/// has a level more, so that voxels keep their size and place. The widest has `maximumDepth` levels.
+Lattice latticeOver(const Puffs& dust, const glm::dvec3& vehicle, const DustSettings& settings) {
+    const Extents extents{extentOf(dust.x), extentOf(dust.y), extentOf(dust.z)};
+    Lattice lattice;
+    lattice.edgeMetres = settings.worldEdgeMetres;
+    lattice.depth = settings.tree.depth;
+    const double step = lattice.cellEdgeMetres(lattice.depth - settings.tree.levels + 1);
+    for (;; lattice.edgeMetres *= 2, ++lattice.depth) {
+        lattice.origin = octreeWorldOrigin(worldMiddle(extents, vehicle, lattice.edgeMetres), lattice.edgeMetres, step);
+        if (lattice.depth == maximumDepth || holds(lattice, extents)) return lattice;
+    }
+}
+
+double massOf(const Puffs& dust, std::size_t i) {
+    return maths::puffMassSquareMetres(static_cast<double>(dust.opacity[i]), static_cast<double>(dust.radius[i]));
 }
 
 }  // namespace
@@ -73,14 +106,28 @@ void declareDust(MethodInfo& info) {
                 "sort, or as the tree gives them")
         .boolean("crossfade", false, "let voxels fade in and out instead of popping")
         .real("crossfade_time", 0.1, 0.001, 10, "s", "time constant of that fading")
-        .real("world_edge", 128, 1, 1e5, "m", "edge of the octree's world, a cube that follows the vehicle");
+        .real("world_edge", 128, 1, 1e5, "m",
+              "edge of the octree's world, a cube that follows the vehicle; doubled, with a level more, until it holds "
+              "the dust or has 12 levels");
     draw::declareOpacity(info.parameters);
     declareDustFacts(info);
+    info.facts.push_back({"mass_lost",
+                          "share",
+                          FactOver::lastFrame,
+                          "share of the particles' optical mass that the method's rule keeps and its volume does not "
+                          "hold, after the last frame",
+                          {.maximum = 0.01}});
+    info.facts.push_back(
+        {"world_edge_max", "m", FactOver::maximumOfFrames,
+         "edge of the octree's world, doubled until it holds the dust: maximum of the recorded frames"});
 }
 
 void declareDustFacts(MethodInfo& info) {
-    info.facts.push_back({"clipped", "particles", FactOver::maximumOfFrames,
-                          "particles outside the method's world: maximum of the recorded frames"});
+    info.facts.push_back({"clipped",
+                          "particles",
+                          FactOver::maximumOfFrames,
+                          "particles outside the method's world: maximum of the recorded frames",
+                          {.maximum = 0}});
     info.facts.push_back({"mass_kept", "share", FactOver::lastFrame,
                           "share of the particles' optical mass that the method's volume holds after the last frame"});
     info.facts.push_back(
@@ -139,16 +186,13 @@ void OctreeDust::prepare(const scene::Scene&, const RunSetup&, gpu::Device& devi
 }
 
 void OctreeDust::build(const Frame& frame) {
-    Lattice lattice;
-    lattice.edgeMetres = settings_.worldEdgeMetres;
-    lattice.depth = settings_.tree.depth;
-    lattice.origin =
-        octreeWorldOrigin(worldMiddle(frame.dust, frame.state.vehicle.position, settings_.worldEdgeMetres),
-                          settings_.worldEdgeMetres, lattice.cellEdgeMetres(lattice.depth - settings_.tree.levels + 1));
-    const Puffs dust = byAge_ ? byAge_->of(frame.dust, lattice, settings_.tree) : frame.dust;
+    const Lattice lattice = latticeOver(frame.dust, frame.state.vehicle.position, settings_);
+    OctreeSettings tree = settings_.tree;
+    tree.depth = lattice.depth;
+    const Puffs dust = byAge_ ? byAge_->of(frame.dust, lattice, tree) : frame.dust;
     {
         const auto detail = frame.clock.measureDetail("tree");
-        clipped_ = builder_->build(dust, lattice, settings_.tree, tree_);
+        clipped_ = builder_->build(dust, lattice, tree, tree_);
     }
     {
         const auto detail = frame.clock.measureDetail("list");
@@ -262,18 +306,22 @@ void OctreeDust::volume(const Frame&, VolumeVisitor& visitor) const {
 void OctreeDust::report(const Frame& frame, Facts& facts) const {
     facts.tell("clipped", clipped_);
     facts.tell("structure_bytes", static_cast<std::int64_t>(builder_->structureBytes(tree_)));
+    facts.tell("world_edge_max", cloud_.lattice.edgeMetres);
     if (!facts.wants("mass_kept")) return;
-    if (const auto kept = massKept(frame.dust)) facts.tell("mass_kept", *kept);
-}
-
-std::optional<double> OctreeDust::massKept(const Puffs& dust) const {
-    double ofParticles = 0, ofVoxels = 0;
-    for (std::size_t i = 0; i < dust.size(); ++i)
-        ofParticles +=
-            maths::puffMassSquareMetres(static_cast<double>(dust.opacity[i]), static_cast<double>(dust.radius[i]));
-    for (const float mass : shown().mass) ofVoxels += static_cast<double>(mass);
-    if (!(ofParticles > 0)) return std::nullopt;
-    return ofVoxels / ofParticles;
+    double ofParticles = 0, outside = 0, built = 0, ofShown = 0;
+    for (std::size_t i = 0; i < frame.dust.size(); ++i) {
+        ofParticles += massOf(frame.dust, i);
+        if (!holds(cloud_.lattice, {Extent{frame.dust.x[i], frame.dust.x[i]}, Extent{frame.dust.y[i], frame.dust.y[i]},
+                                    Extent{frame.dust.z[i], frame.dust.z[i]}}))
+            outside += massOf(frame.dust, i);
+    }
+    if (!(ofParticles > 0)) return;
+    for (const float mass : cloud_.mass) built += static_cast<double>(mass);
+    for (const float mass : shown().mass) ofShown += static_cast<double>(mass);
+    facts.tell("mass_kept", ofShown / ofParticles);
+    // By the other rules a voxel drops all particles but one; opacity by age alone keeps no mass.
+    const bool keepsAll = settings_.tree.policy == OpacityPolicy::accumulate && !byAge_;
+    facts.tell("mass_lost", keepsAll ? std::abs(1 - built / ofParticles) : outside / ofParticles);
 }
 
 MemoryReport OctreeDust::memory() const {

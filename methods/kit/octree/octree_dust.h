@@ -42,7 +42,7 @@ struct DustSettings {
     double youngOpacity = 0.5;
     bool crossFade = false;
     double crossFadeSeconds = 0.1;
-    double worldEdgeMetres = 128;
+    double worldEdgeMetres = 128;  ///< of the smallest world
 };
 
 /// Adds the parameters above to the method's parameters, and the facts that OctreeDust reports.
@@ -75,8 +75,6 @@ class DUSTBENCH_API OctreeDust final : public Method {
 
  private:
     void build(const Frame& frame);
-    /// Fraction of the particles' optical mass; empty if they have none.
-    [[nodiscard]] std::optional<double> massKept(const Puffs& dust) const;
     void uploadBillboards(std::span<const std::uint32_t> order);
     void uploadCubes(std::span<const std::uint32_t> order);
     void uploadTree();

@@ -149,6 +149,82 @@ TEST(OctreeDust, HoldsATrailThatIsLongerThanHalfItsWorld) {
     EXPECT_LT(clipped(), 300);
 }
 
+/// Place, edge and mass of every voxel that is shown.
+std::set<std::tuple<float, float, float, float, float>> voxelsOf(const OctreeDust& method) {
+    const VoxelCloud& cloud = method.shown();
+    std::set<std::tuple<float, float, float, float, float>> voxels;
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+        voxels.emplace(cloud.x[i], cloud.y[i], cloud.z[i], cloud.edge[i], cloud.mass[i]);
+    return voxels;
+}
+
+/// What remains of a trail of this length, at this depth.
+struct Held {
+    std::int64_t clipped;
+    double lost, edge;
+};
+Held heldOf(float metres, int depth) {
+    Moment moment(1000);
+    for (float& x : moment.dust.x) x *= metres / 12;
+    DustSettings settings = settingsOf(Render::raycast);
+    settings.tree.depth = depth;
+    OctreeDust method = make(settings);
+    method.prepare(moment.scene, {}, Moment::device());
+    method.update(moment.frame());
+    (void)moment.draw(method);
+    return {std::get<std::int64_t>(factOf(method, moment, "clipped", FactOver::maximumOfFrames)),
+            std::get<double>(factOf(method, moment, "mass_lost", FactOver::lastFrame)),
+            std::get<double>(factOf(method, moment, "world_edge_max", FactOver::maximumOfFrames))};
+}
+
+TEST(OctreeDust, DoublesItsWorldUntilItHoldsTheTrail) {
+    for (const auto& [metres, edge] : std::map<float, double>{{50, 128}, {100, 128}, {200, 256}, {800, 1024}}) {
+        const Held held = heldOf(metres, 8);
+        EXPECT_EQ(held.clipped, 0) << metres;
+        EXPECT_LT(held.lost, 1e-6) << metres;
+        EXPECT_EQ(held.edge, edge) << metres;
+    }
+}
+
+TEST(OctreeDust, SaysWhatItLosesWhereItsWorldCannotGrow) {
+    MethodInfo info;
+    declareDust(info);
+    const auto valid = [&](const char* name, double value) {
+        return std::ranges::find(info.facts, name, &FactInfo::name)->valid.contains(value);
+    };
+    const Held held = heldOf(200, maximumDepth);
+    EXPECT_EQ(held.edge, 128);
+    EXPECT_GT(held.clipped, 100);
+    EXPECT_GT(held.lost, 0.1);
+    EXPECT_FALSE(valid("clipped", static_cast<double>(held.clipped)));
+    EXPECT_FALSE(valid("mass_lost", held.lost));
+    EXPECT_TRUE(valid("clipped", 0));
+    EXPECT_TRUE(valid("mass_lost", 1e-6));
+    EXPECT_TRUE(valid("mass_kept", 0.2));  // by the rule of max and youngest
+    EXPECT_EQ(heldOf(200, maximumDepth - 1).clipped, 0);
+}
+
+TEST(OctreeDust, ShowsTheSameVoxelsInALargerWorldOfTheSameFinestEdge) {
+    for (const OpacityPolicy policy : {OpacityPolicy::accumulate, OpacityPolicy::max})
+        for (const int levels : {1, 4, 8}) {
+            std::vector<std::set<std::tuple<float, float, float, float, float>>> voxels;
+            for (const int doublings : {0, 1, 3}) {
+                Moment moment(1500);
+                DustSettings settings = settingsOf(Render::billboards, policy);
+                settings.tree.levels = levels;
+                settings.tree.depth += doublings;
+                settings.worldEdgeMetres *= 1 << doublings;
+                OctreeDust method = make(settings);
+                method.prepare(moment.scene, {}, Moment::device());
+                method.update(moment.frame());
+                voxels.push_back(voxelsOf(method));
+            }
+            EXPECT_GT(voxels[0].size(), 1u);
+            EXPECT_EQ(voxels[0], voxels[1]) << levels;
+            EXPECT_EQ(voxels[0], voxels[2]) << levels;
+        }
+}
+
 TEST(OctreeDust, HandsOverItsVoxelsWithTheirMass) {
     class Collector final : public VolumeVisitor {
      public:
@@ -355,6 +431,16 @@ TEST(CrossFade, StaysWhereItIsWhileTheWorldMoves) {
     ASSERT_EQ(shown.size(), 1u);
     EXPECT_NEAR(shown.mass[0], 1, 1e-6);
     EXPECT_EQ(shown.x[0], x);
+    // In a world twice as wide, with a level more.
+    Lattice grown = moved;
+    grown.origin -= 64;
+    grown.edgeMetres = 256;
+    grown.depth = 9;
+    const VoxelCloud& same = fade.follow(oneVoxel(ledger, grown, {250, 256, 248}, 1), 0.05);
+    ASSERT_EQ(same.size(), 1u);
+    EXPECT_NEAR(same.mass[0], 1, 1e-6);
+    EXPECT_EQ(same.x[0], x);
+    fade.follow(oneVoxel(ledger, moved, {122, 128, 120}, 1), 0.05);
     // Outside the world: dropped.
     moved.origin.x += 256;
     VoxelCloud nothing(ledger);

@@ -8,7 +8,7 @@ namespace dustbench::octree {
 void declareOctreeParameters(ParameterSet& parameters) {
     parameters
         .integer("depth", 8, minimumDepth, maximumDepth, "levels",
-                 "levels below the root; the finest voxels have edge world / 2^depth")
+                 "levels below the root; the finest voxels have edge world_edge / 2^depth")
         .integer("levels", 4, 1, maximumDepth, "levels", "levels that particles use, counted from the finest")
         .choice("policy", OpacityPolicy::max, opacityPolicies,
                 "several particles in a voxel: the most opaque one, the youngest one, or the sum of their masses")
