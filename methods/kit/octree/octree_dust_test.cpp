@@ -186,6 +186,26 @@ TEST(OctreeDust, DoublesItsWorldUntilItHoldsTheTrail) {
     }
 }
 
+TEST(OctreeDust, KeepsTheVoxelsSizesAndPlacesWhileItsWorldGrows) {
+    for (const OpacityPolicy policy : {OpacityPolicy::accumulate, OpacityPolicy::youngest}) {
+        std::vector<std::set<std::tuple<float, float, float, float, float>>> voxels;
+        for (const int doublings : {0, 1, 2}) {  // the trail needs one
+            Moment moment(1500);
+            for (float& x : moment.dust.x) x *= 200.0f / 12;
+            DustSettings settings = settingsOf(Render::billboards, policy);
+            settings.tree.depth += doublings;
+            settings.worldEdgeMetres *= 1 << doublings;
+            OctreeDust method = make(settings);
+            method.prepare(moment.scene, {}, Moment::device());
+            method.update(moment.frame());
+            voxels.push_back(voxelsOf(method));
+        }
+        EXPECT_GT(voxels[0].size(), 100u);
+        EXPECT_EQ(voxels[0], voxels[1]);
+        EXPECT_EQ(voxels[0], voxels[2]);
+    }
+}
+
 TEST(OctreeDust, SaysWhatItLosesWhereItsWorldCannotGrow) {
     MethodInfo info;
     declareDust(info);
