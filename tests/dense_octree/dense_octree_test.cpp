@@ -64,11 +64,11 @@ struct Shown {
     std::int64_t structureBytes;
 };
 
-Shown show(const MethodInfo& info, const Values& given, Trail& trail) {
+Shown show(const MethodInfo& info, const Values& given, TestMoment& trail) {
     ParameterValues values(info.parameters);
     for (const auto& [name, value] : given) values.set(name, value);
     const auto method = info.create(values);
-    method->prepare(trail.scene, {}, Trail::device());
+    method->prepare(trail.scene, {}, TestMoment::device());
     Shown shown{trail.updateAndDraw(*method), {}, 0};
     method->volume(trail.frame(), shown.voxels);
     Facts facts(info.facts, FactOver::maximumOfFrames);
@@ -113,6 +113,24 @@ TEST(DenseOctree, OneGrowsWithTheCellsTheOtherWithTheVoxels) {
     }
     // At most one block of 64 bytes a level and one voxel of 8 bytes for each particle, and the root's block.
     EXPECT_LE(tree.back(), 600 * (8 * 64 + 8) + 64);
+}
+
+/// The opposite of empty space: a particle in each of 16³ cells.
+TEST(DenseOctree, TheTreeNeedsMoreBytesThanTheGridWhereAllIsFull) {
+    TestMoment full(4096, 40, 30, {0, 0, 100}, {0, 0, -1});
+    for (std::size_t i = 0; i < 4096; ++i) {
+        full.dust.serial[i] = i;
+        full.dust.x[i] = -60 + 8 * static_cast<float>(i % 16);
+        full.dust.y[i] = -60 + 8 * static_cast<float>(i / 16 % 16);
+        full.dust.z[i] = -60 + 8 * static_cast<float>(i / 256);
+        full.dust.radius[i] = full.dust.lifetime[i] = 1;
+        full.dust.age[i] = 0;
+        full.dust.opacity[i] = 0.1f;
+    }
+    EXPECT_EQ(show(dense_grid::describe(), {{"depth", "4"}}, full).structureBytes, 4 * 4096);
+    // Blocks of eight nodes for the root and for all nodes of levels 1 to 3.
+    EXPECT_EQ(show(octree_search::describe(), {{"depth", "4"}, {"levels", "1"}}, full).structureBytes,
+              8 * 4096 + 64 * (1 + 8 + 64 + 512));
 }
 
 }  // namespace
