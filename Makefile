@@ -62,6 +62,10 @@ bench: build/release/build.ninja ## Run every benchmark program
 without: packages ## Build and list without one method (METHOD=grid_fluid), in a copy of the tree
 	@tests/without_a_method/without_a_method.sh $(METHOD)
 
+.PHONY: planted
+planted: packages ## Plant faults in a copy of the tree: tests and verdicts must notice (FAULTS=NAME …; default: all)
+	@JOBS=$(JOBS) python3 -B tests/planted/planted.py $(FAULTS)
+
 .PHONY: asan
 asan: build/asan/build.ninja ## The unit tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@cmake --build --preset asan --parallel $(JOBS) --target unit_tests

@@ -57,7 +57,8 @@ struct Product {
     bool showsDust = false;  ///< then the dust's colours decide as well
 };
 const std::vector<Product> products{
-    {"billboard", {}, {"puff", "soft", "facing", "alpha"}, true},
+    {"billboard", {}, {"puff", "soft", "facing"}, true},
+    {"billboard", {{"alpha", "plain"}}, {"puff", "soft"}, true},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"advection", "limit"}},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"pressure", "vorticity"}},
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"fluid", "shadow_cells"}},

@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+"""Plants faults in a copy of the tree and checks that a test or a claim's verdict notices each.
+
+    planted.py [NAME …]        patches of this folder, without `.patch`; default: all
+    planted.py --fit           only checks that every patch has its header and fits the sources; builds nothing
+
+A patch begins with a header:
+
+    Fault: what is wrong, in one sentence
+    Build: targets of the build, separated by spaces
+    Test: one test of one of these targets, Suite.Name                        this one must fail
+    Claim: ID of PAPER, from SUITE                                            or: this verdict must not be `confirmed`
+
+For each, the unchanged copy is built first and must pass, or have the verdict `confirmed`. Then the fault is planted and
+must be noticed. The copy is build/planted/tree; it is kept, so that the next call builds little. Exit code: 0 if all faults
+are noticed, 1 if one is not, 3 for a bad name or a bad patch.
+"""
+
+import csv
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+SOURCE = HERE.parents[1]
+TREE = SOURCE / "build" / "planted" / "tree"
+BUILD = TREE / "build" / "release"
+PARTS = ("CMakeLists.txt", "CMakePresets.json", "methods", "bench", "data", "reports", "tests")
+KEYS = {"Fault", "Build", "Test", "Claim"}
+
+
+class BadPatch(Exception):
+    pass
+
+
+class Unexpected(Exception):
+    """Something else went wrong than what was planted."""
+
+
+def read(file):
+    """The patch's header."""
+    header = {}
+    for line in file.read_text().splitlines():
+        if not line.strip():
+            break
+        key, _, value = line.partition(": ")
+        if key not in KEYS or not value:
+            raise BadPatch(f"{file.name}: got the line '{line}', expected one of {', '.join(sorted(KEYS))} and a value")
+        header[key] = value
+    if "Fault" not in header or "Build" not in header or ("Test" in header) == ("Claim" in header):
+        raise BadPatch(f"{file.name}: expected Fault, Build, and either Test or Claim")
+    if "Claim" in header and not re.fullmatch(r"\S+ of \S+, from \S+", header["Claim"]):
+        raise BadPatch(f"{file.name}: got 'Claim: {header['Claim']}', expected 'Claim: ID of PAPER, from SUITE'")
+    return header
+
+
+def chosen(names):
+    known = {file.stem: file for file in sorted(HERE.glob("*.patch"))}
+    for name in names:
+        if name not in known:
+            raise BadPatch(f"no patch '{name}'; known: {' '.join(known)}")
+    return {name: known[name] for name in (names or known)}
+
+
+def synchronise():
+    """Makes the copy equal to the tree. Files that are alike keep their time, so that they are not built again."""
+    wanted = set()
+    for part in PARTS:
+        top = SOURCE / part
+        for file in [top] if top.is_file() else sorted(top.rglob("*")):
+            place = file.relative_to(SOURCE)
+            if not file.is_file() or place.parts[:2] == ("reports", "out") or "__pycache__" in place.parts:
+                continue
+            wanted.add(place)
+            copy = TREE / place
+            if copy.exists() and copy.read_bytes() == file.read_bytes():
+                continue
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(file, copy)  # with the time of now
+    for part in PARTS:
+        for file in (TREE / part).rglob("*"):
+            if file.is_file() and file.relative_to(TREE) not in wanted:
+                file.unlink()
+
+
+def call(command, **options):
+    return subprocess.run(command, cwd=TREE, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
+
+
+def build(targets):
+    environment = os.environ | {"CCACHE_BASEDIR": str(TREE)}
+    subprocess.run([str(SOURCE / ".ci" / "drop-stale-builds"), str(BUILD)], check=True)
+    if not (BUILD / "build.ninja").exists():
+        werror = os.environ.get("DUSTBENCH_WERROR", "OFF")  # as the build beside it, whose objects the compiler cache has
+        configured = call(["cmake", "--preset", "release", f"-DDUSTBENCH_WERROR={werror}"], env=environment)
+        if configured.returncode != 0:
+            raise Unexpected(f"the copy cannot be configured:\n{configured.stdout}")
+    jobs = os.environ.get("JOBS", str(os.cpu_count()))
+    built = call(["cmake", "--build", str(BUILD), "--parallel", jobs, "--target", *targets], env=environment)
+    if built.returncode != 0:
+        raise Unexpected(f"{' '.join(targets)} cannot be built:\n{built.stdout[-4000:]}")
+
+
+def plant(file, *options, tree=TREE):
+    planted = subprocess.run(["patch", f"--directory={tree}", "--strip=1", "--forward", "--no-backup-if-mismatch", *options, f"--input={file}"],
+                             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if planted.returncode != 0:
+        raise Unexpected(f"the patch does not fit the sources any more:\n{planted.stdout}")
+
+
+def fit():
+    """Says which patches do not fit the sources; returns the exit code."""
+    code = 0
+    for name, file in chosen([]).items():
+        try:
+            read(file)
+            changed = re.findall(r"(?m)^\+\+\+ b/(\S+)$", file.read_text())
+            if all((SOURCE / path).parent.exists() for path in changed):  # a method's folder may have been deleted
+                plant(file, "--dry-run", tree=SOURCE)
+        except Unexpected as error:
+            print(f"{name}: {error}")
+            code = 1
+    return code
+
+
+def test_passes(targets, name):
+    for target in targets:
+        program = BUILD / target
+        listed = call([str(program), f"--gtest_filter={name}", "--gtest_list_tests"])
+        if name.split(".")[1] not in listed.stdout:
+            continue
+        return call([str(program), f"--gtest_filter={name}", "--gtest_brief=1"]).returncode == 0
+    raise Unexpected(f"{' and '.join(targets)} have no test {name}")
+
+
+def verdict(name, claim):
+    identity, paper, suite = re.fullmatch(r"(\S+) of (\S+), from (\S+)", claim).groups()
+    out = TREE / "out" / name
+    shutil.rmtree(out, ignore_errors=True)
+    for command in (["suite", suite, "--quick", "--out", str(out)], ["report", str(out)]):
+        called = call([str(BUILD / "dustbench"), *command])
+        if called.returncode not in (0, 1):  # 1: a run failed, which may be what the fault does
+            raise Unexpected(f"dustbench {' '.join(command)}: exit code {called.returncode}\n{called.stdout[-2000:]}")
+    with open(out / "claims.csv", newline="") as file:
+        for row in csv.DictReader(file):
+            if row["id"] == identity and row["paper"] == paper:
+                return row["verdict"]
+    raise Unexpected(f"claims.csv has no claim {identity} of {paper}")
+
+
+def state(name, header):
+    """Whether all is well in the copy, and a word for it."""
+    targets = header["Build"].split()
+    build(targets)
+    if "Test" in header:
+        well = test_passes(targets, header["Test"])
+        return well, "passes" if well else "fails"
+    word = verdict(name, header["Claim"])
+    return word == "confirmed", f"is {word}"
+
+
+def notices(name, file):
+    """Prints what happens to one fault; returns whether it is noticed."""
+    header = read(file)
+    judge = header.get("Test") or f"claim {header['Claim']}"
+    print(f"{name}: {header['Fault']}", flush=True)
+    synchronise()
+    well, word = state(name, header)
+    print(f"    without the fault {judge} {word}", flush=True)
+    if not well:
+        print("    NOT TESTED: it must be well without the fault", flush=True)
+        return False
+    plant(file)
+    well, word = state(name, header)
+    print(f"    with it           {judge} {word}: {'NOT NOTICED' if well else 'noticed'}", flush=True)
+    return not well
+
+
+def main():
+    try:
+        if sys.argv[1:] == ["--fit"]:
+            return fit()
+        patches = chosen(sys.argv[1:])
+        for file in patches.values():
+            read(file)
+    except BadPatch as error:
+        print(f"planted: {error}", file=sys.stderr)
+        return 3
+    noticed = []
+    for name, file in patches.items():
+        try:
+            if notices(name, file):
+                noticed.append(name)
+        except Unexpected as error:
+            print(f"    NOT TESTED: {error}", flush=True)
+    print(f"planted: {len(noticed)} of {len(patches)} faults are noticed")
+    return 0 if len(noticed) == len(patches) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
