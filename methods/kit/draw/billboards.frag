@@ -47,6 +47,7 @@ float shareBeforeScene() {
 }
 #endif
 
+/// With PLAIN_ALPHA `depth` is not an optical depth, but an opacity.
 void main() {
 #ifdef TEXTURED
     vec2 place = 0.5 * puff.xy + 0.5;
