@@ -15,7 +15,7 @@ float clearance(const glm::vec3& from, const glm::vec3& to, float extentMetres) 
     return 1e-6f * (sum.x + sum.y + sum.z + extentMetres);
 }
 
-/// v ← (1 − friction)·v∥ − restitution·v⊥.
+/// v ← (1 − friction)·v∥ − restitution·v⊥, relative to the surface.
 glm::vec3 reflected(const glm::vec3& v, const glm::vec3& n, const Contact& contact) {
     const float into = std::min(glm::dot(v, n), 0.0f);
     const glm::vec3 across = into * n;
@@ -47,26 +47,42 @@ struct Way {
     bool dead = false;
 };
 
+/// The first contact of the rest of a way, or none; `by` is the surface.
+float meetNext(const Way& way, const MetSurfaces& surfaces, std::uint8_t* by) {
+    const Ways one{1, &way.from.x, &way.from.y, &way.from.z, &way.to.x, &way.to.y, &way.to.z, &way.seconds};
+    float scratch, share;
+    meetAll(one, surfaces, &scratch, &share, by);
+    return share;
+}
+
+/// To the contact at `share`, from where the way begins anew; it ends there.
+Touch goTo(Way& way, float share, const Surface& surface) {
+    const Touch touch = surface.touchAt({way.from, way.to, way.seconds, share});
+    way.from = touch.point + clearance(way.from, way.to, surface.extentMetres()) * touch.normal;
+    way.seconds *= 1 - share;
+    way.to = way.from;
+    return touch;
+}
+
+/// Ends a way at its place on the surface, which carries it for the rest of the step: as far as another one lets it.
+void ride(Way& way, const Touch& touch, const MetSurfaces& surfaces) {
+    if (touch.velocity == glm::vec3(0)) return;
+    way.to = way.from + way.seconds * touch.velocity;
+    std::uint8_t by;
+    if (const float share = meetNext(way, surfaces, &by); share <= 1)
+        (void)goTo(way, share, *surfaces.all()[by].surface);
+}
+
 /// Goes on from a contact at `share` with surface `by`, and from all that follow.
 void follow(Way& way, float share, std::uint8_t by, const MetSurfaces& surfaces) {
-    for (int contacts = 1;; ++contacts) {
+    for (int contacts = 1; share <= 1; ++contacts) {
         const MetSurface& met = surfaces.all()[by];
-        const glm::vec3 point = way.from + share * (way.to - way.from);
-        const glm::vec3 normal = met.surface->normalAt(point, way.from, way.to);
-        const float away = clearance(way.from, way.to, met.surface->extentMetres());
-        way.velocity = reflected(way.velocity, normal, met.contact);
-        way.from = point + away * normal;
-        way.seconds *= 1 - share;
-        way.to = way.from + way.seconds * way.velocity;
+        const Touch touch = goTo(way, share, *met.surface);
+        way.velocity = touch.velocity + reflected(way.velocity - touch.velocity, touch.normal, met.contact);
         way.dead |= met.contact.kills;
-        if (way.dead || contacts == maximumContacts) {
-            way.to = way.from;
-            return;
-        }
-        const Ways one{1, &way.from.x, &way.from.y, &way.from.z, &way.to.x, &way.to.y, &way.to.z};
-        float scratch;
-        meetAll(one, surfaces, &scratch, &share, &by);
-        if (share > 1) return;
+        if (way.dead || contacts == maximumContacts) return ride(way, touch, surfaces);
+        way.to = way.from + way.seconds * way.velocity;
+        share = meetNext(way, surfaces, &by);
     }
 }
 
@@ -97,7 +113,8 @@ MetSurfaces::MetSurfaces(const PartList& parts) {
 void meetSurfaces(Chunk& chunk, const WayBegins& begins, const MetSurfaces& surfaces) {
     alignas(64) std::array<float, chunkSize> share, first;
     alignas(64) std::array<std::uint8_t, chunkSize> by;
-    const Ways ways{chunk.count, begins.x.data(), begins.y.data(), begins.z.data(), chunk.x, chunk.y, chunk.z};
+    const Ways ways{chunk.count, begins.x.data(), begins.y.data(), begins.z.data(),
+                    chunk.x,     chunk.y,         chunk.z,         begins.seconds.data()};
     meetAll(ways, surfaces, share.data(), first.data(), by.data());
     for (std::size_t i = 0; i < chunk.count; ++i) {
         if (first[i] > 1) continue;

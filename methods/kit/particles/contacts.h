@@ -40,7 +40,7 @@ class MetSurfaces {
     std::size_t count_ = 0;
 };
 
-/// Most contacts of a particle in one step; after the last it stays at its place until the next step.
+/// Most contacts of a particle in one step; after the last it stays at its place on the surface, which carries it.
 inline constexpr int maximumContacts = 8;
 
 /// Resolves contacts. The chunk holds the positions that the particles would reach without any.

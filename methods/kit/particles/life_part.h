@@ -16,6 +16,8 @@ class LifePart : public Part {
     using Part::Part;
     [[nodiscard]] PartKind kind() const final { return PartKind::life; }
 
+    /// Called once per step before all chunks.
+    virtual void begin(const Step&) {}
     /// Sets `chunk.dead` to 1 for particles that must die; leaves the others unchanged.
     virtual void judge(Chunk& chunk, const Step& step) const = 0;
 

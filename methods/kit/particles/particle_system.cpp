@@ -157,6 +157,7 @@ void ParticleSystem::update(const Surroundings& surroundings) {
     s.store.keepOneColour(oneColour.has_value() && parts.shadings().empty());
 
     for (const auto& force : s.parts->forces()) force->begin(step, s.store);
+    for (const auto& life : s.parts->lives()) life->begin(step);
     const MetSurfaces surfaces(parts);
     s.live(surfaces, step);
     const auto holes = s.deaths.collect();

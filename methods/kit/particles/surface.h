@@ -1,6 +1,6 @@
 // Surfaces that particles may hit during a step, and the response to a contact.
 //
-// Units: m. Frame: world. Threads: const members are safe from any.
+// Units: m, m/s, s. Frame: world. Threads: const members are safe from any.
 // Source: Thesis, 5.3.2 and 6.1. Departs: the way from the old to the new position is tested as a segment, so that no
 // speed is too high; the thesis tests positions.
 #pragma once
@@ -8,13 +8,16 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 
+#include "methods/kit/particles/step.h"
+
 namespace dustbench::particles {
 
-/// The straight ways of `count` particles in a step.
+/// The straight ways of `count` particles, each to the end of the step.
 struct Ways {
     std::size_t count;
     const float *fromX, *fromY, *fromZ;
     const float *toX, *toY, *toZ;
+    const float* seconds;  ///< how long each takes: it begins so long before the step's end
 
     [[nodiscard]] glm::vec3 from(std::size_t i) const { return {fromX[i], fromY[i], fromZ[i]}; }
     [[nodiscard]] glm::vec3 to(std::size_t i) const { return {toX[i], toY[i], toZ[i]}; }
@@ -27,6 +30,22 @@ struct Contact {
     bool kills = false;  ///< the particle dies at the contact
 };
 
+/// One way, and the share of it at which it meets a surface.
+struct Meeting {
+    glm::vec3 from, to;
+    float seconds;
+    float share;
+
+    [[nodiscard]] glm::vec3 point() const { return from + share * (to - from); }
+};
+
+/// Where a particle touches a surface.
+struct Touch {
+    glm::vec3 point;
+    glm::vec3 normal;       ///< unit, towards the side that the particle comes from
+    glm::vec3 velocity{0};  ///< of the surface at the point
+};
+
 class Surface {
  public:
     /// The share that stands for a path without contact.
@@ -34,11 +53,12 @@ class Surface {
 
     virtual ~Surface() = default;
 
+    /// Called once per step, before all ways.
+    virtual void begin(const Step&) {}
     /// Writes the share of each way, 0..1, at which it first meets the surface, or `none`.
     virtual void meet(const Ways& ways, float* share) const = 0;
-    /// The unit normal where the way from `from` to `to` meets the surface, at `point`; towards the side of `from`.
-    [[nodiscard]] virtual glm::vec3 normalAt(const glm::vec3& point, const glm::vec3& from,
-                                             const glm::vec3& to) const = 0;
+    /// The contact of a way at the share that `meet` gave it.
+    [[nodiscard]] virtual Touch touchAt(const Meeting& meeting) const = 0;
     /// Largest coordinate that enters the test, for bounds on its rounding.
     [[nodiscard]] virtual float extentMetres() const = 0;
     [[nodiscard]] virtual std::size_t bytes() const { return 0; }

@@ -5,6 +5,7 @@
 
 #include "methods/kit/meshes/triangle_tree.h"
 #include "methods/kit/particles/named_mesh.h"
+#include "methods/kit/particles/scene_surface.h"
 #include "methods/kit/particles/vector_parameter.h"
 
 namespace dustbench::particles {
@@ -62,9 +63,7 @@ class HalfSpace final : public Surface {
  public:
     explicit HalfSpace(const SurfaceNumbers& n) : n_(n) {}
     void meet(const Ways& ways, float* share) const override { meetHalfSpace(ways, share, n_.place, n_.normal); }
-    [[nodiscard]] glm::vec3 normalAt(const glm::vec3&, const glm::vec3&, const glm::vec3&) const override {
-        return n_.normal;
-    }
+    [[nodiscard]] Touch touchAt(const Meeting& m) const override { return {m.point(), n_.normal}; }
     [[nodiscard]] float extentMetres() const override { return sumOfSizes(n_.place); }
 
  private:
@@ -75,10 +74,10 @@ class Sphere final : public Surface {
  public:
     explicit Sphere(const SurfaceNumbers& n) : n_(n) {}
     void meet(const Ways& ways, float* share) const override { meetSphere(ways, share, n_.place, n_.radiusMetres); }
-    [[nodiscard]] glm::vec3 normalAt(const glm::vec3& point, const glm::vec3&, const glm::vec3&) const override {
-        const glm::vec3 out = point - n_.place;
+    [[nodiscard]] Touch touchAt(const Meeting& m) const override {
+        const glm::vec3 out = m.point() - n_.place;
         const float length = glm::length(out);
-        return length > 0 ? out / length : glm::vec3(0, 1, 0);
+        return {m.point(), length > 0 ? out / length : glm::vec3(0, 1, 0)};
     }
     [[nodiscard]] float extentMetres() const override { return sumOfSizes(n_.place) + n_.radiusMetres; }
 
@@ -92,8 +91,8 @@ class Disc final : public Surface {
     void meet(const Ways& ways, float* share) const override {
         meetDisc(ways, share, n_.place, n_.normal, n_.radiusMetres);
     }
-    [[nodiscard]] glm::vec3 normalAt(const glm::vec3&, const glm::vec3& from, const glm::vec3&) const override {
-        return glm::dot(n_.normal, from - n_.place) < 0 ? -n_.normal : n_.normal;
+    [[nodiscard]] Touch touchAt(const Meeting& m) const override {
+        return {m.point(), glm::dot(n_.normal, m.from - n_.place) < 0 ? -n_.normal : n_.normal};
     }
     [[nodiscard]] float extentMetres() const override { return sumOfSizes(n_.place) + n_.radiusMetres; }
 
@@ -125,9 +124,9 @@ class MeshSurface final : public Surface {
             share[i] = hit ? hit->share : none;
         }
     }
-    [[nodiscard]] glm::vec3 normalAt(const glm::vec3&, const glm::vec3& from, const glm::vec3& to) const override {
-        const auto hit = tree_.firstHit(from, to);
-        return hit ? hit->normal : glm::vec3(0, 1, 0);
+    [[nodiscard]] Touch touchAt(const Meeting& m) const override {
+        const auto hit = tree_.firstHit(m.from, m.to);
+        return {m.point(), hit ? hit->normal : glm::vec3(0, 1, 0)};
     }
     [[nodiscard]] float extentMetres() const override { return std::max(sumOfSizes(minimum_), sumOfSizes(maximum_)); }
     [[nodiscard]] std::size_t bytes() const override { return tree_.bytes(); }
@@ -140,12 +139,16 @@ class MeshSurface final : public Surface {
 }  // namespace
 
 void declareSurface(ParameterSet& set) {
-    set.choice("shape", SurfaceShape::halfSpace, surfaceShapes, "what particles meet");
+    set.choice("shape", SurfaceShape::halfSpace, surfaceShapes,
+               "what particles meet; scene: the scene's ground, its solids and the moving vehicle");
     declareVector(set, "place", spaceAxes, {0, 0, 0}, -1e6, 1e6, "m",
                   "a point of the half-space's plane, the centre of sphere or disc, the origin of the mesh");
     declareVector(set, "normal", spaceAxes, {0, 1, 0}, -1, 1, "", "of half-space and disc, out of the solid");
     set.real("radius_metres", 1, 1e-3, 1e5, "m", "of sphere and disc");
     declareMesh(set);
+    set.boolean("on_ground", true, "of a scene: its ground")
+        .boolean("on_solids", true, "of a scene: its solids")
+        .boolean("on_vehicle", true, "of a scene: the vehicle and its wheels");
 }
 
 SurfaceNumbers surfaceNumbers(const ParameterValues& values) {
@@ -162,6 +165,9 @@ std::unique_ptr<Surface> makeSurface(const ParameterValues& values) {
             return std::make_unique<Sphere>(numbers);
         case SurfaceShape::disc:
             return std::make_unique<Disc>(numbers);
+        case SurfaceShape::scene:
+            return std::make_unique<SceneSurface>(
+                SceneParts{values.boolean("on_ground"), values.boolean("on_solids"), values.boolean("on_vehicle")});
         case SurfaceShape::mesh:
             break;
     }

@@ -1,4 +1,4 @@
-// The surfaces that a part can name: half-space, sphere, disc, mesh.
+// The surfaces that a part can name: half-space, sphere, disc, mesh, or what the scene holds.
 //
 // Units: m. Frame: world. Source: Thesis, 6.1.2 to 6.1.4.
 #pragma once
@@ -10,11 +10,12 @@
 
 namespace dustbench::particles {
 
-enum class SurfaceShape { halfSpace, sphere, disc, mesh };
+enum class SurfaceShape { halfSpace, sphere, disc, mesh, scene };
 inline constexpr Choices<SurfaceShape> surfaceShapes{{"half_space", SurfaceShape::halfSpace},
                                                      {"sphere", SurfaceShape::sphere},
                                                      {"disc", SurfaceShape::disc},
-                                                     {"mesh", SurfaceShape::mesh}};
+                                                     {"mesh", SurfaceShape::mesh},
+                                                     {"scene", SurfaceShape::scene}};
 
 /// The parameters of the shape, for parts that follow the thesis's own test.
 struct SurfaceNumbers {
@@ -24,7 +25,7 @@ struct SurfaceNumbers {
     float radiusMetres;
 };
 
-/// Declares `shape`, `place`, `normal`, `radius_metres` and those of a mesh.
+/// Declares `shape`, `place`, `normal`, `radius_metres`, those of a mesh and those of a scene.
 void declareSurface(ParameterSet& set);
 /// Throws InputError for a normal of zero length.
 [[nodiscard]] SurfaceNumbers surfaceNumbers(const ParameterValues& values);

@@ -1,10 +1,10 @@
-// Particles bounce on a surface: v ← (1 − friction)·v∥ − restitution·v⊥.
+// Particles bounce on a surface: v ← (1 − friction)·v∥ − restitution·v⊥, relative to the surface where it moves.
 //
 // fixed: the path of each step is tested as a segment, at any speed; the particle bounces at the point of contact
 // (contacts.h). With restitution 1 and no friction it keeps its energy and retraces its path.
 // paper: positions are tested, the current one x and the predicted one x + v·dt. If the surface lies between them, v is
-// mirrored and scaled by the restitution, at the current position. On a disc: d(x)·d(x + v·dt) < error, then
-// |x − centre| < radius; so a fast particle misses it, and one that leaves it slowly is caught.
+// mirrored and scaled by the restitution, at the current position, as if the surface stood still. On a disc: d(x)·d(x +
+// v·dt) < error, then |x − centre| < radius; so a fast particle misses it, and one that leaves it slowly is caught.
 #include <cmath>
 
 #include "methods/kit/particles/force_part.h"
@@ -72,9 +72,9 @@ void mirrorAtMesh(const Chunk& chunk, const Surface& surface, const Mirror mirro
         float &vx = chunk.velocityX[i], &vy = chunk.velocityY[i], &vz = chunk.velocityZ[i];
         const glm::vec3 from(chunk.x[i], chunk.y[i], chunk.z[i]), to = from + dt * glm::vec3(vx, vy, vz);
         float share;
-        surface.meet({1, &from.x, &from.y, &from.z, &to.x, &to.y, &to.z}, &share);
+        surface.meet({1, &from.x, &from.y, &from.z, &to.x, &to.y, &to.z, &dt}, &share);
         if (share > 1) continue;
-        const glm::vec3 n = surface.normalAt(from + share * (to - from), from, to);
+        const glm::vec3 n = surface.touchAt({from, to, dt, share}).normal;
         mirror(vx, vy, vz, n.x, n.y, n.z, true);
     }
 }
@@ -84,6 +84,7 @@ class Bounce final : public ForcePart {
     /// Throws InputError if the surface cannot be used.
     explicit Bounce(const ParameterValues& values);
 
+    void begin(const Step& step, const ParticleStore&) override { surface_->begin(step); }
     void push(Chunk& chunk, const Step& step) const override;
     [[nodiscard]] const Surface* surface() const override { return printed_ ? nullptr : surface_.get(); }
     [[nodiscard]] Contact contact() const override { return contact_; }
@@ -119,6 +120,7 @@ void Bounce::push(Chunk& chunk, const Step& step) const {
             return mirrorAtDisc(c.count, c.x, c.y, c.z, c.velocityX, c.velocityY, c.velocityZ, numbers_, mirror, dt,
                                 error_);
         case SurfaceShape::mesh:
+        case SurfaceShape::scene:
             return mirrorAtMesh(c, *surface_, mirror, dt);
     }
 }
@@ -128,7 +130,8 @@ void Bounce::push(Chunk& chunk, const Step& step) const {
 PartInfo describe() {
     PartInfo info;
     info.help =
-        "particles bounce on a half-space, a sphere, a disc or a mesh; at restitution 0 and friction 1 they stick";
+        "particles bounce on a half-space, a sphere, a disc, a mesh, or on the scene's ground, solids and vehicle; at "
+        "restitution 0 and friction 1 they stick";
     info.source = "Thesis, 5.3 and 6.1";
     info.parameters.choice("mode", maths::SamplingMode::fixed, samplingModes,
                            "paper: tests the current and the predicted position, mirrors at the current one; fixed: "

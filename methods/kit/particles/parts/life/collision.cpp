@@ -2,6 +2,8 @@
 //
 // fixed: dies at the end of the path that hits the surface (contacts.h). paper: dies if the surface lies between the
 // current position and the predicted one, x + v·dt, before the forces of the step act.
+#include <algorithm>
+
 #include "methods/kit/particles/life_part.h"
 #include "methods/kit/particles/sampling_modes.h"
 #include "methods/kit/particles/surface_shapes.h"
@@ -26,6 +28,7 @@ class Collision final : public LifePart {
           printed_(values.choice("mode", samplingModes) == maths::SamplingMode::paper),
           surface_(makeSurface(values)) {}
 
+    void begin(const Step& step) override { surface_->begin(step); }
     void judge(Chunk& chunk, const Step& step) const override;
     [[nodiscard]] const Surface* surface() const override { return printed_ ? nullptr : surface_.get(); }
 
@@ -36,12 +39,13 @@ class Collision final : public LifePart {
 
 void Collision::judge(Chunk& chunk, const Step& step) const {
     if (!printed_) return;
-    alignas(64) float x[chunkSize], y[chunkSize], z[chunkSize], share[chunkSize];
+    alignas(64) float x[chunkSize], y[chunkSize], z[chunkSize], share[chunkSize], seconds[chunkSize];
     const float dt = static_cast<float>(step.seconds);
+    std::fill_n(seconds, chunk.count, dt);
     predict(chunk.count, chunk.x, chunk.velocityX, x, dt);
     predict(chunk.count, chunk.y, chunk.velocityY, y, dt);
     predict(chunk.count, chunk.z, chunk.velocityZ, z, dt);
-    surface_->meet({chunk.count, chunk.x, chunk.y, chunk.z, x, y, z}, share);
+    surface_->meet({chunk.count, chunk.x, chunk.y, chunk.z, x, y, z, seconds}, share);
     raiseWhereMet(chunk.count, share, chunk.dead);
 }
 
@@ -49,7 +53,7 @@ void Collision::judge(Chunk& chunk, const Step& step) const {
 
 PartInfo describe() {
     PartInfo info;
-    info.help = "death at a half-space, a sphere, a disc or a mesh, besides death of age";
+    info.help = "death at a half-space, a sphere, a disc, a mesh or what the scene holds, besides death of age";
     info.source = "Thesis, 4.7.3 and 6.1";
     info.parameters.choice(
         "mode", maths::SamplingMode::fixed, samplingModes,

@@ -1,0 +1,207 @@
+#include "methods/kit/particles/scene_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "methods/kit/particles/ground_surface.h"
+
+namespace dustbench::particles {
+namespace {
+
+/// Frames and boxes are computed apart from each other: their rounding must not hide a contact.
+constexpr float boxMarginMetres = 0.02f;
+
+float sumOfSizes(const glm::vec3& v) {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+/// From the frame of a wheel that does not spin: rolling direction, up, axle to the right.
+glm::dmat4 wheelFrame(const scene::WheelState& wheel, const glm::dvec3& bodyUp) {
+    const glm::dvec3 axle = glm::normalize(glm::cross(wheel.forward, bodyUp));
+    glm::dmat4 matrix(1);
+    matrix[0] = glm::dvec4(wheel.forward, 0);
+    matrix[1] = glm::dvec4(glm::cross(axle, wheel.forward), 0);
+    matrix[2] = glm::dvec4(axle, 0);
+    matrix[3] = glm::dvec4(wheel.hub, 1);
+    return matrix;
+}
+
+struct CylinderHit {
+    float share;
+    glm::vec3 normal;
+};
+
+/// x² + y² ≤ R², |z| ≤ w, from outside: the way is inside where it is inside both, so it enters at the later one.
+CylinderHit meetCylinder(const glm::vec3& from, const glm::vec3& to, float radius, float halfWidth) {
+    const CylinderHit missed{Surface::none, {0, 1, 0}};
+    const glm::dvec3 o(from), way = glm::dvec3(to) - o;
+    const double w = static_cast<double>(halfWidth), r2 = static_cast<double>(radius) * static_cast<double>(radius);
+
+    double entersSide = -INFINITY, leavesSide = INFINITY;
+    const double a = way.x * way.x + way.y * way.y, b = o.x * way.x + o.y * way.y, c = o.x * o.x + o.y * o.y - r2;
+    if (a > 0) {
+        const double root = b * b - a * c;
+        if (root <= 0) return missed;
+        entersSide = (-b - std::sqrt(root)) / a;
+        leavesSide = (-b + std::sqrt(root)) / a;
+    } else if (c >= 0) {
+        return missed;
+    }
+    double entersFace = -INFINITY, leavesFace = INFINITY;
+    if (way.z != 0) {
+        entersFace = ((way.z > 0 ? -w : w) - o.z) / way.z;
+        leavesFace = ((way.z > 0 ? w : -w) - o.z) / way.z;
+    } else if (std::abs(o.z) >= w) {
+        return missed;
+    }
+    const double enters = std::max(entersSide, entersFace);
+    if (!(enters >= 0 && enters <= 1 && enters < std::min(leavesSide, leavesFace))) return missed;
+    const glm::dvec3 at = o + enters * way;
+    const glm::dvec3 normal =
+        entersSide >= entersFace ? glm::normalize(glm::dvec3(at.x, at.y, 0)) : glm::dvec3(0, 0, way.z > 0 ? -1 : 1);
+    return {static_cast<float>(enters), glm::vec3(normal)};
+}
+
+}  // namespace
+
+void SceneSurface::Box::take(const glm::vec3& point) {
+    minimum = glm::min(minimum, point);
+    maximum = glm::max(maximum, point);
+}
+
+void SceneSurface::Box::take(const Box& other) {
+    minimum = glm::min(minimum, other.minimum);
+    maximum = glm::max(maximum, other.maximum);
+}
+
+bool SceneSurface::Box::meets(const glm::vec3& from, const glm::vec3& to) const {
+    return glm::all(glm::lessThanEqual(glm::min(from, to), maximum + boxMarginMetres)) &&
+           glm::all(glm::lessThanEqual(minimum - boxMarginMetres, glm::max(from, to)));
+}
+
+void SceneSurface::Carried::moveTo(const glm::dmat4& toWorld, const glm::dvec3& velocity, double stepSeconds) {
+    frame.moveTo(toWorld, velocity, stepSeconds);
+    swept = Box();
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec4 point(corner & 1 ? local.maximum.x : local.minimum.x,
+                               corner & 2 ? local.maximum.y : local.minimum.y,
+                               corner & 4 ? local.maximum.z : local.minimum.z, 1);
+        swept.take(glm::vec3(frame.atBegin() * point));
+        swept.take(glm::vec3(frame.atEnd() * point));
+    }
+}
+
+void SceneSurface::build(const scene::Scene& scene) {
+    scene_ = &scene;
+    solids_ = meshes::TriangleTree();
+    body_ = meshes::TriangleTree();
+    solidsBox_ = Box();
+    carried_.clear();
+    if (parts_.solids)
+        for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+            const glm::mat4& toWorld = scene.solidPoses[i].toWorld;
+            solids_.add(*scene.solids[i].mesh, toWorld);
+            for (const glm::vec3& point : scene.solids[i].mesh->positions)
+                solidsBox_.take(glm::vec3(toWorld * glm::vec4(point, 1)));
+        }
+    solids_.build();
+    if (!parts_.vehicle || !scene.vehicle) return;
+    if (const auto& mesh = scene.vehicle->body.mesh) {
+        body_.add(*mesh, glm::mat4(1));
+        Carried& body = carried_.emplace_back();
+        for (const glm::vec3& point : mesh->positions) body.local.take(point);
+    }
+    body_.build();
+    const scene::VehicleParameters& numbers = scene.vehicle->parameters;
+    for (std::size_t i = 0; i < 4; ++i) {
+        Carried& wheel = carried_.emplace_back();
+        wheel.radiusMetres = static_cast<float>(numbers.wheelRadiusMetres);
+        wheel.halfWidthMetres = static_cast<float>(numbers.wheelWidthMetres / 2);
+        const glm::vec3 corner(wheel.radiusMetres, wheel.radiusMetres, wheel.halfWidthMetres);
+        wheel.local = {-corner, corner};
+    }
+}
+
+void SceneSurface::moveVehicle(const Step& step) {
+    vehicleBox_ = Box();
+    const scene::VehicleState& state = step.state.vehicle;
+    std::size_t number = 0;
+    for (Carried& each : carried_) {
+        if (each.radiusMetres > 0) {
+            const scene::WheelState& wheel = state.wheels[number++];
+            each.moveTo(wheelFrame(wheel, state.up), wheel.velocity, step.seconds);
+            each.spin = {0, 0, -static_cast<float>(wheel.spinRate)};
+        } else {
+            each.moveTo(state.toWorld(), state.forward() * state.speed, step.seconds);
+        }
+        vehicleBox_.take(each.swept);
+    }
+}
+
+void SceneSurface::begin(const Step& step) {
+    if (scene_ != &step.scene) build(step.scene);
+    moveVehicle(step);
+    extentMetres_ = 0;
+    if (solids_.triangles() > 0)
+        extentMetres_ = std::max(sumOfSizes(solidsBox_.minimum), sumOfSizes(solidsBox_.maximum));
+    if (!carried_.empty())
+        extentMetres_ = std::max({extentMetres_, sumOfSizes(vehicleBox_.minimum), sumOfSizes(vehicleBox_.maximum)});
+}
+
+SceneSurface::Found SceneSurface::findOn(const Carried& carried, const Meeting& way) const {
+    const glm::vec3 from = carried.frame.toLocal(way.from, way.seconds), to = carried.frame.toLocal(way.to, 0);
+    if (carried.radiusMetres > 0) {
+        const CylinderHit hit = meetCylinder(from, to, carried.radiusMetres, carried.halfWidthMetres);
+        return {hit.share, &carried, hit.normal};
+    }
+    const auto hit = body_.firstHit(from, to);
+    return hit ? Found{hit->share, &carried, hit->normal} : Found{};
+}
+
+SceneSurface::Found SceneSurface::find(const Meeting& way, float groundShare) const {
+    Found first;
+    if (groundShare <= 1) {
+        const glm::vec3 point = way.from + groundShare * (way.to - way.from);
+        first = {groundShare, nullptr, scene_->terrain.normalAt(point.x, point.z)};
+    }
+    if (solids_.triangles() > 0 && solidsBox_.meets(way.from, way.to))
+        if (const auto hit = solids_.firstHit(way.from, way.to); hit && hit->share < first.share)
+            first = {hit->share, nullptr, hit->normal};
+    if (carried_.empty() || !vehicleBox_.meets(way.from, way.to)) return first;
+    for (const Carried& each : carried_) {
+        if (!each.swept.meets(way.from, way.to)) continue;
+        if (const Found found = findOn(each, way); found.share < first.share) first = found;
+    }
+    return first;
+}
+
+void SceneSurface::meet(const Ways& ways, float* share) const {
+    if (parts_.ground)
+        meetGround(ways, scene_->terrain, share);
+    else
+        std::fill_n(share, ways.count, none);
+    for (std::size_t i = 0; i < ways.count; ++i) {
+        const glm::vec3 from = ways.from(i), to = ways.to(i);
+        if (solidsBox_.meets(from, to) || vehicleBox_.meets(from, to))
+            share[i] = find({from, to, ways.seconds[i], none}, share[i]).share;
+    }
+}
+
+Touch SceneSurface::touchAt(const Meeting& way) const {
+    float groundShare = none;
+    if (parts_.ground)
+        meetGround({1, &way.from.x, &way.from.y, &way.from.z, &way.to.x, &way.to.y, &way.to.z, &way.seconds},
+                   scene_->terrain, &groundShare);
+    const Found found = find(way, groundShare);
+    if (!found.carried) return {way.point(), found.normal};
+    const CarriedFrame& frame = found.carried->frame;
+    const glm::vec3 from = frame.toLocal(way.from, way.seconds), to = frame.toLocal(way.to, 0);
+    const glm::vec3 local = from + way.share * (to - from);
+    const float left = way.seconds * (1 - way.share);
+    const glm::vec3 turning = glm::cross(found.carried->spin, local);
+    return {frame.toWorld(local, left), frame.directionToWorld(found.normal, left),
+            frame.velocityOf(local) +
+                (turning == glm::vec3(0) ? turning : glm::length(turning) * frame.directionToWorld(turning, left))};
+}
+
+}  // namespace dustbench::particles
