@@ -49,7 +49,7 @@ void MethodHost::draw(const Frame& frame) {
     const gpu::LedgerScope booked(device_, ledger_);
     {
         const auto timing = frame.clock.measure(Stage::scene);
-        scene_->draw(frame.state, frame.view);
+        scene_->draw(frame.state, frame.view, method_->lights());
     }
     const auto timing = frame.clock.measure(Stage::draw);
     {

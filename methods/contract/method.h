@@ -45,6 +45,9 @@ struct KeptFile {
     std::string text;
 };
 
+/// Most lights that a method may give.
+inline constexpr std::size_t maximumPointLights = 64;
+
 /// One way to show the cloud. `prepare` is called once, then `update` and `draw` each frame, on the thread that owns
 /// the OpenGL context.
 class DUSTBENCH_API Method {
@@ -70,6 +73,8 @@ class DUSTBENCH_API Method {
     [[nodiscard]] virtual MemoryReport memory() const { return {}; }
     /// Number of primitives (billboards, voxels, rays …) that the last `draw` submitted to the GPU.
     [[nodiscard]] virtual std::int64_t primitives() const { return 0; }
+    /// Lights of the state after `update` that light the opaque scene: of a fire, say. At most maximumPointLights.
+    [[nodiscard]] virtual std::vector<scene::PointLight> lights() const { return {}; }
     /// Hash of the method's own simulation; empty if it only shows the shared dust.
     [[nodiscard]] virtual std::optional<std::uint64_t> stateHash() const { return std::nullopt; }
     /// Files that the run keeps beside its run.json. Asked once, after the last frame.

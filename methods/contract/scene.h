@@ -26,6 +26,13 @@ struct Lights {
     float hazePerMetre = 0.0015f;  ///< extinction of the clear air, which fades to the horizon's colour
 };
 
+/// A lamp at a point: a white surface that faces it from a distance d reads intensity/d². It throws no shadows.
+struct PointLight {
+    glm::dvec3 position{0};      ///< world, m
+    glm::vec3 intensity{0};      ///< m², linear RGB: what a white surface facing it at 1 m reads
+    float radiusMetres = 0.05f;  ///< nearer than this it is no brighter; above 0
+};
+
 struct VehicleModel {
     VehicleParameters parameters;
     Solid body;

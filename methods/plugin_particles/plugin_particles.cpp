@@ -4,6 +4,7 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/particles/emitted_light.h"
 #include "methods/kit/particles/part_change.h"
 #include "methods/kit/particles/state_hash.h"
 
@@ -119,6 +120,19 @@ void PluginParticles::applyChanges(const Frame& frame) {
     for (System& system : systems_) makePicture(system);
 }
 
+void PluginParticles::findLights() {
+    lights_.clear();
+    for (const System& system : systems_)
+        for (const auto& part : system.particles.parts().shadings()) {
+            const auto glow = part->glow();
+            if (!glow) continue;
+            for (const particles::EmittedLight& light :
+                 particles::emittedLights(system.particles.store(), glow->lights, glow->perMetre))
+                if (light.colour != glm::vec3(0) && lights_.size() < maximumPointLights)
+                    lights_.push_back({glm::dvec3(light.position), light.colour});
+        }
+}
+
 void PluginParticles::update(const Frame& frame) {
     applyChanges(frame);
     {
@@ -126,6 +140,7 @@ void PluginParticles::update(const Frame& frame) {
         for (System& system : systems_)
             system.particles.update({*scene_, frame.state, frame.stepSeconds, system.fixedCount});
         now_ = frame.state;
+        findLights();
     }
     for (System& system : systems_)
         system.picture->upload(

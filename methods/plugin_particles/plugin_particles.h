@@ -34,6 +34,8 @@ class PluginParticles final : public Method {
     [[nodiscard]] MemoryReport memory() const override;
     [[nodiscard]] std::int64_t primitives() const override;
     [[nodiscard]] std::optional<std::uint64_t> stateHash() const override;
+    /// Of the systems with a part `glow`, in their order.
+    [[nodiscard]] std::vector<scene::PointLight> lights() const override { return lights_; }
     [[nodiscard]] bool wantsPreroll() const override { return true; }
     /// Returns `systems.toml`: the current systems. Loading it gives the same parts.
     [[nodiscard]] std::vector<KeptFile> files() const override;
@@ -49,6 +51,7 @@ class PluginParticles final : public Method {
 
     void applyChanges(const Frame& frame);
     void makePicture(System& system);
+    void findLights();
 
     std::vector<particles::NamedParts> parts_;  ///< until `prepare`
     std::vector<Change> changes_;
@@ -57,6 +60,7 @@ class PluginParticles final : public Method {
     const scene::Scene* scene_ = nullptr;
     gpu::Device* device_ = nullptr;
     scene::SceneState now_;
+    std::vector<scene::PointLight> lights_;
 };
 
 /// Called by the registry.

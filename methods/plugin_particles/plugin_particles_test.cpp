@@ -194,6 +194,35 @@ TEST(PluginParticles, RefuseImpossibleChangesAtOnce) {
         EXPECT_THAT(inputError([&] { made(two, bad); }), testing::HasSubstr(std::string("parameter at: got '") + bad));
 }
 
+TEST(PluginParticles, GlowingSystemsLightTheSceneAndOthersDoNot) {
+    Moment moment;
+    PluginParticles dark = made(fountain("one"));
+    moment.run(dark, 90);
+    EXPECT_TRUE(dark.lights().empty());
+
+    // k·Σ C·α·r³ over all particles, divided among the parts by age, and no light beyond their places.
+    PluginParticles lit =
+        made(fountain("one") + "shading = [ { part = \"glow\", lights = 4, strength = 50 } ]\n" + fountain("two"));
+    Moment other;
+    other.run(lit, 90);
+    const auto lights = lit.lights();
+    ASSERT_EQ(lights.size(), 4u);
+    Counted counted;
+    lit.volume(other.frame(), counted);
+    glm::vec3 sum(0);
+    for (const scene::PointLight& light : lights) {
+        sum += light.intensity;
+        EXPECT_LT(glm::distance(light.position, glm::dvec3(0, 0.5, -8)), 1.5);
+    }
+    // Opacity 1/2 by default at most: the bound is what 600 particles of 0.2 m would give at opacity 1.
+    EXPECT_GT(sum.b, 0);
+    EXPECT_LT(sum.b, 50 * 0.9f * 0.008f * 700);
+    EXPECT_NEAR(sum.r / sum.b, 0.2 / 0.9, 1e-3);
+    EXPECT_NEAR(sum.g / sum.b, 0.4 / 0.9, 1e-3);
+    // The same as without the part: glowing changes no colour.
+    EXPECT_EQ(counted.sizes.size(), 2u);
+}
+
 /// A minute of every delivered system: the numbers of particles stay at the requested ones, and the states are finite.
 TEST(PluginParticles, DeliveredSystemsAreStable) {
     for (const std::string& name : files::listData("particles", ".toml")) {

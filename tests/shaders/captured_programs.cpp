@@ -131,7 +131,10 @@ class Stage {
         scene::Scene bare = world_.scene();
         if (!vehicle) bare.vehicle.reset();
         if (!solids) bare.solids.clear(), bare.solidPoses.clear();
-        draw::OpaqueScene(bare, device_, width, height).draw(world_.state(), world_.view(width, height));
+        draw::OpaqueScene opaque(bare, device_, width, height);
+        opaque.draw(world_.state(), world_.view(width, height));
+        const scene::PointLight lamp{{0, 2, 0}, glm::vec3(1)};
+        opaque.draw(world_.state(), world_.view(width, height), {&lamp, 1});
     }
 
     gpu::Device& device_;

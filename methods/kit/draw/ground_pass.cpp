@@ -9,7 +9,7 @@
 
 #include "draw_shaders.h"
 #include "methods/kit/draw/ground_texture.h"
-#include "methods/kit/draw/shadow_map.h"
+#include "methods/kit/draw/opaque_definitions.h"
 #include "methods/kit/gpu/draw_call.h"
 
 namespace dustbench::draw {
@@ -23,8 +23,12 @@ constexpr float packedShare = 0.52f;
 constexpr float trackHalfWidthMetres = 2.7f;
 constexpr std::array<float, 13> trackCutsMetres{-4096, -1024, -256, -64, -16, -4, 0, 4, 16, 64, 256, 1024, 4096};
 
-std::map<std::string, std::string> definitions(const scene::Scene& scene, bool track, bool shaded) {
-    std::map<std::string, std::string> result = shadowCasters(scene);
+bool hasTrack(const scene::Scene& scene) {
+    return scene.terrain.isFlat() && scene.vehicle;
+}
+
+std::map<std::string, std::string> definitions(const scene::Scene& scene, bool lamps, bool track, bool shaded) {
+    std::map<std::string, std::string> result = opaqueDefinitions(scene, lamps);
     result.insert({
         {"DETAIL_TILES", std::to_string(patchTileMetres / detailTileMetres)},
         {"TILES_PER_METRE", std::to_string(1 / patchTileMetres)},
@@ -36,13 +40,13 @@ std::map<std::string, std::string> definitions(const scene::Scene& scene, bool t
     return result;
 }
 
-gpu::Program groundProgram(gpu::Device& device, std::string_view label, const scene::Scene& scene, bool track,
-                           bool shaded) {
+gpu::Program groundProgram(gpu::Device& device, std::string_view label, const scene::Scene& scene, bool lamps,
+                           bool track, bool shaded) {
     using namespace draw_shaders;
     return {device,
             label,
-            {opaque_moment_glsl, opaque_shadow_glsl, opaque_ground_vert, opaque_ground_frag},
-            definitions(scene, track, shaded)};
+            {opaque_moment_glsl, opaque_shadow_glsl, opaque_lamps_glsl, opaque_ground_vert, opaque_ground_frag},
+            definitions(scene, lamps, track, shaded)};
 }
 
 gpu::VertexArray layoutOf(gpu::Device& device, const gpu::Buffer& vertices) {
@@ -74,17 +78,22 @@ glm::vec3 GroundPass::albedo(const scene::Scene& scene) {
     return packedShare * scene.dustAlbedo;
 }
 
+GroundPass::Programs::Programs(gpu::Device& device, const scene::Scene& scene, bool lamps)
+    : plain(groundProgram(device, "ground", scene, lamps, false, false)),
+      shaded(groundProgram(device, "ground in shadow", scene, lamps, hasTrack(scene), true)) {
+    if (hasTrack(scene)) track = groundProgram(device, "ground track", scene, lamps, true, false);
+}
+
 GroundPass::GroundPass(gpu::Device& device, const scene::Scene& scene)
     : device_(device),
       scene_(scene),
-      hasTrack_(scene.terrain.isFlat() && scene.vehicle),
+      hasTrack_(hasTrack(scene)),
       lattice_(scene.terrain),
       detail_(gpu::Texture::make2D(device, "ground detail", gpu::Format::srgba8, detailTexels, detailTexels,
                                    gpu::Filter::mipmapped, gpu::Wrap::repeat)),
       patches_(gpu::Texture::make2D(device, "ground patches", gpu::Format::rgba8, patchTexels, patchTexels,
                                     gpu::Filter::mipmapped, gpu::Wrap::repeat)),
-      plain_(groundProgram(device, "ground", scene, false, false)),
-      shaded_(groundProgram(device, "ground in shadow", scene, hasTrack_, true)) {
+      programs_(device, scene, false) {
     detail_.write(std::span<const std::uint8_t>(makeGroundDetail(albedo(scene), scene.lights.toSun)));
     patches_.write(std::span<const std::uint8_t>(makeGroundPatches()));
 
@@ -99,7 +108,6 @@ GroundPass::GroundPass(gpu::Device& device, const scene::Scene& scene)
         shadedLayout_.indices(shadedIndices_);
     }
     if (hasTrack_) {
-        track_ = groundProgram(device, "ground track", scene, true, false);
         trackVertices_ = gpu::Buffer(device, "ground track", (trackCutsMetres.size() - 1) * 6 * sizeof(GroundVertex));
         trackLayout_ = layoutOf(device, trackVertices_);
     }
@@ -113,7 +121,10 @@ void GroundPass::place(gpu::Program& program, const glm::dvec3& eye, bool withTr
     if (withTrack) program.set("anchorAcross", static_cast<float>(anchor.z));
 }
 
-void GroundPass::draw(const glm::dvec3& eye, const glm::mat4& eyeToClip, std::span<const GroundRectangle> shaded) {
+void GroundPass::draw(const glm::dvec3& eye, const glm::mat4& eyeToClip, std::span<const GroundRectangle> shaded,
+                      bool lamps) {
+    if (lamps && !withLamps_) withLamps_.emplace(device_, scene_, true);
+    Programs& programs = lamps ? *withLamps_ : programs_;
     if (lattice_.moveTo(eye)) {
         const auto vertices = lattice_.vertices();
         std::memcpy(vertices_.mapForWriting(vertices.size_bytes()), vertices.data(), vertices.size_bytes());
@@ -127,22 +138,22 @@ void GroundPass::draw(const glm::dvec3& eye, const glm::mat4& eyeToClip, std::sp
 
     detail_.bind(0);
     patches_.bind(1);
-    place(plain_, eye, false);
-    gpu::drawIndexed(plain_, latticeLayout_, {.depthTest = true, .depthWrite = true}, gpu::Primitives::triangles,
-                     static_cast<int>(indices_.size()));
+    place(programs.plain, eye, false);
+    gpu::drawIndexed(programs.plain, latticeLayout_, {.depthTest = true, .depthWrite = true},
+                     gpu::Primitives::triangles, static_cast<int>(indices_.size()));
     if (hasTrack_) {
-        place(track_, eye, true);
-        drawTrack();
+        place(programs.track, eye, true);
+        drawTrack(programs.track);
     }
     if (shaded.empty()) return;
-    place(shaded_, eye, hasTrack_);
+    place(programs.shaded, eye, hasTrack_);
     if (scene_.terrain.isFlat())
-        drawShadedRectangles(shaded);
+        drawShadedRectangles(programs.shaded, shaded);
     else
-        drawShadedTriangles(shaded);
+        drawShadedTriangles(programs.shaded, shaded);
 }
 
-void GroundPass::drawTrack() {
+void GroundPass::drawTrack(gpu::Program& program) {
     // The track needs no depth test: level ground does not occlude itself and is drawn first.
     const auto across = static_cast<float>(-lattice_.anchor().z);
     corners_.clear();
@@ -150,10 +161,10 @@ void GroundPass::drawTrack() {
         appendRectangle(corners_, {trackCutsMetres[i], across - trackHalfWidthMetres},
                         {trackCutsMetres[i + 1], across + trackHalfWidthMetres});
     refill(trackVertices_, corners_);
-    gpu::draw(track_, trackLayout_, {}, gpu::Primitives::triangles, static_cast<int>(corners_.size()));
+    gpu::draw(program, trackLayout_, {}, gpu::Primitives::triangles, static_cast<int>(corners_.size()));
 }
 
-void GroundPass::drawShadedRectangles(std::span<const GroundRectangle> shaded) {
+void GroundPass::drawShadedRectangles(gpu::Program& program, std::span<const GroundRectangle> shaded) {
     const glm::dvec2 anchor(lattice_.anchor().x, lattice_.anchor().z);
     corners_.clear();
     for (const GroundRectangle& rectangle : shaded)
@@ -163,15 +174,15 @@ void GroundPass::drawShadedRectangles(std::span<const GroundRectangle> shaded) {
         rectangleLayout_ = layoutOf(device_, rectangles_);
     }
     refill(rectangles_, corners_);
-    gpu::draw(shaded_, rectangleLayout_, {}, gpu::Primitives::triangles, static_cast<int>(corners_.size()));
+    gpu::draw(program, rectangleLayout_, {}, gpu::Primitives::triangles, static_cast<int>(corners_.size()));
 }
 
-void GroundPass::drawShadedTriangles(std::span<const GroundRectangle> shaded) {
+void GroundPass::drawShadedTriangles(gpu::Program& program, std::span<const GroundRectangle> shaded) {
     // The same triangles as in the first pass, so that their depths are bit-identical.
     indices_.clear();
     lattice_.appendWithin(shaded, indices_);
     refill(shadedIndices_, indices_);
-    gpu::drawIndexed(shaded_, shadedLayout_, {.depthTest = true}, gpu::Primitives::triangles,
+    gpu::drawIndexed(program, shadedLayout_, {.depthTest = true}, gpu::Primitives::triangles,
                      static_cast<int>(indices_.size()));
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,17 +25,23 @@ class GroundPass {
     GroundPass(gpu::Device& device, const scene::Scene& scene);
 
     /// Draws the ground's colour and depth as seen from `eye`. Shadows are sampled only within `shaded`, where the
-    /// ground is drawn a second time; this is cheaper than sampling shadows everywhere.
-    void draw(const glm::dvec3& eye, const glm::mat4& eyeToClip, std::span<const GroundRectangle> shaded);
+    /// ground is drawn a second time; this is cheaper than sampling shadows everywhere. `lamps`: those that are bound
+    /// light it too.
+    void draw(const glm::dvec3& eye, const glm::mat4& eyeToClip, std::span<const GroundRectangle> shaded, bool lamps);
 
     /// Mean albedo of the ground.
     [[nodiscard]] DUSTBENCH_API static glm::vec3 albedo(const scene::Scene& scene);
 
  private:
+    struct Programs {
+        Programs(gpu::Device& device, const scene::Scene& scene, bool lamps);
+        gpu::Program plain, track, shaded;  ///< `track` is empty where the ground has none
+    };
+
     void place(gpu::Program& program, const glm::dvec3& eye, bool withTrack);
-    void drawTrack();
-    void drawShadedRectangles(std::span<const GroundRectangle> shaded);
-    void drawShadedTriangles(std::span<const GroundRectangle> shaded);
+    void drawTrack(gpu::Program& program);
+    void drawShadedRectangles(gpu::Program& program, std::span<const GroundRectangle> shaded);
+    void drawShadedTriangles(gpu::Program& program, std::span<const GroundRectangle> shaded);
 
     gpu::Device& device_;
     const scene::Scene& scene_;
@@ -42,9 +49,8 @@ class GroundPass {
     GroundLattice lattice_;
     gpu::Texture detail_;
     gpu::Texture patches_;
-    gpu::Program plain_;
-    gpu::Program track_;
-    gpu::Program shaded_;
+    Programs programs_;
+    std::optional<Programs> withLamps_;  ///< made for the first lamp
 
     gpu::Buffer vertices_;
     gpu::Buffer visible_;

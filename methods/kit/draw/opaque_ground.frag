@@ -1,4 +1,4 @@
-// Textured ground lit by sun and sky. RELIEF: a height field. TRACK: two worn ruts along the world's x axis.
+// Textured ground lit by sun, sky and lamps. RELIEF: a height field. TRACK: two worn ruts along the world's x axis.
 // SHADED: samples shadows; without it all ground is in the sun.
 layout(location = 0) in vec3 fromEye;
 layout(location = 1) in vec2 place;
@@ -45,6 +45,9 @@ void main() {
 #ifdef SHADED
     facing *= sunShare(fromEye, normal, 0.0);
     sky *= skyShare(fromEye);
+#endif
+#ifdef LAMPS
+    sky += lampLight(fromEye, normal);
 #endif
     colour = vec4(throughAir(albedo * (sun.rgb * facing + sky), fromEye), 1.0);
 }

@@ -5,9 +5,12 @@
 // world's origin.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 
 namespace dustbench::draw {
+
+inline constexpr std::size_t maximumLamps = 64;
 
 struct OpaqueMoment {
     glm::mat4 eyeToClip{1};
@@ -23,6 +26,16 @@ struct OpaqueMoment {
     glm::vec4 skyHorizon{0};    ///< w: extinction of the clear air per metre
     glm::vec4 shadowTexels{0};  ///< metres per texel: vehicle, solids
     glm::vec4 underside{0};     ///< the vehicle's outline on the ground: centre x, z; half-extent x, z
+};
+
+/// The uniforms of opaque_lamps.glsl (std140): the lamps of one frame, `eye` positions.
+struct OpaqueLamps {
+    struct Lamp {
+        glm::vec4 place{0};  ///< w: its radius, squared
+        glm::vec4 intensity{0};
+    };
+    glm::ivec4 count{0};  ///< x
+    std::array<Lamp, maximumLamps> lamps;
 };
 
 }  // namespace dustbench::draw

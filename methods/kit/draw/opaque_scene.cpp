@@ -11,10 +11,9 @@
 
 #include "draw_shaders.h"
 #include "methods/kit/draw/ground_pass.h"
-#include "methods/kit/draw/opaque_moment.h"
+#include "methods/kit/draw/opaque_definitions.h"
 #include "methods/kit/draw/panel_pass.h"
 #include "methods/kit/draw/shadow_footprint.h"
-#include "methods/kit/draw/shadow_map.h"
 #include "methods/kit/draw/solid_mesh.h"
 #include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/gpu/framebuffer.h"
@@ -41,8 +40,21 @@ std::map<std::string, std::string> onPanels(std::map<std::string, std::string> d
 gpu::Program solidProgramOf(gpu::Device& device, std::string_view label,
                             const std::map<std::string, std::string>& definitions) {
     using namespace draw_shaders;
-    return {device, label, {opaque_moment_glsl, opaque_shadow_glsl, opaque_solid_vert, opaque_solid_frag}, definitions};
+    return {device,
+            label,
+            {opaque_moment_glsl, opaque_shadow_glsl, opaque_lamps_glsl, opaque_solid_vert, opaque_solid_frag},
+            definitions};
 }
+
+/// Of solids and vehicle, and of panels where they are seen.
+struct SolidPrograms {
+    SolidPrograms(gpu::Device& device, const scene::Scene& scene, bool panels, bool lamps)
+        : solid(solidProgramOf(device, "solid", opaqueDefinitions(scene, lamps))) {
+        if (panels) panel.emplace(solidProgramOf(device, "panel", onPanels(opaqueDefinitions(scene, lamps))));
+    }
+    gpu::Program solid;
+    std::optional<gpu::Program> panel;
+};
 
 glm::mat4 moved(glm::mat4 matrix, const glm::dvec3& by) {
     matrix[3] = glm::vec4(glm::vec3(glm::dvec3(matrix[3]) + by), 1);
@@ -88,7 +100,7 @@ glm::vec4 with(const glm::vec3& colour, float fourth = 0) {
 struct OpaqueScene::State {
     State(const scene::Scene& shown, gpu::Device& device, int width, int height, ScenePanels panelsShown);
 
-    void placeSolids(gpu::Device& device);
+    void placeSolids();
     void place(const std::shared_ptr<const SolidMesh>& shape, const scene::Mesh& mesh, const glm::dmat4& toWorld,
                bool castsOnly);
     void aimVehicleShadow(const glm::dvec3& eye, const scene::VehiclePoses& poses,
@@ -96,11 +108,13 @@ struct OpaqueScene::State {
     void aimSolidShadow(const glm::dvec3& eye);
     void findFootprints(const glm::dvec3& eye, const scene::VehiclePoses& poses);
     void describe(const scene::View& view, const scene::VehicleState& vehicle);
-    void drawSolids(const glm::dvec3& eye);
-    void drawVehicle(const scene::VehiclePoses& poses);
-    void drawPanels(const glm::dvec3& eye, const scene::VehicleState& vehicleToEye);
+    void light(std::span<const scene::PointLight> lamps, const glm::dvec3& eye);
+    void drawSolids(gpu::Program& program, const glm::dvec3& eye);
+    void drawVehicle(gpu::Program& program, const scene::VehiclePoses& poses);
+    void drawPanels(SolidPrograms& programs, const glm::dvec3& eye, const scene::VehicleState& vehicleToEye);
 
     const scene::Scene& scene;
+    gpu::Device& device;
     gpu::Texture colour;
     gpu::Texture depth;
     gpu::Framebuffer target;
@@ -115,20 +129,22 @@ struct OpaqueScene::State {
     std::optional<ShadowMap> solidShadow;
 
     gpu::Program casterProgram;
-    gpu::Program solidProgram;
-    std::optional<gpu::Program> panelProgram;
+    SolidPrograms programs;
+    std::optional<SolidPrograms> programsWithLamps;  ///< made for the first lamp
     gpu::Program skyProgram;
     gpu::VertexArray noVertices;
     gpu::Buffer momentBlock;
+    gpu::Buffer lampBlock;
     OpaqueMoment now;
     std::vector<GroundRectangle> solidFootprints;
     std::optional<glm::dvec3> solidShadowCentre;
     std::vector<GroundRectangle> footprints;
 };
 
-OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& device, int width, int height,
+OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& drawnBy, int width, int height,
                           ScenePanels panelsShown)
     : scene(shown),
+      device(drawnBy),
       colour(gpu::Texture::make2D(device, "scene colour", gpu::Format::rgba16F, width, height)),
       depth(gpu::Texture::make2D(device, "scene depth", gpu::Format::depth32F, width, height)),
       target(device, "scene", &colour, &depth),
@@ -136,14 +152,13 @@ OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& device, int wi
       panels(device, shown),
       panelsSeen(panelsShown == ScenePanels::flat && !panels.empty()),
       casterProgram(device, "shadow caster", {draw_shaders::opaque_caster_vert, draw_shaders::opaque_caster_frag}),
-      solidProgram(solidProgramOf(device, "solid", shadowCasters(shown))),
+      programs(device, shown, panelsSeen, false),
       skyProgram(device, "sky",
                  {draw_shaders::opaque_moment_glsl, draw_shaders::opaque_sky_vert, draw_shaders::opaque_sky_frag}),
       noVertices(device),
       momentBlock(device, "scene moment", sizeof(OpaqueMoment)) {
     if (scene.solidPoses.size() != scene.solids.size())
         throw std::invalid_argument("OpaqueScene: every solid needs its pose");
-    if (panelsSeen) panelProgram.emplace(solidProgramOf(device, "panel", onPanels(shadowCasters(shown))));
     const glm::vec3 toSun = scene.lights.toSun;
     if (scene.vehicle) {
         body.emplace(device, scene.vehicle->body);
@@ -153,12 +168,12 @@ OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& device, int wi
         const double ofPanels = panels.reachOnVehicleMetres() + static_cast<double>(glm::length(body->centre()));
         vehicleShadow.emplace(device, "vehicle shadow", vehicleShadowTexels, std::max(ofCar, ofPanels), toSun);
     }
-    placeSolids(device);
+    placeSolids();
     joinOverlapping(solidFootprints);
     if (!solids.empty()) solidShadow.emplace(device, "solid shadow", solidShadowTexels, solidShadowReachMetres, toSun);
 }
 
-void OpaqueScene::State::placeSolids(gpu::Device& device) {
+void OpaqueScene::State::placeSolids() {
     std::map<const scene::Mesh*, std::shared_ptr<const SolidMesh>> shapes;
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
         std::shared_ptr<const SolidMesh>& shape = shapes[scene.solids[i].mesh.get()];
@@ -257,31 +272,48 @@ void OpaqueScene::State::describe(const scene::View& view, const scene::VehicleS
     momentBlock.bindUniform(0);
 }
 
-void OpaqueScene::State::drawSolids(const glm::dvec3& eye) {
-    solidProgram.set("gloss", solidGloss);
+void OpaqueScene::State::light(std::span<const scene::PointLight> lamps, const glm::dvec3& eye) {
+    if (lamps.empty()) return;
+    if (!programsWithLamps) {
+        programsWithLamps.emplace(device, scene, panelsSeen, true);
+        lampBlock = gpu::Buffer(device, "scene lamps", sizeof(OpaqueLamps));
+    }
+    OpaqueLamps block;
+    block.count.x = static_cast<int>(lamps.size());
+    for (std::size_t i = 0; i < lamps.size(); ++i)
+        block.lamps[i] = {with(glm::vec3(lamps[i].position - eye), lamps[i].radiusMetres * lamps[i].radiusMetres),
+                          with(lamps[i].intensity)};
+    std::memcpy(lampBlock.mapForWriting(sizeof block), &block, sizeof block);
+    lampBlock.unmap();
+    lampBlock.bindUniform(1);
+}
+
+void OpaqueScene::State::drawSolids(gpu::Program& program, const glm::dvec3& eye) {
+    program.set("gloss", solidGloss);
     for (const PlacedSolid& solid : solids) {
         if (solid.castsOnly) continue;
         if (!mayBeSeen(now.eyeToClip, glm::vec3(solid.centre - eye), static_cast<float>(solid.radiusMetres))) continue;
-        solidProgram.set("toEye", moved(solid.toWorld, -eye));
-        solid.mesh->draw(solidProgram, {.depthTest = true, .depthWrite = true});
+        program.set("toEye", moved(solid.toWorld, -eye));
+        solid.mesh->draw(program, {.depthTest = true, .depthWrite = true});
     }
 }
 
-void OpaqueScene::State::drawVehicle(const scene::VehiclePoses& poses) {
+void OpaqueScene::State::drawVehicle(gpu::Program& program, const scene::VehiclePoses& poses) {
     const gpu::DrawState state{.depthTest = true, .depthWrite = true, .cullBackFaces = true};
-    solidProgram.set("gloss", bodyGloss);
-    solidProgram.set("toEye", poses.body.toWorld);
-    body->draw(solidProgram, state);
-    solidProgram.set("gloss", wheelGloss);
+    program.set("gloss", bodyGloss);
+    program.set("toEye", poses.body.toWorld);
+    body->draw(program, state);
+    program.set("gloss", wheelGloss);
     for (const scene::SolidPose& pose : poses.wheels) {
-        solidProgram.set("toEye", pose.toWorld);
-        wheel->draw(solidProgram, state);
+        program.set("toEye", pose.toWorld);
+        wheel->draw(program, state);
     }
 }
 
-void OpaqueScene::State::drawPanels(const glm::dvec3& eye, const scene::VehicleState& vehicleToEye) {
-    for (gpu::Program* program : {&solidProgram, &*panelProgram}) program->set("gloss", solidGloss);
-    panels.draw(eye, vehicleToEye, solidProgram, *panelProgram);
+void OpaqueScene::State::drawPanels(SolidPrograms& drawn, const glm::dvec3& eye,
+                                    const scene::VehicleState& vehicleToEye) {
+    for (gpu::Program* program : {&drawn.solid, &*drawn.panel}) program->set("gloss", solidGloss);
+    panels.draw(eye, vehicleToEye, drawn.solid, *drawn.panel);
 }
 
 OpaqueScene::OpaqueScene(const scene::Scene& scene, gpu::Device& device, int width, int height, ScenePanels panels)
@@ -289,7 +321,10 @@ OpaqueScene::OpaqueScene(const scene::Scene& scene, gpu::Device& device, int wid
 
 OpaqueScene::~OpaqueScene() = default;
 
-void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view) {
+void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view,
+                       std::span<const scene::PointLight> lamps) {
+    if (lamps.size() > maximumLamps)
+        throw std::invalid_argument("OpaqueScene: more lamps than " + std::to_string(maximumLamps));
     if (view.width != colour().width() || view.height != colour().height())
         throw std::invalid_argument("OpaqueScene: the view's size is not the one given at construction");
     State& own = *state_;
@@ -302,16 +337,18 @@ void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view) 
     }
     if (own.solidShadow) own.aimSolidShadow(eye);
     own.describe(view, state.vehicle);
+    own.light(lamps, eye);
+    SolidPrograms& programs = lamps.empty() ? own.programs : *own.programsWithLamps;
     own.findFootprints(eye, poses);
 
     own.target.bind();
     own.target.clearDepth();  // ground and sky cover every pixel: the colour needs no clearing
     if (own.vehicleShadow) own.vehicleShadow->depth().bind(2);
     if (own.solidShadow) own.solidShadow->depth().bind(3);
-    own.ground.draw(eye, own.now.eyeToClip, own.footprints);
-    own.drawSolids(eye);
-    if (own.body) own.drawVehicle(poses);
-    if (own.panelsSeen) own.drawPanels(eye, vehicleToEye);
+    own.ground.draw(eye, own.now.eyeToClip, own.footprints, !lamps.empty());
+    own.drawSolids(programs.solid, eye);
+    if (own.body) own.drawVehicle(programs.solid, poses);
+    if (own.panelsSeen) own.drawPanels(programs, eye, vehicleToEye);
     // Drawn last, so that the depth test skips the sky's shader behind other surfaces.
     gpu::draw(own.skyProgram, own.noVertices, {.depthTest = true}, gpu::Primitives::triangles, 3);
 }

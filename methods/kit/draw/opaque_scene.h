@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "methods/contract/scene.h"
 #include "methods/kit/gpu/device.h"
@@ -22,8 +23,9 @@ class DUSTBENCH_API OpaqueScene {
     OpaqueScene(const OpaqueScene&) = delete;
     OpaqueScene& operator=(const OpaqueScene&) = delete;
 
-    /// Draws the given state into colour() and depth(). `view` must have the size given at construction.
-    void draw(const scene::SceneState& state, const scene::View& view);
+    /// Draws the given state into colour() and depth(). `view` must have the size given at construction. `lamps` light
+    /// it besides the sun and the sky: Lambert's law, no shadows. Without any the picture is the same, bit for bit.
+    void draw(const scene::SceneState& state, const scene::View& view, std::span<const scene::PointLight> lamps = {});
 
     [[nodiscard]] const gpu::Texture& colour() const;  ///< RGBA16F, linear, alpha 1
     [[nodiscard]] const gpu::Texture& depth() const;   ///< Depth32F

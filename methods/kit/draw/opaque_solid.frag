@@ -19,6 +19,9 @@ void main() {
     float facing = max(dot(normal, toSun.xyz), 0.0);
     float lit = facing > 0.0 ? sunShare(fromEye, normal, 2.5) : 0.0;
     vec3 around = mix(groundLight.rgb, ambient.rgb, 0.5 + 0.5 * normal.y);
+#ifdef LAMPS
+    around += lampLight(fromEye, normal);
+#endif
 #ifdef PANEL
     vec3 albedo = texture(picture, diffuse.xy).rgb;
 #else

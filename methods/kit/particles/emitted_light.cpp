@@ -14,7 +14,7 @@ struct Sum {
 
 }  // namespace
 
-std::vector<EmittedLight> emittedLights(const Puffs& puffs, int parts, float perCubicMetre) {
+std::vector<EmittedLight> emittedLights(const Puffs& puffs, int parts, float perMetre) {
     if (parts < 1) throw std::invalid_argument("emittedLights: particles are divided into at least one part");
     std::vector<Sum> sums(static_cast<std::size_t>(parts));
     for (std::size_t i = 0; i < puffs.size(); ++i) {
@@ -30,7 +30,7 @@ std::vector<EmittedLight> emittedLights(const Puffs& puffs, int parts, float per
     std::vector<EmittedLight> lights;
     lights.reserve(sums.size());
     for (const Sum& sum : sums)
-        lights.push_back({glm::vec3(static_cast<double>(perCubicMetre) * sum.colour),
+        lights.push_back({glm::vec3(static_cast<double>(perMetre) * sum.colour),
                           sum.luminosity > 0 ? glm::vec3(sum.place / sum.luminosity) : glm::vec3(0)});
     return lights;
 }

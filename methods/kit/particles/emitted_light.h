@@ -6,8 +6,8 @@
 // The particles are divided by age into groups with one light each: if the wind bends a fire, the young particles light
 // from its base and the old ones from its tip.
 //
-// Units: m; colours linear RGB, without limit. Frame: world. Threads: pure; sums are in storage order, in double
-// precision. Source: Thesis, 6.3.
+// Units: m; colours linear RGB in m², the intensity that scene::PointLight takes. Frame: world. Threads: pure; sums are
+// in storage order, in double precision. Source: Thesis, 6.3.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -23,8 +23,8 @@ struct EmittedLight {
 };
 
 /// Returns `parts` lights, the youngest particles first. A particle belongs to light floor(parts·age/lifetime); the
-/// last light includes age = lifetime. `perCubicMetre`: the thesis's constant k. Throws std::invalid_argument if
+/// last light includes age = lifetime. `perMetre`: the thesis's constant k. Throws std::invalid_argument if
 /// `parts` is below one.
-[[nodiscard]] DUSTBENCH_API std::vector<EmittedLight> emittedLights(const Puffs& puffs, int parts, float perCubicMetre);
+[[nodiscard]] DUSTBENCH_API std::vector<EmittedLight> emittedLights(const Puffs& puffs, int parts, float perMetre);
 
 }  // namespace dustbench::particles

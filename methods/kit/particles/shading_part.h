@@ -3,11 +3,19 @@
 // Source: Thesis, 3.1.3 and 6.2.
 #pragma once
 
+#include <optional>
+
 #include "methods/kit/particles/chunk.h"
 #include "methods/kit/particles/part.h"
 #include "methods/kit/particles/step.h"
 
 namespace dustbench::particles {
+
+/// The light that a system's particles give off (emitted_light.h).
+struct Glow {
+    int lights;      ///< parts by age
+    float perMetre;  ///< the thesis's constant k
+};
 
 class ShadingPart : public Part {
  public:
@@ -16,6 +24,9 @@ class ShadingPart : public Part {
 
     /// Adds to `chunk.luminosityRed`, `…Green`, `…Blue`.
     virtual void shade(Chunk& chunk, const Step& step) const = 0;
+
+    /// What the particles give off to light the scene; empty: nothing.
+    [[nodiscard]] virtual std::optional<Glow> glow() const { return std::nullopt; }
 };
 
 }  // namespace dustbench::particles

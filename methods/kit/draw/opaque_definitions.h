@@ -1,0 +1,19 @@
+// The definitions that all shaders of the opaque scene are compiled with.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "methods/kit/draw/opaque_moment.h"
+#include "methods/kit/draw/shadow_map.h"
+
+namespace dustbench::draw {
+
+/// VEHICLE and SOLIDS where the scene has such casters of shadows; LAMPS with lamps.
+[[nodiscard]] inline std::map<std::string, std::string> opaqueDefinitions(const scene::Scene& scene, bool lamps) {
+    std::map<std::string, std::string> result = shadowCasters(scene);
+    if (lamps) result.insert({{"LAMPS", "1"}, {"MAXIMUM_LAMPS", std::to_string(maximumLamps)}});
+    return result;
+}
+
+}  // namespace dustbench::draw
