@@ -84,6 +84,14 @@ TEST_F(PanelTest, SaysWhatIsWrongOfBadInput) {
             << size;
     EXPECT_THAT(message(panel("wall", "position = [5, 1, 0]\nsize_metres = [4, 2]\ndepth_metres = 0\n")),
                 HasSubstr("depth_metres"));
+    for (const char* depth : {"-0.1", "nan", "inf", "1e-9"})  // a mirrored plate has a negative depth or size
+        EXPECT_THAT(message(panel("wall", "position = [5, 1, 0]\nsize_metres = [4, 2]\ndepth_metres = " +
+                                              std::string(depth) + "\n")),
+                    HasSubstr("depth_metres"))
+            << depth;
+    EXPECT_THAT(message(panel("wall", "position = [nan, 1, 0]\nsize_metres = [4, 2]\ndepth_metres = 0.1\n")),
+                HasSubstr("position"));
+    EXPECT_THAT(message(panel("wall", "position = [5, 1, 0]\nsize_metres = [4, 2]\n")), HasSubstr("depth_metres"));
     EXPECT_THAT(message(panel("wall", wall_ + "parent = \"car\"\n")), HasSubstr("one of world, vehicle"));
     EXPECT_THAT(message("[[panel]]\nname = \"w\"\nrelief = \"brick\"\n" + wall_), HasSubstr("did you mean 'bricks'?"));
     EXPECT_THAT(message("[[panel]]\nname = \"w\"\nrelief = \"./none.toml\"\n" + wall_), HasSubstr("none.toml"));
@@ -98,6 +106,18 @@ TEST_F(PanelTest, SaysWhatIsWrongWithHeights) {
     EXPECT_THAT(reason("P5\n1 1\n255\nx"), HasSubstr("1x1 texels, allowed: 2..8192 a side"));
     EXPECT_THAT(reason("P5\n9000 2\n255\n" + std::string(18000, 'x')), HasSubstr("9000x2"));
     EXPECT_THAT(reason("nothing"), HasSubstr("not an image"));
+    // The pixels are not there: the size is refused before they are looked for.
+    for (const char* header :
+         {"P5\n9000 9000\n255\n", "P5\n100000 100000\n255\n", "P5\n2 8193\n255\n", "P5\n1 64\n255\n"})
+        EXPECT_THAT(reason(header), HasSubstr("allowed: 2..8192 a side")) << header;
+    EXPECT_THAT(reason("P5\n8 8\n255\nshort"), HasSubstr("bad.pfm"));
+    folder_.write("missing.toml", "description = \"r\"\nheights = \"none.png\"\n");
+    EXPECT_THAT(inputError([&] { static_cast<void>(readRelief(folder_.path() / "missing.toml")); }),
+                HasSubstr("none.png: not an image that can be read"));
+    folder_.write("large.pgm", "P5\n9000 9000\n255\n");
+    folder_.write("large.toml", "description = \"r\"\nheights = \"heights.pgm\"\ncolours = \"large.pgm\"\n");
+    EXPECT_THAT(inputError([&] { static_cast<void>(readRelief(folder_.path() / "large.toml")); }),
+                HasSubstr("large.pgm: it has 9000x9000 texels"));
     const float notANumber[4] = {0, NAN, 0, 0};
     EXPECT_THAT(reason("Pf\n2 2\n-1\n" + std::string(reinterpret_cast<const char*>(notANumber), sizeof notANumber)),
                 HasSubstr("a height is nan"));

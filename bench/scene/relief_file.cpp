@@ -1,5 +1,6 @@
 #include "bench/scene/relief_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -17,7 +18,17 @@ std::string sizeOf(const pictures::StoredPicture& picture) {
     return std::to_string(picture.width) + "x" + std::to_string(picture.height);
 }
 
+/// Before any pixel is read: a picture that is too large may not fit into memory.
+void requireSize(const std::filesystem::path& file) {
+    pictures::StoredPicture picture;
+    if (const std::string reason = pictures::readPictureSize(file, picture); !reason.empty())
+        throw InputError(file.string() + ": not an image that can be read: " + reason);
+    if (std::min(picture.width, picture.height) < fewestTexels || std::max(picture.width, picture.height) > mostTexels)
+        throw InputError(file.string() + ": it has " + sizeOf(picture) + " texels, allowed: 2..8192 a side");
+}
+
 pictures::StoredPicture readPicture(const std::filesystem::path& file) {
+    requireSize(file);
     pictures::StoredPicture picture;
     if (const std::string reason = pictures::readPicture(file, picture); !reason.empty())
         throw InputError(file.string() + ": not an image that can be read: " + reason);
@@ -36,8 +47,6 @@ void forEachTexel(const pictures::StoredPicture& picture, const Visit& visit) {
 
 void readDepths(const std::filesystem::path& file, scene::Relief& relief) {
     const pictures::StoredPicture heights = readPicture(file);
-    if (std::min(heights.width, heights.height) < fewestTexels || std::max(heights.width, heights.height) > mostTexels)
-        throw InputError(file.string() + ": the heights have " + sizeOf(heights) + " texels, allowed: 2..8192 a side");
     relief.columns = heights.width;
     relief.rows = heights.height;
     relief.depth.resize(static_cast<std::size_t>(heights.width) * static_cast<std::size_t>(heights.height));

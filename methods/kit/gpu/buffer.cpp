@@ -34,9 +34,9 @@ void requireFit(std::size_t wanted, std::size_t have) {
 Buffer::Buffer(Device& device, std::string_view label, std::size_t bytes)
     : name_(makeBuffer(label, bytes)), booking_(device.ledger().account(label), bytes) {}
 
-void Buffer::writeBytes(const void* data, std::size_t bytes) {
-    requireFit(bytes, this->bytes());
-    if (bytes > 0) glNamedBufferSubData(name_.get(), 0, static_cast<GLsizeiptr>(bytes), data);
+void Buffer::writeBytes(const void* data, std::size_t bytes, std::size_t from) {
+    requireFit(from + bytes, this->bytes());
+    if (bytes > 0) glNamedBufferSubData(name_.get(), static_cast<GLintptr>(from), static_cast<GLsizeiptr>(bytes), data);
     throwOnDebugOutput("writing a buffer");
 }
 

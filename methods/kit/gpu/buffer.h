@@ -31,6 +31,11 @@ class DUSTBENCH_API Buffer {
     void write(std::span<const T> data) {
         writeBytes(data.data(), data.size_bytes());
     }
+    /// Replaces `data.size()` elements from element `first` on. Throws std::out_of_range if they do not fit.
+    template <typename T>
+    void writeFrom(std::size_t first, std::span<const T> data) {
+        writeBytes(data.data(), data.size_bytes(), first * sizeof(T));
+    }
     /// Reads back the first `data.size()` elements. Waits for the GPU.
     template <typename T>
     void read(std::span<T> data) const {
@@ -52,7 +57,7 @@ class DUSTBENCH_API Buffer {
     [[nodiscard]] const Name& name() const { return name_; }
 
  private:
-    void writeBytes(const void* data, std::size_t bytes);
+    void writeBytes(const void* data, std::size_t bytes, std::size_t from = 0);
     void readBytes(void* data, std::size_t bytes) const;
 
     Name name_;

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <numeric>
 #include <optional>
@@ -118,6 +119,33 @@ TEST(Texture, SaysWhichOneIsTooLarge) {
         EXPECT_THAT(error.what(), HasSubstr("too large"));
     }
     EXPECT_EQ(device.ledger().totalBytes(), before);
+}
+
+TEST(Texture, WritesARectangleAndNothingElse) {
+    Device device;
+    Texture flat = Texture::make2D(device, "flat", Format::r8, 5, 4);
+    flat.write(std::vector<std::uint8_t>(20, 0));
+    flat.writeRectangle(1, 2, 3, 2, std::vector<std::uint8_t>{51, 102, 153, 204, 255, 51});
+    const std::vector<float> values = flat.readFloats();
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 5; ++column) {
+            const bool inside = column >= 1 && column < 4 && row >= 2;
+            const std::array written{0.2f, 0.4f, 0.6f, 0.8f, 1.0f, 0.2f};
+            const float expected = inside ? written[static_cast<std::size_t>(3 * (row - 2) + column - 1)] : 0.0f;
+            EXPECT_NEAR(values[static_cast<std::size_t>(5 * row + column)], expected, 1e-6f) << column << ' ' << row;
+        }
+    EXPECT_THROW(flat.writeRectangle(3, 0, 3, 1, std::vector<std::uint8_t>(3)), std::invalid_argument);
+    EXPECT_THROW(flat.writeRectangle(0, 0, 2, 1, std::vector<std::uint8_t>(3)), std::invalid_argument);
+}
+
+TEST(Buffer, WritesAPartAndNothingElse) {
+    Device device;
+    Buffer buffer(device, "b", std::span<const int>(std::vector<int>{1, 2, 3, 4, 5}));
+    buffer.writeFrom(2, std::span<const int>(std::vector<int>{8, 9}));
+    std::vector<int> values(5);
+    buffer.read(std::span<int>(values));
+    EXPECT_EQ(values, (std::vector<int>{1, 2, 8, 9, 5}));
+    EXPECT_THROW(buffer.writeFrom(4, std::span<const int>(std::vector<int>{8, 9})), std::out_of_range);
 }
 
 TEST(Texture, GivesBackWhatWasWritten) {

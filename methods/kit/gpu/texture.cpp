@@ -138,6 +138,24 @@ void Texture::write(std::span<const float> values) {
     writeTexels(0, depth_, values.data(), values.size(), sizeof(float));
 }
 
+void Texture::writeRectangle(int column, int row, int width, int height, std::span<const std::uint8_t> values) {
+    const FormatNames names = namesOf(format_);
+    const bool inside = column >= 0 && row >= 0 && width >= 1 && height >= 1 && column + width <= width_ &&
+                        row + height <= height_ && kind_ == Kind::flat && names.bytes;
+    if (!inside || values.size() != texels(width, height, 1) * static_cast<std::size_t>(names.count))
+        throw std::invalid_argument("texture of " + std::to_string(width_) + "x" + std::to_string(height_) + ": got " +
+                                    std::to_string(values.size()) + " bytes for " + std::to_string(width) + "x" +
+                                    std::to_string(height) + " texels from (" + std::to_string(column) + ", " +
+                                    std::to_string(row) + ") on");
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(name_.get(), 0, column, row, width, height, names.channels, GL_UNSIGNED_BYTE, values.data());
+    throwOnDebugOutput("writing a texture");
+}
+
+void Texture::makeMipmaps() {
+    if (mipmapped_) glGenerateTextureMipmap(name_.get());
+}
+
 void Texture::writeLayer(int layer, std::span<const std::uint8_t> values) {
     if (kind_ != Kind::array || layer < 0 || layer >= depth_)
         throw std::out_of_range("texture layer " + std::to_string(layer) + ": expected 0.." +

@@ -33,6 +33,11 @@ class DUSTBENCH_API Texture {
     /// Generates mipmaps if the filter needs them. Throws std::invalid_argument for a wrong number of values.
     void write(std::span<const std::uint8_t> values);
     void write(std::span<const float> values);
+    /// Writes the texels from (column, row) on, `width` × `height` of them, of a 2D texture of 8-bit channels. Mipmaps
+    /// stay as they are until `makeMipmaps`. Throws std::invalid_argument for a wrong number of values, or if the
+    /// texels lie outside.
+    void writeRectangle(int column, int row, int width, int height, std::span<const std::uint8_t> values);
+    void makeMipmaps();
     /// Writes one layer of an array.
     void writeLayer(int layer, std::span<const std::uint8_t> values);
     /// All texels as floats, tightly packed. Waits for the GPU.

@@ -15,6 +15,8 @@ namespace dustbench::pictures {
 
 /// Reads any file that OpenImageIO can read.
 [[nodiscard]] DUSTBENCH_API std::string readPicture(const std::filesystem::path& file, StoredPicture& picture);
+/// Width and height alone, which is quick however large the picture is; the rest of `picture` stays as it is.
+[[nodiscard]] DUSTBENCH_API std::string readPictureSize(const std::filesystem::path& file, StoredPicture& picture);
 /// sRGB; four channels include straight alpha, else three.
 [[nodiscard]] std::string writePng(const std::filesystem::path& file, int width, int height, int channels,
                                    std::span<const std::uint8_t> bytes);

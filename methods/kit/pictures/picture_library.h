@@ -36,6 +36,8 @@ class PictureLibrary {
     virtual ~PictureLibrary() = default;
 
     [[nodiscard]] virtual std::string read(const std::filesystem::path& file, StoredPicture& picture) const = 0;
+    /// Width and height alone: nothing else is read.
+    [[nodiscard]] virtual std::string readSize(const std::filesystem::path& file, StoredPicture& picture) const = 0;
     /// RGB, sRGB; quality is at most 100. Returns the encoded bytes; writes no file.
     [[nodiscard]] virtual std::string encodeJpeg(int width, int height, std::span<const std::uint8_t> rgb, int quality,
                                                  std::vector<std::uint8_t>& jpeg) const = 0;

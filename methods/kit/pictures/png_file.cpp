@@ -44,6 +44,14 @@ std::string readPicture(const std::filesystem::path& file, StoredPicture& pictur
     return "";
 }
 
+std::string readPictureSize(const std::filesystem::path& file, StoredPicture& picture) {
+    PngImage image;
+    if (png_image_begin_read_from_file(image.get(), file.c_str()) == 0) return pictureLibrary().readSize(file, picture);
+    picture.width = static_cast<int>(image->width);
+    picture.height = static_cast<int>(image->height);
+    return "";
+}
+
 std::string writePng(const std::filesystem::path& file, int width, int height, int channels,
                      std::span<const std::uint8_t> bytes) {
     PngImage image;

@@ -54,6 +54,14 @@ class OpenImageIo final : public PictureLibrary {
         return "";
     }
 
+    std::string readSize(const std::filesystem::path& file, StoredPicture& picture) const override {
+        const auto input = OIIO::ImageInput::open(file.string());
+        if (!input) return oneLine(OIIO::geterror());
+        picture.width = input->spec().width;
+        picture.height = input->spec().height;
+        return "";
+    }
+
     std::string encodeJpeg(int width, int height, std::span<const std::uint8_t> rgb, int quality,
                            std::vector<std::uint8_t>& jpeg) const override {
         OIIO::Filesystem::IOVecOutput sink(jpeg);
