@@ -75,6 +75,39 @@ void CollectedVolume::grid(const GridVolume& volume) {
     grids_.push_back(std::move(grid));
 }
 
+void CollectedVolume::surface(const SurfaceVolume& volume) {
+    const std::size_t count = static_cast<std::size_t>(volume.columns) * static_cast<std::size_t>(volume.rows);
+    const auto require = [&](std::string_view name, std::size_t components, std::span<const float> values) {
+        if (values.size() != count * components)
+            throw std::runtime_error(fmt::format("surface {} of {}x{} points: {} has {} numbers, expected {}",
+                                                 volume.name, volume.columns, volume.rows, name, values.size(),
+                                                 count * components));
+        for (std::size_t n = 0; n < values.size(); ++n)
+            if (!std::isfinite(values[n]))
+                throw std::runtime_error(fmt::format("surface {}: the {} of point {} is no finite number", volume.name,
+                                                     name, n / components));
+    };
+    const auto numbersOf = [](std::span<const glm::vec3> vectors) {
+        return std::span<const float>(reinterpret_cast<const float*>(vectors.data()), 3 * vectors.size());
+    };
+    require("position", 3, numbersOf(volume.position));
+    require("colour", 3, numbersOf(volume.colour));
+    require("height", 1, volume.height);
+    CollectedSurface surface{std::string(volume.name),
+                             volume.columns,
+                             volume.rows,
+                             {volume.position.begin(), volume.position.end()},
+                             {volume.colour.begin(), volume.colour.end()},
+                             {volume.height.begin(), volume.height.end()},
+                             {}};
+    for (const GridField& field : volume.fields) {
+        require(field.name, static_cast<std::size_t>(field.components), field.values);
+        surface.fields.push_back({std::string(field.name), std::string(field.unit), field.components,
+                                  std::vector<float>(field.values.begin(), field.values.end())});
+    }
+    surfaces_.push_back(std::move(surface));
+}
+
 namespace {
 
 /// Bounding box of all cells of a grid with extinction.

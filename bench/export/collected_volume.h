@@ -51,6 +51,14 @@ struct CollectedGrid {
     }
 };
 
+struct CollectedSurface {
+    std::string name;
+    int columns, rows;
+    std::vector<glm::vec3> position, colour;
+    std::vector<float> height;
+    std::vector<CollectedField> fields;
+};
+
 class CollectedVolume final : public VolumeVisitor {
  public:
     /// Throws std::runtime_error with the particle's serial if a puff has a non-finite number.
@@ -60,6 +68,9 @@ class CollectedVolume final : public VolumeVisitor {
     /// Throws std::runtime_error with the field if its size differs from the grid's, or with the cell if a number is
     /// not finite.
     void grid(const GridVolume& volume) override;
+    /// Throws std::runtime_error with surface and column if a column's size differs from the lattice's, or with the
+    /// point if a number is not finite.
+    void surface(const SurfaceVolume& volume) override;
 
     [[nodiscard]] const std::vector<CollectedPuff>& puffs() const { return puffs_; }
     /// The particles handed over last, as a view of their owner's storage: valid until its next step. Empty if there
@@ -71,6 +82,8 @@ class CollectedVolume final : public VolumeVisitor {
     /// The cloud is exactly one tree, so it can be written as one.
     [[nodiscard]] bool isOneOctree() const { return octrees_.size() == 1 && !anyPuffs_ && grids_.empty(); }
     [[nodiscard]] const std::vector<CollectedGrid>& grids() const { return grids_; }
+    /// Surfaces are no cloud: `bounds` and `isNothing` do without them.
+    [[nodiscard]] const std::vector<CollectedSurface>& surfaces() const { return surfaces_; }
     /// Bounding box of the cloud: whole voxels, and puffs to 4s around their centres (which omits 0.006 % of a puff's
     /// mass along each axis). Empty if there is no extinction.
     [[nodiscard]] std::optional<Box> bounds() const;
@@ -81,6 +94,7 @@ class CollectedVolume final : public VolumeVisitor {
     std::vector<CollectedPuff> puffs_;  ///< those with mass
     std::vector<CollectedOctree> octrees_;
     std::vector<CollectedGrid> grids_;
+    std::vector<CollectedSurface> surfaces_;
 };
 
 }  // namespace dustbench::bench

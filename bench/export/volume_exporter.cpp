@@ -6,11 +6,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <set>
 
 #include "bench/export/htg_writer.h"
 #include "bench/export/scene_writer.h"
+#include "bench/export/surface_writer.h"
 #include "bench/export/vdb_writer.h"
 #include "bench/export/vti_writer.h"
 #include "bench/export/vtp_writer.h"
@@ -19,6 +22,17 @@
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
+
+namespace {
+
+/// A name as a part of a file's name.
+std::string fileWord(std::string name) {
+    for (char& letter : name)
+        if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
+    return name;
+}
+
+}  // namespace
 
 std::string whyNotWritable(const CollectedVolume& volume, VolumeFormat format) {
     switch (format) {
@@ -123,6 +137,22 @@ void VolumeExporter::writeOwnGrid(const ExportedMoment& moment) {
     }
 }
 
+/// Writes each surface that the method changes, beside its own particles.
+void VolumeExporter::writeSurfaces(const ExportedMoment& moment) {
+    const double time = moment.state.timeSeconds;
+    std::set<std::string> parts;
+    for (const CollectedSurface& surface : moment.volume.surfaces()) {
+        std::string part = fmt::format("{}_{}", moment.method, fileWord(surface.name));
+        while (!parts.insert(part).second) part += '_';  // names that differ in other letters
+        const std::string mesh = fmt::format("f{:06}_{}.vtp", moment.frame, part);
+        writeSurface(surface, time, folder_ / mesh);
+        addTo(part + ".pvd", Series::Kind::pvd, mesh, time);
+        const std::string heights = fmt::format("f{:06}_{}_heights.exr", moment.frame, part);
+        writeHeights(surface, folder_ / heights);
+        addTo(part + "_heights.exr.series", Series::Kind::json, heights, time);
+    }
+}
+
 void VolumeExporter::write(const ExportedMoment& moment) {
     requireWritable(moment.volume, settings_.formats, moment.method);
     const double time = moment.state.timeSeconds;
@@ -144,6 +174,7 @@ void VolumeExporter::write(const ExportedMoment& moment) {
             writeVtp(*own, time, folder_ / ownName);
             addTo(fmt::format("{}.pvd", moment.method), Series::Kind::pvd, ownName, time);
         }
+        writeSurfaces(moment);
     }
     if (settings_.formats == std::vector{VolumeFormat::vdb}) return;
     const std::string name = nameOf(moment.frame, "vtm");

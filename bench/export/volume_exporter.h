@@ -2,9 +2,10 @@
 //
 // In the folder: `f000120.vti .htg .vtp .vdb .vtm` of frame 120, `extinction.pvd extinction.vti.series octree.pvd
 // particles.pvd density.vdb.series scene.pvd` over the frames; `f000120_ID.vtp ID.pvd` of a method's own particles,
-// `f000120_ID.vti .vdb ID_grid.pvd ID_grid.vdb.series` of its own grid. The scene is written with every format except
-// .vdb. ParaView takes origin, spacing and size of `extinction.vti.series` from its first file, and misplaces the
-// others if theirs differ; `extinction.pvd` is always right.
+// `f000120_ID.vti .vdb ID_grid.pvd ID_grid.vdb.series` of its own grid; `f000120_ID_NAME.vtp ID_NAME.pvd` and
+// `f000120_ID_NAME_heights.exr ID_NAME_heights.exr.series` of each surface that it changes, with `.vtp`. The scene is
+// written with every format except .vdb. ParaView takes origin, spacing and size of `extinction.vti.series` from its
+// first file, and misplaces the others if theirs differ; `extinction.pvd` is always right.
 //
 // Owns: a lock on the folder, so that two programs never write to the same one. Threads: one at a time; grids use the
 // current oneTBB arena.
@@ -63,6 +64,7 @@ class VolumeExporter {
  private:
     void writeGrids(const ExportedMoment& moment);
     void writeOwnGrid(const ExportedMoment& moment);
+    void writeSurfaces(const ExportedMoment& moment);
     [[nodiscard]] std::string nameOf(std::int64_t frame, std::string_view extension) const;
     void addTo(const std::string& series, Series::Kind kind, const std::string& name, double timeSeconds);
 

@@ -1,4 +1,5 @@
-// A method's representation of the cloud: puffs, octree voxels or grid cells, never pictures.
+// A method's representation of the cloud: puffs, octree voxels or grid cells, and of surfaces that it changes; never
+// pictures.
 //
 // Units: metres, metres per second, seconds, extinction per metre. Frame: world. All data passed on are valid during
 // the call only.
@@ -68,6 +69,16 @@ struct GridVolume {
     std::span<const GridField> fields;
 };
 
+/// A surface that a method changes: a lattice of points, joined to quadrilaterals.
+struct SurfaceVolume {
+    std::string_view name;                ///< of what it is in the scene, such as a panel; unique
+    int columns, rows;                    ///< of the lattice, 2 or more each
+    std::span<const glm::vec3> position;  ///< row by row; seen from its face, columns to the right and rows upwards
+    std::span<const glm::vec3> colour;    ///< linear RGB
+    std::span<const float> height;        ///< as in files of reliefs: 1 at the face, 0 at the greatest depth
+    std::span<const GridField> fields;    ///< further quantities of the points
+};
+
 /// Receives a cloud's representation. A method calls one function for each part of its cloud, usually a single call.
 class DUSTBENCH_API VolumeVisitor {
  public:
@@ -75,6 +86,8 @@ class DUSTBENCH_API VolumeVisitor {
     virtual void puffs(const Puffs& puffs) = 0;
     virtual void octree(const OctreeVolume& volume) = 0;
     virtual void grid(const GridVolume& volume) = 0;
+    /// The default ignores it.
+    virtual void surface(const SurfaceVolume&) {}
 };
 
 }  // namespace dustbench

@@ -1,0 +1,17 @@
+// Writes a surface that a method changed: as a mesh, and its heights as a picture.
+#pragma once
+
+#include <filesystem>
+
+#include "bench/export/collected_volume.h"
+
+namespace dustbench::bench {
+
+/// Points, quadrilaterals and the points' `colour` (linear RGB), `height` and further fields, as `.vtp`. Written
+/// completely or not at all. Throws InputError if it cannot be written.
+void writeSurface(const CollectedSurface& surface, double timeSeconds, const std::filesystem::path& file);
+
+/// The heights as a grey `.exr`, one pixel per point, rows from the top: what a relief's `heights` may name.
+void writeHeights(const CollectedSurface& surface, const std::filesystem::path& file);
+
+}  // namespace dustbench::bench
