@@ -83,6 +83,43 @@ double particleMass(const fs::path& vtp) {
     return sum;
 }
 
+TEST_F(ExportCommand, WritesTheSurfacesThatAMethodWearsWithTheirHeightsAndParticles) {
+    const Called called =
+        call(fmt::format("export --method relief --scene relief_wall --size 96x72 --warmup 0 -P preroll=0.5 "
+                         "-P particles=3000 --frames 0:3:2 --format vtp --out '{}'",
+                         (folder_ / "out").string()));
+    ASSERT_EQ(called.exitCode, 0) << called.err;
+    const fs::path out = folder_ / "out";
+    for (const char* part : {"relief_wall", "relief_sign"}) {
+        EXPECT_EQ(stepsOf(out / fmt::format("{}.pvd", part)).size(), 2u) << part;
+        EXPECT_TRUE(fs::exists(out / fmt::format("{}_heights.exr.series", part)));
+        EXPECT_TRUE(fs::exists(out / fmt::format("f000002_{}_heights.exr", part)));
+    }
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName((out / "f000002_relief_wall.vtp").c_str());
+    reader->Update();
+    vtkPolyData& wall = *reader->GetOutput();
+    vtkDataArray* hits = wall.GetPointData()->GetArray("hits");
+    vtkDataArray* removed = wall.GetPointData()->GetArray("depth_removed");
+    ASSERT_NE(hits, nullptr);
+    double hitCount = 0, depthRemoved = 0;
+    for (vtkIdType i = 0; i < wall.GetNumberOfPoints(); ++i) {
+        hitCount += hits->GetTuple1(i);
+        depthRemoved += removed->GetTuple1(i);
+    }
+    EXPECT_GT(hitCount, 0);
+    EXPECT_GT(depthRemoved, 0);
+    double bounds[6];
+    wall.GetBounds(bounds);  // 4 m by 2 m about x = 8, standing on the ground behind z = −1.9
+    EXPECT_NEAR(bounds[0], 6, 0.02);
+    EXPECT_NEAR(bounds[1], 10, 0.02);
+    EXPECT_NEAR(bounds[2], 0, 0.02);
+    EXPECT_NEAR(bounds[3], 2, 0.02);
+    EXPECT_LE(bounds[5], -1.9 + 1e-6);
+    EXPECT_GE(bounds[4], -1.94 - 1e-6);
+    EXPECT_EQ(stepsOf(out / "relief.pvd").size(), 2u);  // the particles: outside and within
+}
+
 TEST_F(ExportCommand, WritesEveryFrameAndSeriesWithTheSimulationsTimes) {
     const Called called = shortExport("--frames 0:9:4 --format vti,vtp,vdb --resolution 40 --region -5,-2,-5,9,4,5");
     ASSERT_EQ(called.code, 0) << called.err;

@@ -37,4 +37,10 @@ Impact impactOf(const SurfaceHit& hit, const AgeingSettings& settings, const Tex
     return {hit.texels.x, hit.texels.y, static_cast<float>(radius / texelMetres), stepsOf(height / depthMetres)};
 }
 
+std::optional<Repose> reposeOf(const AgeingSettings& settings, const scene::Panel& panel) {
+    if (settings.model != AgeingModel::deposit || settings.reposeDegrees >= 90) return std::nullopt;
+    return Repose{std::tan(settings.reposeDegrees * std::numbers::pi / 180),
+                  panel.sizeMetres / glm::dvec2(panel.relief->columns, panel.relief->rows), panel.depthMetres};
+}
+
 }  // namespace dustbench::relief

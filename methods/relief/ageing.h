@@ -4,16 +4,20 @@
 // scalar   the texel falls by a share of the depth (Bergeron, 3.4)
 // crater   the hit removes the volume V = ½·m·(v·sin α)²/ε, α between velocity and surface (Bitter1963: deformation
 //          wear without a threshold), as a paraboloid whose depth is a quarter of its radius
-// deposit  the particle stays: V = m/ρ, as a paraboloid of the same form
+// deposit  the particle stays: V = m/ρ, as a paraboloid of the same form, and slides where it lies too steep
+// (sliding.h)
 //
 // A paraboloid smaller than the texels gets a radius of 1.5 texels and keeps its volume.
 //
 // Units: m, kg, J. Threads: pure.
 #pragma once
 
+#include <optional>
+
 #include "methods/contract/choices.h"
 #include "methods/relief/particles/relief_particles.h"
 #include "methods/relief/surface/impact.h"
+#include "methods/relief/surface/sliding.h"
 
 namespace dustbench::relief {
 
@@ -29,6 +33,7 @@ struct AgeingSettings {
     double massKilograms = 0.05;                  ///< of a particle
     double hardnessJoulesPerCubicMetre = 1e4;     ///< ε
     double densityKilogramsPerCubicMetre = 1500;  ///< ρ of what is laid on
+    double reposeDegrees = 35;                    ///< angle to the face above which it slides; 90: it does not
 };
 
 /// Returns the volume that a hit removes or deposits, before clipping at face and bottom; for crater and deposit.
@@ -36,5 +41,8 @@ struct AgeingSettings {
 
 [[nodiscard]] Impact impactOf(const SurfaceHit& hit, const AgeingSettings& settings, const TexelFrame& texels,
                               double depthMetres);
+
+/// How what is laid on a panel slides; nothing if it does not.
+[[nodiscard]] std::optional<Repose> reposeOf(const AgeingSettings& settings, const scene::Panel& panel);
 
 }  // namespace dustbench::relief

@@ -1,5 +1,6 @@
 #include "methods/relief/living_relief.h"
 
+#include <array>
 #include <cmath>
 
 namespace dustbench::relief {
@@ -22,14 +23,27 @@ struct FacePlane {
 
 }  // namespace
 
+namespace {
+
+ReliefStyle with(ReliefStyle style, bool carShadow) {
+    style.carShadow = carShadow;
+    return style;
+}
+
+}  // namespace
+
 LivingRelief::LivingRelief(const scene::Scene& scene, const scene::Panel& panel, const ReliefSettings& settings,
                            gpu::Device& device, MemoryLedger& ledger)
     : panel_(panel),
       settings_(settings),
+      takesCarShadow_(settings.style.shadow && scene.vehicle && panel.parent == scene::Panel::Parent::world),
       surface_(*panel.relief, ledger),
       pyramid_(surface_.depths(), ledger),
       particles_(panel, ledger),
-      picture_(device, scene, panel, pyramid_, settings.style) {}
+      picture_(device, scene, panel, pyramid_, with(settings.style, takesCarShadow_)) {
+    if (settings.state == StateIn::texture)
+        textures_ = std::make_unique<TextureMover>(device, panel, surface_.depths());
+}
 
 void LivingRelief::create(const Frame& frame, SerialSet& taken) {
     toWorld_ = scene::panelToWorld(panel_, frame.state);
@@ -63,8 +77,11 @@ void LivingRelief::enter(const Puffs& dust, std::size_t i, double stepSeconds, S
 
 void LivingRelief::move(double stepSeconds) {
     const glm::vec3 gravity(frame_.directionToPanel({0, -static_cast<double>(settings_.gravity), 0}));
-    particles_.step(surface_.depths(),
-                    {settings_.motion, gravity, static_cast<float>(stepSeconds), settings_.maximumAgeSteps});
+    const StepSettings step{settings_.motion, gravity, static_cast<float>(stepSeconds), settings_.maximumAgeSteps};
+    if (textures_)
+        particles_.step(*textures_, surface_.depths(), step);
+    else
+        particles_.step(surface_.depths(), step);
 }
 
 void LivingRelief::age() {
@@ -77,7 +94,7 @@ void LivingRelief::age() {
     else
         surface_.scatter(impacts_);
     if (settings_.ageing.model == AgeingModel::deposit)
-        surface_.layOn();
+        surface_.layOn(reposeOf(settings_.ageing, panel_));
     else
         surface_.takeOff();
 }
@@ -85,7 +102,40 @@ void LivingRelief::age() {
 void LivingRelief::upload() {
     const TexelRectangle changed = surface_.takeChanged();
     pyramid_.update(surface_.depths(), changed);
-    picture_.upload(surface_, pyramid_, changed);
+    static_cast<void>(picture_.upload(surface_, pyramid_, changed));
+    if (textures_) textures_->upload(surface_.depths(), changed);
+}
+
+namespace {
+
+/// The columns of a surface as a visitor gets them; glm::vec3 and float, in world space.
+struct SurfaceColumns {
+    std::vector<glm::vec3> position, colour;
+    std::vector<float> height, removed, laid, hits;
+};
+
+}  // namespace
+
+void LivingRelief::handOver(VolumeVisitor& visitor) const {
+    const DepthMap& map = surface_.depths();
+    const auto metres = [&](std::uint32_t steps) {
+        return static_cast<float>(panel_.depthMetres * steps / DepthMap::bottom);
+    };
+    SurfaceColumns columns;
+    for (int row = 0; row < map.rows(); ++row)
+        for (int column = 0; column < map.columns(); ++column) {
+            const std::size_t i = map.texel(column, row);
+            const glm::dvec3 place = particles_.texels().toMetres({column, row, map.at(column, row)});
+            columns.position.emplace_back(toWorld_ * glm::dvec4(place, 1));
+            columns.height.push_back(static_cast<float>(1 - map.at(column, row)));
+            columns.removed.push_back(metres(surface_.worn()[i]));
+            columns.laid.push_back(metres(surface_.laid()[i]));
+            columns.hits.push_back(static_cast<float>(surface_.hits()[i]));
+            columns.colour.push_back(picture_.colourOf(surface_, i));
+        }
+    const std::array fields{GridField{"depth_removed", "m", 1, columns.removed},
+                            GridField{"deposit", "m", 1, columns.laid}, GridField{"hits", "", 1, columns.hits}};
+    visitor.surface({panel_.name, map.columns(), map.rows(), columns.position, columns.colour, columns.height, fields});
 }
 
 void LivingRelief::addTo(maths::Hash& hash) const {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "methods/relief/particles/panel_frame.h"
 #include "methods/relief/particles/relief_particles.h"
 #include "methods/relief/particles/serial_set.h"
+#include "methods/relief/particles_gl/texture_mover.h"
 #include "methods/relief/surface/depth_pyramid.h"
 #include "methods/relief/surface/worn_surface.h"
 
@@ -26,7 +28,13 @@ namespace dustbench::relief {
 enum class Search { gather, scatter };
 inline constexpr Choices<Search> searches{{"gather", Search::gather}, {"scatter", Search::scatter}};
 
+/// Where the state of the particles is, and what moves it: columns and the CPU, or textures and a shader, as in the
+/// paper.
+enum class StateIn { array, texture };
+inline constexpr Choices<StateIn> statesIn{{"array", StateIn::array}, {"texture", StateIn::texture}};
+
 struct ReliefSettings {
+    StateIn state = StateIn::array;
     MotionLaw motion = MotionLaw::fixed;
     float gravity = 9.8f;  ///< m/s²
     float maximumAgeSteps = 600;
@@ -47,13 +55,20 @@ class LivingRelief {
     void age();
     void upload();
 
-    void draw(const scene::View& view) { picture_.draw(view, toWorld_); }
+    /// `shadow`: the car's, null in a scene without one.
+    void draw(const scene::View& view, const CarShadow* shadow) {
+        picture_.draw(view, toWorld_, takesCarShadow_ ? shadow : nullptr);
+    }
+
+    /// The surface as it is: with its colour, `depth_removed` and `deposit` (m), and `hits`.
+    void handOver(VolumeVisitor& visitor) const;
 
     [[nodiscard]] const WornSurface& surface() const { return surface_; }
     [[nodiscard]] const ReliefParticles& particles() const { return particles_; }
+    [[nodiscard]] const PanelFrame& frame() const { return frame_; }
     [[nodiscard]] const glm::dmat4& toWorld() const { return toWorld_; }
     [[nodiscard]] std::uint64_t hits() const { return hits_; }
-    [[nodiscard]] std::size_t gpuBytes() const { return picture_.gpuBytes(); }
+    [[nodiscard]] std::size_t gpuBytes() const { return picture_.gpuBytes() + (textures_ ? textures_->gpuBytes() : 0); }
     void addTo(maths::Hash& hash) const;
 
  private:
@@ -61,9 +76,11 @@ class LivingRelief {
 
     const scene::Panel& panel_;
     ReliefSettings settings_;
+    bool takesCarShadow_;  ///< a panel on the car itself does not
     WornSurface surface_;
     DepthPyramid pyramid_;
     ReliefParticles particles_;
+    std::unique_ptr<TextureMover> textures_;  ///< of StateIn::texture
     ReliefPass picture_;
     glm::dmat4 toWorld_{1};
     std::optional<glm::dmat4> toWorldBefore_;

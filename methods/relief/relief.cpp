@@ -23,6 +23,7 @@ void Relief::prepare(const scene::Scene& scene, const RunSetup&, gpu::Device& de
     device_ = &device;
     for (const scene::Panel& panel : scene.panels)
         reliefs_.emplace_back(scene, panel, settings_.relief, device, ledger_);
+    if (scene.vehicle && settings_.relief.style.shadow) carShadow_.emplace(device, scene);
     dust_.emplace(device, draw::BillboardStyle{});
     grains_.emplace(device, draw::BillboardStyle{});
 }
@@ -54,13 +55,12 @@ void Relief::simulate(const Frame& frame) {
 
 /// Particles inside a relief are not drawn outside it.
 void Relief::uploadDust(const Puffs& dust, const glm::vec3& eye) {
-    const auto order = sort_.farToNear(draw::SortKind::radix, {dust.x, dust.y, dust.z}, eye);
-    const auto seen = [&](std::uint32_t i) { return !taken_.contains(dust.serial[i]); };
-    const auto count = static_cast<std::size_t>(std::ranges::count_if(order, seen));
+    visible_.clear();
+    for (const std::uint32_t i : sort_.farToNear(draw::SortKind::radix, {dust.x, dust.y, dust.z}, eye))
+        if (!taken_.contains(dust.serial[i])) visible_.push_back(i);
     const draw::InstanceLayout layout = dust_->layout(!dust.uniformColour);
-    float* value = dust_->map(count, layout).data();
-    for (const std::uint32_t i : order) {
-        if (!seen(i)) continue;
+    float* value = dust_->map(visible_.size(), layout).data();
+    for (const std::uint32_t i : visible_) {
         for (const float each : {dust.x[i], dust.y[i], dust.z[i], dust.radius[i], dust.opacity[i]}) *value++ = each;
         if (layout.coloured)
             for (const float each : {dust.red[i], dust.green[i], dust.blue[i]}) *value++ = each;
@@ -83,10 +83,11 @@ void Relief::uploadGrains() {
 void Relief::draw(const Frame& frame, gpu::Layer& layer) {
     if (!target_ || target_->width() != layer.width() || target_->height() != layer.height())
         target_.emplace(*device_, layer.width(), layer.height());
+    if (carShadow_) carShadow_->draw(frame.state);
     target_->begin(layer.sceneDepth());
     {
         const auto detail = frame.clock.measureDetail("reliefs");
-        for (LivingRelief& relief : reliefs_) relief.draw(frame.view);
+        for (LivingRelief& relief : reliefs_) relief.draw(frame.view, carShadow_ ? &*carShadow_ : nullptr);
     }
     {
         const auto detail = frame.clock.measureDetail("particles");
@@ -96,8 +97,55 @@ void Relief::draw(const Frame& frame, gpu::Layer& layer) {
     target_->copyTo(layer);
 }
 
+/// The dust outside the reliefs.
+void Relief::copyDust(const Puffs& dust) const {
+    particles::ParticleStore& store = handedOver_;
+    store.colourOfAll = dust.colourOfAll;
+    store.keepOneColour(dust.uniformColour);
+    store.resize(visible_.size());
+    for (std::size_t k = 0; k < visible_.size(); ++k) {
+        const std::uint32_t i = visible_[k];
+        store.serial[k] = dust.serial[i];
+        store.x[k] = dust.x[i], store.y[k] = dust.y[i], store.z[k] = dust.z[i];
+        store.velocityX[k] = dust.velocityX[i], store.velocityY[k] = dust.velocityY[i];
+        store.velocityZ[k] = dust.velocityZ[i];
+        store.age[k] = dust.age[i], store.lifetime[k] = dust.lifetime[i];
+        store.radius[k] = dust.radius[i], store.opacity[k] = dust.opacity[i];
+        if (!dust.uniformColour)
+            store.red[k] = dust.red[i], store.green[k] = dust.green[i], store.blue[k] = dust.blue[i];
+    }
+}
+
+/// The particles within the reliefs, in world space, as they are drawn. Their age counts from their entry.
+void Relief::copyGrains(double stepSeconds) const {
+    particles::ParticleStore& store = handedOver_;
+    for (const LivingRelief& relief : reliefs_) {
+        const ReliefParticles& grains = relief.particles();
+        const std::size_t first = store.size();
+        store.resize(first + grains.size());
+        for (std::size_t i = 0; i < grains.size(); ++i) {
+            const std::size_t k = first + i;
+            const Moving world =
+                relief.frame().toWorld({glm::dvec3(grains.places()[i]), glm::dvec3(grains.velocities()[i])});
+            const glm::vec3 place(world.place), velocity(world.velocity);
+            store.serial[k] = grains.serials()[i];
+            store.x[k] = place.x, store.y[k] = place.y, store.z[k] = place.z;
+            store.velocityX[k] = velocity.x, store.velocityY[k] = velocity.y, store.velocityZ[k] = velocity.z;
+            store.age[k] = grains.places()[i].w * static_cast<float>(stepSeconds);
+            store.lifetime[k] = settings_.relief.maximumAgeSteps * static_cast<float>(stepSeconds);
+            store.radius[k] = settings_.grainMetres, store.opacity[k] = grainOpacity;
+            if (!store.uniformColour)
+                store.red[k] = store.colourOfAll.r, store.green[k] = store.colourOfAll.g,
+                store.blue[k] = store.colourOfAll.b;
+        }
+    }
+}
+
 void Relief::volume(const Frame& frame, VolumeVisitor& visitor) const {
-    visitor.puffs(frame.dust);
+    copyDust(frame.dust);
+    copyGrains(frame.stepSeconds);
+    visitor.puffs(handedOver_);
+    for (const LivingRelief& relief : reliefs_) relief.handOver(visitor);
 }
 
 void Relief::report(const Frame&, Facts& facts) const {
@@ -122,6 +170,7 @@ MemoryReport Relief::memory() const {
     std::size_t reliefs = 0;
     for (const LivingRelief& relief : reliefs_) reliefs += relief.gpuBytes();
     report.push_back({"reliefs", 0, reliefs});
+    if (carShadow_) report.push_back({"car shadow", 0, carShadow_->gpuBytes()});
     if (target_) report.push_back({"picture", 0, target_->gpuBytes()});
     if (dust_) report.push_back({"billboards", 0, dust_->gpuBytes() + grains_->gpuBytes()});
     return report;
@@ -148,6 +197,9 @@ MethodInfo describe() {
         .choice("motion", MotionLaw::fixed, motionLaws,
                 "paper: displacement over the whole age is added in each step, so that it compounds; fixed: over the "
                 "step")
+        .choice("state", StateIn::array, statesIn,
+                "of the particles in a relief: array: columns, moved on the CPU; texture: two textures, moved by a "
+                "shader, as in the paper; the same paths and hits")
         .choice("ageing", AgeingModel::crater, ageingModels,
                 "what a hit does: paper: the texel falls to the bottom and turns white; scalar: it falls by `scalar`; "
                 "crater: a pit whose volume follows from energy and angle; deposit: the particle stays")
@@ -155,14 +207,17 @@ MethodInfo describe() {
                 "gather: each texel tests every hit, as in the paper; scatter: each hit writes its texels; the same "
                 "result")
         .choice("march", March::safe, marches,
-                "paper: linear, then binary steps, which may miss thin things; safe: misses nothing")
+                "paper: linear, then binary steps, which may miss thin things; safe: misses nothing; mesh: two "
+                "triangles per texel instead of a march, as a reference")
         .integer("linear_steps", 15, 1, 1000, "", "of march=paper")
         .integer("binary_steps", 5, 0, 30, "", "of march=paper")
-        .boolean("shadow", true, "let the relief throw shadows on itself")
+        .boolean("shadow", true, "let the relief throw shadows on itself, and the car on reliefs")
         .real("scalar", 0.1, 0, 1, "", "share of the depth by which a hit lowers a texel under ageing=scalar")
         .real("mass_kilograms", 0.05, 0, 1000, "kg", "of a particle")
         .real("hardness", 1e4, 1, 1e12, "J/m³", "energy that breaks off a volume under ageing=crater")
         .real("density", 1500, 1, 1e5, "kg/m³", "of what is laid on under ageing=deposit")
+        .real("repose_degrees", 35, 1, 90, "°",
+              "angle to the face above which deposits slide, under ageing=deposit; 90: they stay where they fall")
         .real("gravity", 9.8, 0, 1000, "m/s²", "within the relief")
         .integer("maximum_age", 600, 1, 1'000'000, "steps", "after which a particle in the relief dies")
         .real("grain_metres", 0.006, 0.0001, 1, "m", "radius at which a particle is drawn within the relief");
@@ -175,11 +230,13 @@ MethodInfo describe() {
         Settings settings;
         ReliefSettings& relief = settings.relief;
         relief.motion = values.choice("motion", motionLaws);
+        relief.state = values.choice("state", statesIn);
         relief.ageing.model = values.choice("ageing", ageingModels);
         relief.ageing.scalar = values.real("scalar");
         relief.ageing.massKilograms = values.real("mass_kilograms");
         relief.ageing.hardnessJoulesPerCubicMetre = values.real("hardness");
         relief.ageing.densityKilogramsPerCubicMetre = values.real("density");
+        relief.ageing.reposeDegrees = values.real("repose_degrees");
         relief.search = values.choice("search", searches);
         relief.style.march = values.choice("march", marches);
         relief.style.linearSteps = static_cast<int>(values.integer("linear_steps"));

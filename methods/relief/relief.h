@@ -12,6 +12,7 @@
 #include "methods/contract/method.h"
 #include "methods/kit/draw/billboards.h"
 #include "methods/kit/draw/depth_sort.h"
+#include "methods/kit/particles/particle_store.h"
 #include "methods/relief/drawing/scene_with_reliefs.h"
 #include "methods/relief/living_relief.h"
 
@@ -41,12 +42,18 @@ class Relief final : public Method {
     void simulate(const Frame& frame);
     void uploadDust(const Puffs& dust, const glm::vec3& eye);
     void uploadGrains();
+    void copyDust(const Puffs& dust) const;
+    void copyGrains(double stepSeconds) const;
 
     Settings settings_;
     MemoryLedger ledger_;
     SerialSet taken_{ledger_};
     draw::DepthSort sort_{ledger_};
+    LedgerVector<std::uint32_t> visible_{
+        ledger_.account("visible dust")};                   ///< dust outside the reliefs, from far to near
+    mutable particles::ParticleStore handedOver_{ledger_};  ///< what `volume` passed on last
     std::deque<LivingRelief> reliefs_;
+    std::optional<CarShadow> carShadow_;
     std::optional<SceneWithReliefs> target_;
     std::optional<draw::Billboards> dust_, grains_;
     gpu::Device* device_ = nullptr;

@@ -39,6 +39,15 @@ scene::Scene wallScene(unsigned seed) {
     return scene;
 }
 
+/// The same with another wall half a metre behind it.
+scene::Scene twoWalls(unsigned seed) {
+    scene::Scene scene = wallScene(seed);
+    scene.panels.push_back(scene.panels[0]);
+    scene.panels[1].name = "behind";
+    scene.panels[1].toParent[3].z = -0.5;
+    return scene;
+}
+
 /// Dust that starts before the wall and flies at it, each with its own velocity; it goes on behind, as the shared dust
 /// does.
 class DustRain {
@@ -61,6 +70,12 @@ class DustRain {
             store_.y[i] += store_.velocityY[i] * static_cast<float>(dt);
             store_.z[i] += store_.velocityZ[i] * static_cast<float>(dt);
         }
+    }
+    /// From now on each flies back the way it came.
+    void turnBack() {
+        for (std::size_t i = 0; i < store_.size(); ++i)
+            for (auto* velocity : {&store_.velocityX, &store_.velocityY, &store_.velocityZ})
+                (*velocity)[i] = -(*velocity)[i];
     }
     /// Particles that went through the wall's face.
     [[nodiscard]] int through() const {
@@ -94,7 +109,7 @@ class ReliefTest : public testing::Test {
         ParameterValues values(info.parameters);
         for (const auto& [name, value] : parameters) values.set(name, value);
         const auto method = info.create(values);
-        const scene::Scene scene = wallScene(seed);
+        const scene::Scene scene = secondWall_ ? twoWalls(seed) : wallScene(seed);
         method->prepare(scene, {}, draw::TestCanvas::device());
         draw::TestCanvas canvas(width, height, {0.4, 0.3, 4}, {-0.1, -0.1, -1});
         DustRain rain(800, seed);
@@ -102,6 +117,7 @@ class ReliefTest : public testing::Test {
         const StageClock untimed;
         const auto frame = [&](int index) { return Frame{index, dt, state, rain.puffs(), canvas.view, untimed}; };
         for (int index = 0; index < steps; ++index) {
+            if (turnEvery_ > 0 && index % turnEvery_ == turnEvery_ - 1) rain.turnBack();
             rain.step();
             method->update(frame(index));
         }
@@ -118,6 +134,8 @@ class ReliefTest : public testing::Test {
     }
 
     int through_ = 0;
+    int turnEvery_ = 0;        ///< steps after which the dust flies back
+    bool secondWall_ = false;  ///< behind the first
 };
 
 TEST_F(ReliefTest, EachParticleThatEntersHitsAndNoneTwice) {
@@ -129,6 +147,24 @@ TEST_F(ReliefTest, EachParticleThatEntersHitsAndNoneTwice) {
         EXPECT_GE(outcome.hits, through_ * 97 / 100);
         EXPECT_EQ(outcome.primitives, 800 - through_);  // particles inside the relief are not drawn behind the wall
     }
+}
+
+// The shared dust knows nothing of reliefs: it may fly back and through the face again, or reach a second wall. What a
+// relief took is not drawn outside any more, which tells how many it took.
+TEST_F(ReliefTest, AParticleIsTakenOnceHoweverOftenItPassesAFace) {
+    turnEvery_ = 15;
+    for (const unsigned seed : {1u, 2u}) {
+        const Outcome outcome = run({{"ageing", "scalar"}, {"scalar", "0"}}, 60, seed);
+        EXPECT_GT(outcome.hits, 200);
+        EXPECT_LE(outcome.hits, 800 - outcome.primitives);
+    }
+}
+
+TEST_F(ReliefTest, WhatTheFirstWallTookDoesNotReachTheSecond) {
+    secondWall_ = true;
+    const Outcome outcome = run({{"ageing", "scalar"}, {"scalar", "0"}}, 60);
+    EXPECT_GT(outcome.hits, 200);
+    EXPECT_LE(outcome.hits, 800 - outcome.primitives);
 }
 
 TEST_F(ReliefTest, HitsWearTheWallAndKeepTheMass) {
@@ -149,6 +185,17 @@ TEST_F(ReliefTest, GatherAndScatterEndInTheSameState) {
                   run({{"ageing", model}, {"search", "scatter"}}, 12).hash)
             << model;
     EXPECT_NE(run({{"ageing", "crater"}}, 12).hash, run({{"ageing", "deposit"}}, 12).hash);
+}
+
+TEST_F(ReliefTest, StateInTexturesWearsTheWallInTheSameWay) {
+    for (const char* law : {"paper", "fixed"})
+        for (const unsigned seed : {1u, 2u}) {
+            const Outcome array = run({{"motion", law}, {"ageing", "scalar"}}, 40, seed);
+            const Outcome texture = run({{"motion", law}, {"ageing", "scalar"}, {"state", "texture"}}, 40, seed);
+            EXPECT_GT(array.hits, 0);
+            EXPECT_EQ(array.hits, texture.hits) << law << ' ' << seed;
+            EXPECT_NEAR(array.worn, texture.worn, 1e-9);
+        }
 }
 
 TEST_F(ReliefTest, WornAndFreshWallsLookDifferent) {

@@ -64,6 +64,7 @@ const std::vector<Product> products{
     {"grid_fluid", {{"solver", "opengl"}, {"backend", "gl"}}, {"fluid", "shadow_cells"}},
     {"grid_fluid", {{"backend", "cpu"}}, {"fluid"}},
     {"relief", {}, {"march", "shadow"}},
+    {"relief", {}, {"state"}},
     {"octree_recursive", {}, {"render", "crossfade"}, true},
     {"octree_search", {}, {"render", "crossfade"}, true},
     {"voxel_shape", {}, {"render", "blend"}},

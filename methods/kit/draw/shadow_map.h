@@ -18,7 +18,7 @@ namespace dustbench::draw {
 /// Definitions for shaders that include opaque_shadow.glsl: which maps the scene has.
 [[nodiscard]] std::map<std::string, std::string> shadowCasters(const scene::Scene& scene);
 
-class ShadowMap {
+class DUSTBENCH_API ShadowMap {
  public:
     /// Covers casters within `radiusMetres` of the centre passed to `aim`.
     ShadowMap(gpu::Device& device, std::string_view label, int texels, double radiusMetres, const glm::vec3& toSun);

@@ -1,6 +1,5 @@
 // The plate of a panel as a box of twelve triangles, generated from the vertex number.
 uniform mat4 panelToClip;
-uniform vec3 plate;  // half width, half height, depth; metres
 
 out vec3 place;  // in the panel's frame
 

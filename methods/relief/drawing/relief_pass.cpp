@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "methods/kit/draw/ground_pass.h"
@@ -23,11 +24,26 @@ std::map<std::string, std::string> definitions(const ReliefStyle& style, const s
         result.emplace("BINARY_STEPS", std::to_string(style.binarySteps));
     }
     if (style.shadow) result.emplace("SHADOW", "1");
+    if (style.carShadow) result.emplace("CAR_SHADOW", "1");
     return result;
 }
 
 std::uint8_t toByte(float share) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
+}
+
+gpu::Program programFor(gpu::Device& device, const ReliefStyle& style, const scene::Relief& relief) {
+    namespace shaders = relief_drawing_shaders;
+    if (style.march == March::mesh)
+        return {device,
+                "relief mesh",
+                {shaders::relief_march_glsl, shaders::relief_light_glsl, shaders::relief_mesh_vert,
+                 shaders::relief_mesh_frag},
+                definitions(style, relief)};
+    return {device,
+            "relief",
+            {shaders::relief_march_glsl, shaders::relief_light_glsl, shaders::relief_vert, shaders::relief_frag},
+            definitions(style, relief)};
 }
 
 }  // namespace
@@ -37,19 +53,19 @@ ReliefPass::ReliefPass(gpu::Device& device, const scene::Scene& scene, const sce
     : scene_(scene),
       panel_(panel),
       style_(style),
-      program_(device, "relief",
-               {relief_drawing_shaders::relief_march_glsl, relief_drawing_shaders::relief_vert,
-                relief_drawing_shaders::relief_frag},
-               definitions(style, *panel.relief)),
+      program_(programFor(device, style, *panel.relief)),
       noVertices_(device),
       depths_(device, "relief depths", panel.relief->depth.size() * sizeof(float)),
       colours_(draw::colourTexture(device, "relief colours", *panel.relief)),
       marks_(gpu::Texture::make2D(device, "relief marks", gpu::Format::rgba8, panel.relief->columns, panel.relief->rows,
                                   gpu::Filter::mipmapped)),
       depthValues_(panel.relief->depth.size()),
-      markValues_(4 * panel.relief->depth.size()),
       plateColour_(draw::meanColour(*panel.relief)) {
-    if (style.march == March::paper) return;
+    if (style.march == March::mesh) {
+        mesh_.emplace(device, panel.relief->columns, panel.relief->rows);
+        program_.set("triangles", mesh_->triangles());
+    }
+    if (!marchesBlocks()) return;
     std::vector<glm::ivec4> levels;
     for (const DepthPyramid::Level& level : pyramid.levels())
         levels.emplace_back(static_cast<int>(level.offset), level.columns, level.rows, 0);
@@ -58,23 +74,53 @@ ReliefPass::ReliefPass(gpu::Device& device, const scene::Scene& scene, const sce
     program_.set("lastLevel", static_cast<int>(levels.size()) - 1);
 }
 
-void ReliefPass::upload(const WornSurface& surface, const DepthPyramid& pyramid, const TexelRectangle& changed) {
-    if (changed.empty()) return;
+bool ReliefPass::marchesBlocks() const {
+    return style_.march == March::safe || (style_.march == March::mesh && style_.shadow);
+}
+
+std::size_t ReliefPass::upload(const WornSurface& surface, const DepthPyramid& pyramid, const TexelRectangle& changed) {
+    if (changed.empty()) return 0;
+    const std::size_t texels = uploadTexels(surface, changed);
+    return marchesBlocks() ? texels + uploadBlocks(pyramid, changed) : texels;
+}
+
+std::size_t ReliefPass::uploadTexels(const WornSurface& surface, const TexelRectangle& changed) {
     constexpr float scale = 1.0f / DepthMap::bottom;
     const float markScale = scale / style_.visibleShare;
     const DepthMap& map = surface.depths();
+    markValues_.clear();
     for (int row = changed.firstRow; row < changed.endRow; ++row)
         for (int column = changed.firstColumn; column < changed.endColumn; ++column) {
             const std::size_t i = map.texel(column, row);
             depthValues_[i] = static_cast<float>(map.depths()[i]) * scale;
-            markValues_[4 * i] = toByte(static_cast<float>(surface.worn()[i]) * markScale);
-            markValues_[4 * i + 1] = toByte(static_cast<float>(surface.laid()[i]) * markScale);
-            markValues_[4 * i + 2] = style_.whiteHits && surface.hits()[i] > 0 ? 255 : 0;
+            for (const std::uint8_t mark : {toByte(static_cast<float>(surface.worn()[i]) * markScale),
+                                            toByte(static_cast<float>(surface.laid()[i]) * markScale),
+                                            toByte(style_.whiteHits && surface.hits()[i] > 0 ? 1.0f : 0.0f)})
+                markValues_.push_back(mark);
+            markValues_.push_back(0);
         }
-    depths_.write(std::span<const float>(depthValues_));
-    marks_.write(markValues_);
-    if (style_.march == March::paper) return;
-    blocks_.write(pyramid.blocks());
+    const std::size_t first = map.texel(changed.firstColumn, changed.firstRow);
+    const auto depths = std::span<const float>(depthValues_)
+                            .subspan(first, map.texel(changed.endColumn - 1, changed.endRow - 1) + 1 - first);
+    depths_.writeFrom(first, depths);
+    marks_.writeRectangle(changed.firstColumn, changed.firstRow, changed.columns(), changed.rows(), markValues_);
+    marks_.makeMipmaps();
+    return depths.size_bytes() + markValues_.size();
+}
+
+/// The rows of each level in which a block changed.
+std::size_t ReliefPass::uploadBlocks(const DepthPyramid& pyramid, const TexelRectangle& changed) {
+    std::size_t bytes = 0;
+    for (std::size_t k = 0; k < pyramid.levels().size(); ++k) {
+        const DepthPyramid::Level& level = pyramid.levels()[k];
+        const TexelRectangle over = DepthPyramid::blocksOver(changed, k);
+        const auto columns = static_cast<std::size_t>(level.columns);
+        const std::size_t first = level.offset + static_cast<std::size_t>(over.firstRow) * columns;
+        const auto blocks = pyramid.blocks().subspan(first, static_cast<std::size_t>(over.rows()) * columns);
+        blocks_.writeFrom(first, blocks);
+        bytes += blocks.size_bytes();
+    }
+    return bytes;
 }
 
 void ReliefPass::setLight(const glm::dmat4& panelToWorld) {
@@ -93,7 +139,9 @@ void ReliefPass::setLight(const glm::dmat4& panelToWorld) {
     program_.set("dustColour", scene_.dustAlbedo);
 }
 
-void ReliefPass::draw(const scene::View& view, const glm::dmat4& panelToWorld) {
+void ReliefPass::draw(const scene::View& view, const glm::dmat4& panelToWorld, const CarShadow* shadow) {
+    if (style_.carShadow != (shadow != nullptr))
+        throw std::invalid_argument("ReliefPass: the car's shadow is given if and only if the style asks for it");
     scene::View centred = view;
     centred.camera.eye = glm::dvec3(0);
     centred.camera.target -= view.camera.eye;
@@ -105,19 +153,42 @@ void ReliefPass::draw(const scene::View& view, const glm::dmat4& panelToWorld) {
     program_.set("plate", glm::vec3(panel_.sizeMetres / 2.0, panel_.depthMetres));
     program_.set("texels", glm::vec2(panel_.relief->columns, panel_.relief->rows));
     setLight(panelToWorld);
+    if (shadow) {
+        program_.set("panelToShadow", shadow->fromPanel(panelToWorld));
+        shadow->bind(2);
+    }
+    bindSurface();
+    const gpu::DrawState opaque{.depthTest = true, .depthWrite = true};
+    if (mesh_)
+        gpu::drawIndexed(program_, mesh_->vertices(), opaque, gpu::Primitives::triangles, mesh_->indexCount());
+    else
+        gpu::draw(program_, noVertices_, opaque, gpu::Primitives::triangleStrip, stripVertices);
+}
+
+void ReliefPass::bindSurface() {
     depths_.bindStorage(1);
-    if (style_.march == March::safe) {
+    if (marchesBlocks()) {
         blocks_.bindStorage(2);
         levels_.bindStorage(3);
     }
     colours_.bind(0);
     marks_.bind(1);
-    gpu::draw(program_, noVertices_, {.depthTest = true, .depthWrite = true}, gpu::Primitives::triangleStrip,
-              stripVertices);
+}
+
+// As albedoAt of relief.frag.
+glm::vec3 ReliefPass::colourOf(const WornSurface& surface, std::size_t texel) const {
+    const auto shown = [&](std::uint32_t steps) {
+        return std::min(1.0f, static_cast<float>(steps) / DepthMap::bottom / style_.visibleShare);
+    };
+    const glm::vec3 own = panel_.relief->colour[texel];
+    const glm::vec3 worn = glm::mix(own, 1.2f * plateColour_, shown(surface.worn()[texel]));
+    const glm::vec3 covered = glm::mix(worn, scene_.dustAlbedo, shown(surface.laid()[texel]));
+    return style_.whiteHits && surface.hits()[texel] > 0 ? glm::vec3(1) : covered;
 }
 
 std::size_t ReliefPass::gpuBytes() const {
-    return depths_.bytes() + blocks_.bytes() + levels_.bytes() + colours_.bytes() + marks_.bytes();
+    return (mesh_ ? mesh_->bytes() : 0) + depths_.bytes() + blocks_.bytes() + levels_.bytes() + colours_.bytes() +
+           marks_.bytes();
 }
 
 }  // namespace dustbench::relief

@@ -64,12 +64,16 @@ class ReliefPassTest : public testing::Test {
         WornSurface surface(*panel_.relief, ledger);
         const DepthPyramid pyramid(surface.depths(), ledger);
         ReliefPass pass(device_, scene_, panel_, pyramid, style);
-        pass.upload(surface, pyramid, surface.takeChanged());
+        static_cast<void>(pass.upload(surface, pyramid, surface.takeChanged()));
+        return show(view, pass);
+    }
+
+    Shown show(const scene::View& view, ReliefPass& pass, const CarShadow* shadow = nullptr) {
         gpu::Texture far = gpu::Texture::make2D(device_, "far", gpu::Format::depth32F, width, height);
         far.write(std::span<const float>(std::vector<float>(width * height, 0.0f)));
         SceneWithReliefs target(device_, width, height);
         target.begin(far);
-        pass.draw(view, panel_.toParent);
+        pass.draw(view, panel_.toParent, shadow);
         return {target.layer().sceneDepth().readFloats(), draw::readBack(target.layer().colour())};
     }
 
@@ -99,7 +103,8 @@ class ReliefPassTest : public testing::Test {
     struct Compared {
         int seen = 0, missed = 0, differ = 0;
     };
-    Compared compare(const scene::View& view, const ReliefStyle& style) {
+    /// A millimetre of a metre, and as much again for a ray that grazes a hill's top, unless told.
+    Compared compare(const scene::View& view, const ReliefStyle& style, double tolerance = 1e-3) {
         MemoryLedger ledger;
         const DepthMap map(*panel_.relief, ledger);
         const Shown shown = show(view, style);
@@ -110,9 +115,9 @@ class ReliefPassTest : public testing::Test {
                 const double got =
                     static_cast<double>(shown.depth[static_cast<std::size_t>((height - 1 - y) * width + x)]);
                 if (expected > 0) ++result.seen;
-                if (expected > 0 && got == 0) ++result.missed;
-                // A millimetre of three metres, and as much again for a ray that grazes a hill's top.
-                else if (std::abs(got - expected) > 1e-3 * std::max(got, expected))
+                if (expected > 0 && got == 0)
+                    ++result.missed;
+                else if (std::abs(got - expected) > tolerance * std::max(got, expected))
                     ++result.differ;
             }
         return result;
@@ -134,6 +139,55 @@ TEST_F(ReliefPassTest, TheSafeMarchShowsWhatTheOracleSeesFromAllSides) {
             // Rays along an edge of plate or hill may be rounded to either side.
             EXPECT_LE(found.missed + found.differ, found.seen / 100) << eye.x << ' ' << eye.y << ' ' << eye.z;
         }
+}
+
+// Within the plate: in a pit one sees its floor and walls; within the solid, through it.
+TEST_F(ReliefPassTest, AnEyeWithinThePlateSeesThePitItIsIn) {
+    auto pit = std::make_shared<scene::Relief>();
+    pit->columns = pit->rows = 40;
+    for (int row = 0; row < 40; ++row)
+        for (int column = 0; column < 40; ++column)
+            pit->depth.push_back(column > 8 && column < 32 && row > 8 && row < 32 ? 0.9f : 0.1f);
+    pit->colour.assign(pit->depth.size(), glm::vec3(0.5f));
+    panel_.relief = pit;
+    for (const glm::dvec3& target : {glm::dvec3(0, 0, -0.3), glm::dvec3(1, 0.2, -0.2), glm::dvec3(-0.5, 1, 0)}) {
+        const Compared found = compare(viewFrom({0.05, 0.02, -0.12}, target), {});
+        EXPECT_GT(found.seen, width * height / 3);
+        EXPECT_LE(found.missed + found.differ, found.seen / 100);
+    }
+    const Shown inside = show(viewFrom({0.8, 0.6, -0.15}), ReliefStyle{});
+    for (const glm::vec4& pixel : inside.colour.pixels) ASSERT_EQ(pixel, glm::vec4(0));
+    for (const float depth : inside.depth) ASSERT_EQ(depth, 0.0f);
+}
+
+// Wear in one corner after another: the picture is that of a pass that gets the whole surface anew.
+TEST_F(ReliefPassTest, UploadsOfWhatChangedShowTheWholeSurfaceAndAreSmall) {
+    panel_.relief = reliefOf(64, 48, false, 6);
+    for (const March march : {March::safe, March::paper}) {
+        MemoryLedger ledger;
+        WornSurface surface(*panel_.relief, ledger);
+        DepthPyramid pyramid(surface.depths(), ledger);
+        ReliefStyle style;
+        style.march = march;
+        ReliefPass often(device_, scene_, panel_, pyramid, style);
+        const std::size_t all = often.upload(surface, pyramid, surface.takeChanged());
+        std::size_t few = 0;
+        for (const auto& [u, v] : {std::pair(2.0f, 45.0f), {60.2f, 3.1f}, {31.0f, 20.0f}, {0.0f, 0.0f}}) {
+            surface.scatter(std::vector<Impact>{{u, v, 4, DepthMap::bottom}});
+            surface.takeOff();
+            const TexelRectangle changed = surface.takeChanged();
+            pyramid.update(surface.depths(), changed);
+            few = often.upload(surface, pyramid, changed);
+            EXPECT_LT(few, all / 2);
+        }
+        EXPECT_EQ(often.upload(surface, pyramid, {}), 0u);
+        ReliefPass once(device_, scene_, panel_, pyramid, style);
+        static_cast<void>(once.upload(surface, pyramid, {0, 0, 64, 48}));
+        const scene::View view = viewFrom({0.4, 0.5, 1.2});
+        const Shown a = show(view, often), b = show(view, once);
+        EXPECT_EQ(a.depth, b.depth);
+        EXPECT_EQ(a.colour.pixels, b.colour.pixels);
+    }
 }
 
 TEST_F(ReliefPassTest, ThePapersMarchMissesNeedlesThatTheSafeOneFinds) {
@@ -160,6 +214,34 @@ TEST_F(ReliefPassTest, ThePapersMarchConvergesToTheOracleWithItsSteps) {
     EXPECT_LT(last, 60);
 }
 
+// Between texels the mesh has two triangles where the surface is bilinear: smooth hills differ little.
+TEST_F(ReliefPassTest, TheMeshShowsTheSurfaceWithItsRimAndBack) {
+    auto hills = std::make_shared<scene::Relief>();
+    hills->columns = 60;
+    hills->rows = 45;
+    for (int row = 0; row < 45; ++row)
+        for (int column = 0; column < 60; ++column)
+            hills->depth.push_back(0.5f + 0.4f * std::sin(0.3f * static_cast<float>(column)) *
+                                              std::cos(0.25f * static_cast<float>(row)));
+    hills->colour.assign(hills->depth.size(), glm::vec3(0.5f));
+    panel_.relief = hills;
+    ReliefStyle mesh;
+    mesh.march = March::mesh;
+    for (const glm::dvec3& eye : {glm::dvec3(0, 0, 2), glm::dvec3(1.5, 0.4, 0.5), glm::dvec3(-1.8, 0.3, -0.1),
+                                  glm::dvec3(0.3, -1.6, 0.05), glm::dvec3(0.4, 0.2, -2)}) {
+        const scene::View view = viewFrom(eye);
+        const Compared found = compare(view, mesh, 0.01);
+        ASSERT_GT(found.seen, 300);
+        EXPECT_LE(found.missed + found.differ, found.seen * 3 / 100) << eye.x << ' ' << eye.y << ' ' << eye.z;
+        // And it has the colours of the march.
+        const Shown marched = show(view, ReliefStyle{}), drawn = show(view, mesh);
+        int different = 0;
+        for (std::size_t i = 0; i < drawn.colour.pixels.size(); ++i)
+            different += glm::distance(drawn.colour.pixels[i], marched.colour.pixels[i]) > 0.05f ? 1 : 0;
+        EXPECT_LE(different, found.seen * 3 / 100) << eye.x << ' ' << eye.y << ' ' << eye.z;
+    }
+}
+
 TEST_F(ReliefPassTest, AFlatReliefIsLitLikeAPlane) {
     auto flat = std::make_shared<scene::Relief>();
     flat->columns = flat->rows = 8;
@@ -178,6 +260,50 @@ TEST_F(ReliefPassTest, AFlatReliefIsLitLikeAPlane) {
     const glm::vec4 got = shown.colour.at(width / 2, height / 2);
     EXPECT_LT(glm::distance(glm::vec3(got), expected), 2e-3f);
     EXPECT_EQ(got.a, 1.0f);
+}
+
+// A car of one triangle between the sun and the middle of a flat relief.
+TEST_F(ReliefPassTest, TheCarShadesWhatIsBehindItAndNothingElse) {
+    auto flat = std::make_shared<scene::Relief>();
+    flat->columns = flat->rows = 8;
+    flat->depth.assign(64, 0.0f);
+    flat->colour.assign(64, glm::vec3(0.5f));
+    panel_.relief = flat;
+    panel_.toParent = glm::dmat4(1);
+    scene_.lights.toSun = {0, 0, 1};
+    auto triangle = std::make_shared<scene::Mesh>();
+    triangle->positions = {{-0.3f, -0.3f, 0}, {0.3f, -0.3f, 0}, {0, 0.3f, 0}};
+    triangle->normals.assign(3, {0, 0, 1});
+    triangle->colours.assign(3, {1, 1, 1});
+    triangle->indices = {0, 1, 2};
+    auto speck = std::make_shared<scene::Mesh>(*triangle);
+    for (glm::vec3& position : speck->positions) position *= 1e-3f;
+    scene_.vehicle = scene::VehicleModel{{}, {"body", triangle}, {"wheel", speck}};
+    scene::SceneState state;
+    for (scene::WheelState& wheel : state.vehicle.wheels) wheel.hub = {0, 0, 0.2};
+    CarShadow shadow(device_, scene_);
+    const auto lightAt = [&](double z, const glm::vec2& place) {
+        state.vehicle.position = {0, 0, z};
+        shadow.draw(state);
+        MemoryLedger ledger;
+        WornSurface surface(*panel_.relief, ledger);
+        const DepthPyramid pyramid(surface.depths(), ledger);
+        ReliefStyle style;
+        style.carShadow = true;
+        ReliefPass pass(device_, scene_, panel_, pyramid, style);
+        static_cast<void>(pass.upload(surface, pyramid, surface.takeChanged()));
+        const scene::View view = viewFrom({0, 0, 2}, {0, 0, 0});
+        const Shown shown = show(view, pass, &shadow);
+        const glm::vec4 clip = view.worldToClip() * glm::vec4(place, 0, 1);
+        return shown.colour
+            .at(static_cast<int>((clip.x / clip.w * 0.5f + 0.5f) * width),
+                static_cast<int>((0.5f - clip.y / clip.w * 0.5f) * height))
+            .r;
+    };
+    const float lit = lightAt(0.5, {0.6f, 0.4f});
+    EXPECT_LT(lightAt(0.5, {0, -0.1f}), 0.6f * lit);
+    EXPECT_NEAR(lightAt(0.5, {-0.25f, 0.25f}), lit, 1e-3f);  // beside the triangle
+    EXPECT_NEAR(lightAt(-0.5, {0, -0.1f}), lit, 1e-3f);      // the car is behind the panel
 }
 
 TEST_F(ReliefPassTest, ARidgeShadesTheGroundBehindIt) {

@@ -33,8 +33,8 @@ glm::dvec3 TexelFrame::normal(const glm::dvec2& slope) const {
 }
 
 ReliefParticles::ReliefParticles(const scene::Panel& panel, MemoryLedger& ledger)
-    : halfSize_(panel.sizeMetres / 2.0),
-      texels_(panel),
+    : texels_(panel),
+      arrays_(panel),
       places_(ledger.account("relief particles")),
       velocities_(ledger.account("relief particles")),
       looks_(ledger.account("relief particles")),
@@ -49,9 +49,8 @@ void ReliefParticles::add(const Motion& motion, const ParticleLook& look, std::u
     serials_.push_back(serial);
 }
 
-ReliefParticles::Fate ReliefParticles::advance(std::size_t i, const DepthMap& surface, const StepSettings& settings) {
-    glm::vec4& place = places_[i];
-    glm::vec4& velocity = velocities_[i];
+Fate ArrayMover::advance(glm::vec4& place, glm::vec4& velocity, const DepthMap& surface,
+                         const StepSettings& settings) const {
     place.w += 1;
     const glm::dvec3 from(place);
     const Motion now =
@@ -60,30 +59,40 @@ ReliefParticles::Fate ReliefParticles::advance(std::size_t i, const DepthMap& su
     const double exit = exitShare(from, way, halfSize_);
     const double within = std::min(exit, 1.0);
     velocity = glm::vec4(now.velocity, 0);
-    if (!std::isfinite(way.x + way.y + way.z)) return gone;
+    if (!std::isfinite(way.x + way.y + way.z)) return Fate::gone;
     const glm::dvec3 start = texels_.toTexels(from), end = texels_.toTexels(from + within * way);
     if (const auto share = firstHit(surface, start, end)) {
         place = glm::vec4(glm::vec3(from + *share * within * way), place.w);
-        return hit;
+        return Fate::hit;
     }
     place = glm::vec4(now.place, place.w);
-    return exit < 1 || place.w >= settings.maximumAgeSteps ? gone : lives;
+    return exit < 1 || place.w >= settings.maximumAgeSteps ? Fate::gone : Fate::lives;
 }
 
-void ReliefParticles::step(const DepthMap& surface, const StepSettings& settings) {
-    fates_.resize(size());
-    parallel::forEachBlock(size(), blockSize, [&](std::size_t first, std::size_t count) {
-        for (std::size_t i = first; i < first + count; ++i) fates_[i] = advance(i, surface, settings);
+void ArrayMover::move(const MovingColumns& columns, const DepthMap& surface, const StepSettings& settings) {
+    parallel::forEachBlock(columns.places.size(), blockSize, [&](std::size_t first, std::size_t count) {
+        for (std::size_t i = first; i < first + count; ++i)
+            columns.fates[i] = advance(columns.places[i], columns.velocities[i], surface, settings);
     });
+}
+
+void ReliefParticles::step(Mover& mover, const DepthMap& surface, const StepSettings& settings) {
+    fates_.resize(size());
+    mover.move({places_, velocities_, fates_}, surface, settings);
+    settle(surface);
+}
+
+/// Lists the hits and closes the gaps of those that ended.
+void ReliefParticles::settle(const DepthMap& surface) {
     hits_.clear();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < fates_.size(); ++i) {
-        if (fates_[i] == hit) {
+        if (fates_[i] == Fate::hit) {
             const glm::dvec3 texels = texels_.toTexels(glm::dvec3(places_[i]));
             hits_.push_back({glm::vec3(texels), glm::vec3(velocities_[i]),
                              glm::vec3(texels_.normal(surface.slopeAt(texels.x, texels.y))), looks_[i], serials_[i]});
         }
-        if (fates_[i] != lives) continue;
+        if (fates_[i] != Fate::lives) continue;
         places_[kept] = places_[i];
         velocities_[kept] = velocities_[i];
         looks_[kept] = looks_[i];

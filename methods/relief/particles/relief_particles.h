@@ -1,7 +1,8 @@
 // The particles within one relief: moved, collided with its surface, aged.
 //
 // A particle lives from its entry through the face until it hits the surface, leaves the plate or reaches its maximum
-// age. Columns are those of the paper's two textures: place and age, velocity.
+// age. Columns are those of the paper's two textures: place and age, velocity. A mover moves them: this one's own on
+// the CPU, or a shader (particles_gl/texture_mover.h).
 //
 // Units: m, m/s; ages in steps. Frame: the panel's. Owns: its columns, booked on a ledger.
 // Threads: `step` uses the current oneTBB arena; results do not depend on the number of threads.
@@ -55,6 +56,38 @@ struct StepSettings {
     float maximumAgeSteps = 600;
 };
 
+enum class Fate : std::uint8_t { lives, hit, gone };
+
+/// What a step changes, one entry per particle. A particle that hits ends at its hit; its velocity is that of the
+/// step's end.
+struct MovingColumns {
+    std::span<glm::vec4> places;      ///< w: age in steps
+    std::span<glm::vec4> velocities;  ///< w: not used
+    std::span<Fate> fates;            ///< written only
+};
+
+/// Moves particles by one step, collides them and says what becomes of each.
+class Mover {
+ public:
+    virtual ~Mover() = default;
+    /// The columns hold those that lived after the last call, in their order, and then the newborn.
+    virtual void move(const MovingColumns& columns, const DepthMap& surface, const StepSettings& settings) = 0;
+};
+
+/// On the CPU: the oracle of others.
+class ArrayMover final : public Mover {
+ public:
+    explicit ArrayMover(const scene::Panel& panel) : halfSize_(panel.sizeMetres / 2.0), texels_(panel) {}
+    void move(const MovingColumns& columns, const DepthMap& surface, const StepSettings& settings) override;
+
+ private:
+    [[nodiscard]] Fate advance(glm::vec4& place, glm::vec4& velocity, const DepthMap& surface,
+                               const StepSettings& settings) const;
+
+    glm::dvec2 halfSize_;
+    TexelFrame texels_;
+};
+
 class ReliefParticles {
  public:
     ReliefParticles(const scene::Panel& panel, MemoryLedger& ledger);
@@ -62,25 +95,27 @@ class ReliefParticles {
     /// Adds a newborn at its entry; it moves from the next step on.
     void add(const Motion& motion, const ParticleLook& look, std::uint64_t serial);
     /// Moves all, collides each along its whole way and removes what has ended. Hits are in the order of the particles.
-    void step(const DepthMap& surface, const StepSettings& settings);
+    void step(const DepthMap& surface, const StepSettings& settings) { step(arrays_, surface, settings); }
+    /// The same by another mover: always the same one from the first step on.
+    void step(Mover& mover, const DepthMap& surface, const StepSettings& settings);
 
     [[nodiscard]] std::span<const SurfaceHit> hits() const { return hits_; }  ///< of the last step
     [[nodiscard]] std::size_t size() const { return places_.size(); }
     [[nodiscard]] std::span<const glm::vec4> places() const { return places_; }          ///< w: age in steps
     [[nodiscard]] std::span<const glm::vec4> velocities() const { return velocities_; }  ///< w: not used
     [[nodiscard]] std::span<const ParticleLook> looks() const { return looks_; }
+    [[nodiscard]] std::span<const std::uint64_t> serials() const { return serials_; }
     [[nodiscard]] const TexelFrame& texels() const { return texels_; }
 
  private:
-    enum Fate : std::uint8_t { lives, hit, gone };
-    [[nodiscard]] Fate advance(std::size_t i, const DepthMap& surface, const StepSettings& settings);
+    void settle(const DepthMap& surface);
 
-    glm::dvec2 halfSize_;
     TexelFrame texels_;
+    ArrayMover arrays_;
     LedgerVector<glm::vec4> places_, velocities_;
     LedgerVector<ParticleLook> looks_;
     LedgerVector<std::uint64_t> serials_;
-    LedgerVector<std::uint8_t> fates_;
+    LedgerVector<Fate> fates_;
     LedgerVector<SurfaceHit> hits_;
 };
 

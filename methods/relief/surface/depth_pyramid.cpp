@@ -18,17 +18,20 @@ DepthPyramid::DepthPyramid(const DepthMap& map, MemoryLedger& ledger) : blocks_(
 void DepthPyramid::update(const DepthMap& map, const TexelRectangle& changed) {
     if (changed.empty()) return;
     const Level& finest = levels_.front();
-    TexelRectangle blocks{changed.firstColumn, changed.firstRow, changed.endColumn + 1, changed.endRow + 1};
+    const TexelRectangle blocks = blocksOver(changed, 0);
     for (int row = blocks.firstRow; row < blocks.endRow; ++row)
         for (int column = blocks.firstColumn; column < blocks.endColumn; ++column)
             blocks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(finest.columns) +
                     static_cast<std::size_t>(column)] =
                 static_cast<float>(std::min({map.at(column - 1, row - 1), map.at(column, row - 1),
                                              map.at(column - 1, row), map.at(column, row)}));
-    for (std::size_t k = 1; k < levels_.size(); ++k) {
-        blocks = {blocks.firstColumn / 2, blocks.firstRow / 2, (blocks.endColumn + 1) / 2, (blocks.endRow + 1) / 2};
-        updateLevel(levels_[k - 1], levels_[k], blocks);
-    }
+    for (std::size_t k = 1; k < levels_.size(); ++k) updateLevel(levels_[k - 1], levels_[k], blocksOver(changed, k));
+}
+
+TexelRectangle DepthPyramid::blocksOver(const TexelRectangle& texels, std::size_t level) {
+    // Texel i belongs to the patches i and i + 1.
+    return {texels.firstColumn >> level, texels.firstRow >> level, (texels.endColumn >> level) + 1,
+            (texels.endRow >> level) + 1};
 }
 
 void DepthPyramid::updateLevel(const Level& finer, const Level& level, const TexelRectangle& blocks) {

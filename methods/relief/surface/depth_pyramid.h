@@ -26,6 +26,9 @@ class DepthPyramid {
     /// Brings the blocks over the changed texels up to date.
     void update(const DepthMap& map, const TexelRectangle& changed);
 
+    /// The blocks of a level over texels: as columns and rows of that level.
+    [[nodiscard]] static TexelRectangle blocksOver(const TexelRectangle& texels, std::size_t level);
+
     [[nodiscard]] std::span<const Level> levels() const { return levels_; }
     [[nodiscard]] std::span<const float> blocks() const { return blocks_; }
 

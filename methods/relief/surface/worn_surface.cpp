@@ -5,17 +5,6 @@
 #include <utility>
 
 namespace dustbench::relief {
-namespace {
-
-TexelRectangle joined(const TexelRectangle& a, const TexelRectangle& b) {
-    if (a.empty()) return b;
-    if (b.empty()) return a;
-    return {std::min(a.firstColumn, b.firstColumn), std::min(a.firstRow, b.firstRow),
-            std::max(a.endColumn, b.endColumn), std::max(a.endRow, b.endRow)};
-}
-
-}  // namespace
-
 WornSurface::WornSurface(const scene::Relief& relief, MemoryLedger& ledger)
     : depths_(relief, ledger),
       hits_(ledger.account("relief hits")),
@@ -102,7 +91,8 @@ void WornSurface::takeOff() {
     });
 }
 
-void WornSurface::layOn() {
+void WornSurface::layOn(const std::optional<Repose>& repose) {
+    const TexelRectangle reach = waiting_;
     forEachPending([&](std::size_t texel, std::uint32_t pending) {
         std::uint32_t& depth = depths_.depths()[texel];
         const std::uint32_t laid = std::min(pending, depth);
@@ -110,6 +100,7 @@ void WornSurface::layOn() {
         laid_[texel] += laid;
         laidOn_ += laid;
     });
+    if (repose) changed_ = joined(changed_, slide(depths_, laid_, reach, *repose));
 }
 
 }  // namespace dustbench::relief

@@ -11,19 +11,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "methods/relief/surface/depth_map.h"
 #include "methods/relief/surface/impact.h"
+#include "methods/relief/surface/sliding.h"
+#include "methods/relief/surface/texel_rectangle.h"
 
 namespace dustbench::relief {
-
-/// Texels [firstColumn, endColumn) × [firstRow, endRow).
-struct TexelRectangle {
-    int firstColumn = 0, firstRow = 0, endColumn = 0, endRow = 0;
-
-    [[nodiscard]] bool empty() const { return firstColumn >= endColumn || firstRow >= endRow; }
-};
 
 class WornSurface {
  public:
@@ -35,8 +31,8 @@ class WornSurface {
 
     /// Removes the pending amount, down to the bottom: first deposited material, then the surface itself.
     void takeOff();
-    /// Lays on what is pending, up to the face.
-    void layOn();
+    /// Lays on what is pending, up to the face. With `repose` it slides down where it lies steeper.
+    void layOn(const std::optional<Repose>& repose = {});
 
     [[nodiscard]] const DepthMap& depths() const { return depths_; }
     [[nodiscard]] std::span<const std::uint32_t> hits() const { return hits_; }

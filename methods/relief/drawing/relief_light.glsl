@@ -1,0 +1,68 @@
+// Colour and light of a point of the relief.
+uniform vec3 eye;  // in the panel's frame
+uniform vec3 plate;  // half width, half height, depth; metres
+uniform vec3 worldUp;  // in the panel's frame
+uniform vec3 toSun;  // in the panel's frame
+uniform vec3 sun, ambient, groundLight, haze, plateColour, dustColour;
+uniform float hazePerMetre;
+layout(binding = 0) uniform sampler2D colours;
+layout(binding = 1) uniform sampler2D marks;  // worn, laid on, hit under the paper's ageing
+
+vec3 toTexels(vec3 metres) {
+    return vec3((metres.xy / (2.0 * plate.xy) + 0.5) * texels - 0.5, -metres.z / plate.z);
+}
+
+// Slope in texels, by central differences, so that light does not show the patches.
+vec2 slopeOf(ivec2 texel) {
+    return 0.5 * vec2(depthOf(texel + ivec2(1, 0)) - depthOf(texel - ivec2(1, 0)),
+                      depthOf(texel + ivec2(0, 1)) - depthOf(texel - ivec2(0, 1)));
+}
+
+vec3 normalAt(vec2 at) {
+    ivec2 corner = ivec2(floor(at));
+    vec2 share = at - floor(at);
+    vec2 slope = mix(mix(slopeOf(corner), slopeOf(corner + ivec2(1, 0)), share.x),
+                     mix(slopeOf(corner + ivec2(0, 1)), slopeOf(corner + ivec2(1, 1)), share.x), share.y);
+    return normalize(vec3(slope * texels / (2.0 * plate.xy) * plate.z, 1.0));
+}
+
+vec3 albedoAt(vec2 at) {
+    vec2 where = (at + 0.5) / texels;
+    vec3 own = texture(colours, where).rgb;
+    vec3 mark = texture(marks, where).rgb;
+    // Where it is broken off the plate itself shows, as at its rims; broken, it is paler.
+    return mix(mix(mix(own, 1.2 * plateColour, mark.r), dustColour, mark.g), vec3(1.0), mark.b);
+}
+
+float sunShare(vec3 metres, vec3 normal) {
+#ifdef SHADOW
+    vec3 from = metres + normal * (0.02 * plate.z);
+    vec3 reach = (vec3(sign(toSun.xy) * plate.xy, 0.0) - from) / mix(toSun, vec3(1e-30), equal(toSun, vec3(0.0)));
+    float way = min(min(reach.x, reach.y), reach.z);
+    return way > 0.0 && firstHit(toTexels(from), toTexels(from + way * toSun)) != missed ? 0.0 : 1.0;
+#else
+    return 1.0;
+#endif
+}
+
+#ifdef CAR_SHADOW
+layout(binding = 2) uniform sampler2DShadow carShadow;
+uniform mat4 panelToShadow;
+
+// Points beyond the map's far end are behind the car: depths below 0 count as 0.
+float pastCar(vec3 metres) {
+    vec3 at = (panelToShadow * vec4(metres, 1.0)).xyz;
+    return texture(carShadow, vec3(at.xy, max(at.z, 0.0)));
+}
+#else
+float pastCar(vec3 metres) { return 1.0; }
+#endif
+
+vec3 shaded(vec3 metres, vec3 normal, vec3 albedo) {
+    float facing = max(dot(normal, toSun), 0.0);
+    float lit = facing > 0.0 ? sunShare(metres, normal) * pastCar(metres) : 0.0;
+    vec3 around = mix(groundLight, ambient, 0.5 + 0.5 * dot(normal, worldUp));
+    vec3 light = albedo * (sun * (facing * lit) + around);
+    float clear = exp(-hazePerMetre * distance(metres, eye));
+    return mix(haze, light, clear);
+}

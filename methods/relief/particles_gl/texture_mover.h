@@ -1,0 +1,52 @@
+// The state of particles in textures, as in the paper: one of place and age, one of velocity, each RGBA32F and double,
+// so that a shader reads the old pair and writes the new one.
+//
+// Texel n holds particle n of the columns. The shader reads it from where it was in the old pair, or from the list of
+// the newborn: gaps close on the way, and both movers keep the same order. The collision is that of surface_hit.h, in
+// double precision, step by step.
+//
+// Units, frame: relief_particles.h. Owns: textures and lists on the GPU. Threads: the OpenGL thread.
+// Source: Bergeron, 3.1 and 3.2. Departs: the paper draws into the textures; a compute shader writes them here.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "methods/kit/gpu/buffer.h"
+#include "methods/kit/gpu/device.h"
+#include "methods/kit/gpu/program.h"
+#include "methods/kit/gpu/texture.h"
+#include "methods/relief/particles/relief_particles.h"
+#include "methods/relief/surface/worn_surface.h"
+
+namespace dustbench::relief {
+
+class TextureMover final : public Mover {
+ public:
+    TextureMover(gpu::Device& device, const scene::Panel& panel, const DepthMap& surface);
+
+    /// Copies the texels that wear has changed since the last call.
+    void upload(const DepthMap& surface, const TexelRectangle& changed);
+    /// Moves the textures' particles and copies them into the columns. `surface` is what was uploaded last.
+    void move(const MovingColumns& columns, const DepthMap& surface, const StepSettings& settings) override;
+
+    [[nodiscard]] std::size_t gpuBytes() const;
+
+ private:
+    struct State {
+        gpu::Texture places, velocities;
+    };
+    void makeRoom(std::size_t particles);
+    void writeSources(const MovingColumns& columns);
+    void run(std::size_t particles, const StepSettings& settings);
+    void readBack(const MovingColumns& columns);
+
+    gpu::Device& device_;
+    gpu::Program program_;
+    gpu::Buffer plate_, depths_, sources_, newborns_;
+    State now_, next_;
+    std::vector<std::int32_t> living_;  ///< texels of those that live, in order
+};
+
+}  // namespace dustbench::relief
