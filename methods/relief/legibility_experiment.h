@@ -1,0 +1,30 @@
+// How many particles it takes until a sign cannot be read.
+//
+// Particles of 2 g hit the scene's sign at random places, straight and at 5 m/s. The sign counts as unreadable once the
+// structural similarity (SSIM, Wang2004) of its face, as drawn from the front, with the fresh one falls below 0.5.
+// Particles come in lots, each a twentieth of those before; between lots the logarithm of their number is interpolated.
+//
+// Findings, means over 5 seeds: `particles_paper` (each hit sinks one texel and turns it white), `particles_crater` at
+// 10⁴ J/m³, `particles_crater_soft` at half of that, and `hardness_ratio`, the first of the latter two by the second: 2
+// if what counts is the volume taken off. Control: `hardness_ratio_of_equals`, of two signs of the same hardness.
+//
+// Threads: the OpenGL thread. Source: Wang2004; the question is ours.
+#pragma once
+
+#include "methods/contract/experiment.h"
+#include "methods/kit/pictures/image.h"
+#include "methods/relief/ageing.h"
+
+namespace dustbench::relief::legibility {
+
+/// Mean SSIM of the luma of two opaque pictures of the same size, as a display shows them: 11 × 11 Gaussian windows
+/// wholly inside, σ = 1.5. The definition is that of reports/METRICS.md.
+[[nodiscard]] double similarity(const pictures::Image& reference, const pictures::Image& picture);
+
+/// The number of particles at which the similarity falls below `threshold`.
+[[nodiscard]] double particlesUntil(double threshold, gpu::Device& device, const scene::Scene& scene,
+                                    const scene::Panel& panel, const AgeingSettings& ageing, std::uint64_t seed);
+
+[[nodiscard]] ExperimentInfo describe();
+
+}  // namespace dustbench::relief::legibility

@@ -1,0 +1,81 @@
+#include "methods/relief/legibility_experiment.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+
+#include "methods/kit/draw/test_canvas.h"
+#include "methods/relief/view_angle_experiment.h"
+
+namespace dustbench::relief {
+namespace {
+
+pictures::Image noise(unsigned seed, float amplitude, const pictures::Image* over = nullptr) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> any(0, 1);
+    pictures::Image image{48, 40, {}};
+    for (std::size_t i = 0; i < 48 * 40; ++i) {
+        const glm::vec3 base = over ? glm::vec3(over->pixels[i]) : glm::vec3(0);
+        image.pixels.emplace_back(glm::mix(base, glm::vec3(any(random)), amplitude), 1.0f);
+    }
+    return image;
+}
+
+TEST(Legibility, SimilarityIsOneOfEqualPicturesAndFallsWithNoise) {
+    const pictures::Image picture = noise(1, 1);
+    EXPECT_NEAR(legibility::similarity(picture, picture), 1, 1e-12);
+    double last = 1;
+    for (const float amplitude : {0.1f, 0.3f, 0.6f, 1.0f}) {
+        const double now = legibility::similarity(picture, noise(2, amplitude, &picture));
+        EXPECT_LT(now, last);
+        last = now;
+    }
+    EXPECT_NEAR(last, 0, 0.1);  // independent pictures
+}
+
+/// Letters of a kind: stripes that stand out.
+scene::Panel stripes() {
+    auto relief = std::make_shared<scene::Relief>();
+    relief->columns = 128;
+    relief->rows = 64;
+    for (int row = 0; row < 64; ++row)
+        for (int column = 0; column < 128; ++column) {
+            const bool raised = column / 12 % 2 == 0 && row > 10 && row < 54;
+            relief->depth.push_back(raised ? 0.1f : 0.6f);
+            relief->colour.emplace_back(raised ? 0.05f : 0.7f);
+        }
+    scene::Panel panel;
+    panel.name = "sign";
+    panel.sizeMetres = {1.2, 0.6};
+    panel.depthMetres = 0.02;
+    panel.relief = relief;
+    return panel;
+}
+
+TEST(Legibility, AHarderSignLastsLonger) {
+    const scene::Panel panel = stripes();
+    scene::Scene scene;
+    const auto until = [&](double hardness) {
+        return legibility::particlesUntil(0.7, draw::TestCanvas::device(), scene, panel,
+                                          {.massKilograms = 0.01, .hardnessJoulesPerCubicMetre = hardness}, 1);
+    };
+    const double soft = until(1e4), hard = until(1e6);
+    EXPECT_GT(soft, 1);
+    EXPECT_GT(hard, 5 * soft);
+}
+
+TEST(ViewAngle, TheSafeMarchMissesNothingAndFewStepsMissMostWhenGrazing) {
+    const scene::Panel panel = stripes();
+    scene::Scene scene;
+    const auto missed = [&](const ReliefStyle& style, double degrees) {
+        return view_angle::seenAt(draw::TestCanvas::device(), scene, panel, style, degrees).share();
+    };
+    const ReliefStyle few{March::paper, 3, 5, false, false};
+    for (const double degrees : {0.0, 60.0, 85.0}) EXPECT_LT(missed({}, degrees), 0.01) << degrees;
+    EXPECT_GT(missed(few, 85), 0.05);
+    EXPECT_GT(missed(few, 85), missed(few, 0));
+}
+
+}  // namespace
+}  // namespace dustbench::relief
