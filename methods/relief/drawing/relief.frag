@@ -9,13 +9,15 @@ void main() {
     if (gl_FrontFacing) discard;  // each ray once, at its exit from the plate
     vec3 way = place - eye;
     vec3 toLow = (vec3(-plate.xy, -plate.z) - eye) / way, toHigh = (vec3(plate.xy, 0.0) - eye) / way;
-    vec3 entries = min(toLow, toHigh);
-    float enter = clamp(max(max(entries.x, entries.y), entries.z), 0.0, 1.0);
+    vec3 entries = min(toLow, toHigh), exits = max(toLow, toHigh);
+    float enter = max(max(max(entries.x, entries.y), entries.z), 0.0), leave = min(min(exits.x, exits.y), exits.z);
+    if (enter >= leave) discard;
 
-    vec3 from = eye + enter * way;
-    float t = firstHit(toTexels(from), toTexels(place));
+    vec3 from = eye + enter * way, to = eye + leave * way;
+    if (leave == exits.z) to.z = way.z < 0.0 ? -plate.z : 0.0;  // exactly: the surface may lie at the bottom
+    float t = firstHit(toTexels(from), toTexels(to));
     if (t == missed || (t == 0.0 && enter == 0.0)) discard;  // an eye within the solid sees through it
-    vec3 metres = from + t * (place - from);
+    vec3 metres = from + t * (to - from);
     vec3 at = toTexels(metres);
 
     // If the ray starts inside the plate, it sees the back or a rim.
@@ -24,7 +26,7 @@ void main() {
     vec3 normal = normalAt(at.xy), albedo;
     if (back) normal = vec3(0.0, 0.0, -1.0);
     else if (cut) normal = entries.x > entries.y ? vec3(-sign(way.x), 0.0, 0.0) : vec3(0.0, -sign(way.y), 0.0);
-    albedo = back || cut ? plateColour : albedoAt(at.xy);
+    albedo = back || cut ? plateColour : albedoAt(metres, normal);
 
     colour = vec4(shaded(metres, normal, albedo), 1.0);
     vec4 clip = panelToClip * vec4(metres, 1.0);

@@ -4,7 +4,7 @@ uniform vec3 plate;  // half width, half height, depth; metres
 uniform vec3 worldUp;  // in the panel's frame
 uniform vec3 toSun;  // in the panel's frame
 uniform vec3 sun, ambient, groundLight, haze, plateColour, dustColour;
-uniform float hazePerMetre;
+uniform float hazePerMetre, pixelAngle;
 layout(binding = 0) uniform sampler2D colours;
 layout(binding = 1) uniform sampler2D marks;  // worn, laid on, hit under the paper's ageing
 
@@ -26,10 +26,15 @@ vec3 normalAt(vec2 at) {
     return normalize(vec3(slope * texels / (2.0 * plate.xy) * plate.z, 1.0));
 }
 
-vec3 albedoAt(vec2 at) {
-    vec2 where = (at + 0.5) / texels;
-    vec3 own = texture(colours, where).rgb;
-    vec3 mark = texture(marks, where).rgb;
+// The level of detail by the distance: neighbouring pixels may show other parts of the relief, or nothing, so that their
+// differences say nothing.
+vec3 albedoAt(vec3 metres, vec3 normal) {
+    vec2 where = (toTexels(metres).xy + 0.5) / texels;
+    float slant = abs(dot(normalize(metres - eye), normal));
+    vec2 perPixel = pixelAngle * distance(metres, eye) * texels / (2.0 * plate.xy);
+    float level = log2(max(perPixel.x, perPixel.y) / sqrt(max(slant, 0.05)));
+    vec3 own = textureLod(colours, where, level).rgb;
+    vec3 mark = textureLod(marks, where, level).rgb;
     // Where it is broken off the plate itself shows, as at its rims; broken, it is paler.
     return mix(mix(mix(own, 1.2 * plateColour, mark.r), dustColour, mark.g), vec3(1.0), mark.b);
 }

@@ -14,7 +14,6 @@ vec3 sideNormal(int n) {
 
 void main() {
     int side = gl_PrimitiveID - triangles.x;
-    vec2 at = toTexels(place).xy;
-    vec3 normal = side < 0 ? normalAt(at) : sideNormal(side);
-    colour = vec4(shaded(place, normal, side < 0 ? albedoAt(at) : plateColour), 1.0);
+    vec3 normal = side < 0 ? normalAt(toTexels(place).xy) : sideNormal(side);
+    colour = vec4(shaded(place, normal, side < 0 ? albedoAt(place, normal) : plateColour), 1.0);
 }

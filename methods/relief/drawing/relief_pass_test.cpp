@@ -141,6 +141,35 @@ TEST_F(ReliefPassTest, TheSafeMarchShowsWhatTheOracleSeesFromAllSides) {
         }
 }
 
+// Along a wall from close by, triangles of the plate are cut: no pixel may be lost at their edges or get a wrong
+// colour, such as that of a coarser mipmap.
+TEST_F(ReliefPassTest, TheMarchAndTheMeshShowTheSameWhereThePlateReachesBesideThePicture) {
+    auto flat = std::make_shared<scene::Relief>();
+    flat->columns = flat->rows = 128;
+    for (int row = 0; row < 128; ++row)
+        for (int column = 0; column < 128; ++column) {
+            const bool brick = column / 16 % 2 == 0;
+            flat->depth.push_back(brick ? 0.0f : 0.4f);
+            flat->colour.emplace_back(brick ? glm::vec3(0.6f, 0.1f, 0.1f) : glm::vec3(0.9f));
+        }
+    panel_.relief = flat;
+    panel_.sizeMetres = {4, 2};
+    panel_.depthMetres = 0.12;
+    for (int n = 0; n < 24; n += 4) {
+        const scene::View view = viewFrom({-2.3 + 0.01 * n, 0.05 + 0.003 * n, 0.12 + 0.002 * n}, {0.004 * n, 0, -0.03});
+        const Compared found = compare(view, {});
+        ASSERT_GT(found.seen, width * height / 5);
+        EXPECT_LE(found.missed, 2) << n;  // rays along an edge of the plate
+        ReliefStyle mesh;
+        mesh.march = March::mesh;
+        const Shown a = show(view, ReliefStyle{}), b = show(view, mesh);
+        int different = 0;
+        for (std::size_t i = 0; i < a.colour.pixels.size(); ++i)
+            different += glm::distance(a.colour.pixels[i], b.colour.pixels[i]) > 0.1f ? 1 : 0;
+        EXPECT_LE(different, found.seen / 200) << n;
+    }
+}
+
 // Within the plate: in a pit one sees its floor and walls; within the solid, through it.
 TEST_F(ReliefPassTest, AnEyeWithinThePlateSeesThePitItIsIn) {
     auto pit = std::make_shared<scene::Relief>();
