@@ -77,7 +77,8 @@ void LivingRelief::enter(const Puffs& dust, std::size_t i, double stepSeconds, S
 
 void LivingRelief::move(double stepSeconds) {
     const glm::vec3 gravity(frame_.directionToPanel({0, -static_cast<double>(settings_.gravity), 0}));
-    const StepSettings step{settings_.motion, gravity, static_cast<float>(stepSeconds), settings_.maximumAgeSteps};
+    const StepSettings step{settings_.motion, gravity, static_cast<float>(stepSeconds), settings_.maximumAgeSteps,
+                            &pyramid_};
     if (textures_)
         particles_.step(*textures_, surface_.depths(), step);
     else

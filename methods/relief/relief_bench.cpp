@@ -152,6 +152,7 @@ void BM_ParticlesAgainstSharedDust(benchmark::State& bench) {
     const float speed = static_cast<float>(bench.range(0)) / 10 / dt;
     MemoryLedger ledger;
     const DepthMap surface(*panel.relief, ledger);
+    const DepthPyramid pyramid(surface, ledger);
     ReliefParticles grains(panel, ledger);
     const auto refill = [&] {
         grains = ReliefParticles(panel, ledger);
@@ -182,7 +183,8 @@ void BM_ParticlesAgainstSharedDust(benchmark::State& bench) {
             if (++step % 40 == 0) refill();
         },
         [&] {
-            grains.step(surface, {.gravity = {0, 0, 0}, .stepSeconds = dt, .maximumAgeSteps = 1e6f});
+            grains.step(surface,
+                        {.gravity = {0, 0, 0}, .stepSeconds = dt, .maximumAgeSteps = 1e6f, .pyramid = &pyramid});
         },
         advance);
     bench.counters["grains"] = static_cast<double>(grains.size());

@@ -1,6 +1,7 @@
 #include "methods/relief/particles/relief_particles.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "methods/kit/parallel/for_each_block.h"
@@ -10,6 +11,8 @@ namespace dustbench::relief {
 namespace {
 
 constexpr std::size_t blockSize = 4096;
+constexpr float nearEdge = 0.01f;     // texels
+constexpr float depthMargin = 1e-5f;  // of the depth: that of floats, and of blocks, which are rounded
 
 /// Returns the share of the path at which it leaves the plate, by a rim or by the face; 1 or more if it does not.
 double exitShare(const glm::dvec3& from, const glm::dvec3& way, const glm::dvec2& halfSize) {
@@ -49,12 +52,37 @@ void ReliefParticles::add(const Motion& motion, const ParticleLook& look, std::u
     serials_.push_back(serial);
 }
 
+ArrayMover::ArrayMover(const scene::Panel& panel)
+    : halfSize_(panel.sizeMetres / 2.0),
+      texels_(panel),
+      within_(halfSize_ * (1 - 1e-6)),
+      patchScale_(texels_.toTexels(glm::dvec3(1)) - texels_.toTexels(glm::dvec3(0))),
+      patchOffset_(texels_.toTexels(glm::dvec3(0)) + glm::dvec3(1, 1, 0)) {}
+
+/// True if a way surely stays on the plate and above the surface: both ends lie in one block, above its nearest depth.
+bool ArrayMover::staysAbove(const glm::vec3& from, const glm::vec3& to, const DepthPyramid& pyramid) const {
+    if (!(std::abs(to.x) < within_.x && std::abs(to.y) < within_.y && to.z < 0)) return false;
+    // Floats err by less than a hundredth of a texel: patches at both sides of that are looked at.
+    const glm::vec3 a = from * patchScale_ + patchOffset_, b = to * patchScale_ + patchOffset_;
+    const glm::ivec2 low(glm::max(glm::min(a, b) - nearEdge, glm::vec3(0)));
+    const glm::ivec2 high(glm::max(a, b) + nearEdge);
+    const auto apart = static_cast<unsigned>((low.x ^ high.x) | (low.y ^ high.y));
+    const auto level = static_cast<std::size_t>(std::bit_width(apart));
+    if (level >= pyramid.levels().size()) return false;
+    return std::max(a.z, b.z) + depthMargin < pyramid.nearestOver(low.x, low.y, level);
+}
+
 Fate ArrayMover::advance(glm::vec4& place, glm::vec4& velocity, const DepthMap& surface,
                          const StepSettings& settings) const {
     place.w += 1;
     const glm::dvec3 from(place);
     const Motion now =
         moved(settings.law, {glm::vec3(place), glm::vec3(velocity)}, settings.gravity, place.w, settings.stepSeconds);
+    if (settings.pyramid && staysAbove(glm::vec3(place), now.place, *settings.pyramid)) {
+        place = glm::vec4(now.place, place.w);
+        velocity = glm::vec4(now.velocity, 0);
+        return place.w >= settings.maximumAgeSteps ? Fate::gone : Fate::lives;
+    }
     const glm::dvec3 way = glm::dvec3(now.place) - from;
     const double exit = exitShare(from, way, halfSize_);
     const double within = std::min(exit, 1.0);
@@ -93,6 +121,10 @@ void ReliefParticles::settle(const DepthMap& surface) {
                              glm::vec3(texels_.normal(surface.slopeAt(texels.x, texels.y))), looks_[i], serials_[i]});
         }
         if (fates_[i] != Fate::lives) continue;
+        if (kept == i) {
+            ++kept;
+            continue;
+        }
         places_[kept] = places_[i];
         velocities_[kept] = velocities_[i];
         looks_[kept] = looks_[i];

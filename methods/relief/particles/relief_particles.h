@@ -17,6 +17,7 @@
 #include "methods/contract/scene.h"
 #include "methods/relief/particles/relief_motion.h"
 #include "methods/relief/surface/depth_map.h"
+#include "methods/relief/surface/depth_pyramid.h"
 
 namespace dustbench::relief {
 
@@ -54,6 +55,8 @@ struct StepSettings {
     glm::vec3 gravity{0, -9.8f, 0};  ///< m/s²
     float stepSeconds = 1.0f / 60;
     float maximumAgeSteps = 600;
+    /// Of the surface as it is; null: each particle is collided patch by patch, with the same result.
+    const DepthPyramid* pyramid = nullptr;
 };
 
 enum class Fate : std::uint8_t { lives, hit, gone };
@@ -77,15 +80,18 @@ class Mover {
 /// On the CPU: the oracle of others.
 class ArrayMover final : public Mover {
  public:
-    explicit ArrayMover(const scene::Panel& panel) : halfSize_(panel.sizeMetres / 2.0), texels_(panel) {}
+    explicit ArrayMover(const scene::Panel& panel);
     void move(const MovingColumns& columns, const DepthMap& surface, const StepSettings& settings) override;
 
  private:
+    [[nodiscard]] bool staysAbove(const glm::vec3& from, const glm::vec3& to, const DepthPyramid& pyramid) const;
     [[nodiscard]] Fate advance(glm::vec4& place, glm::vec4& velocity, const DepthMap& surface,
                                const StepSettings& settings) const;
 
     glm::dvec2 halfSize_;
     TexelFrame texels_;
+    glm::vec2 within_;                    ///< half the size, a little less: for floats
+    glm::vec3 patchScale_, patchOffset_;  ///< from metres to patches and depth
 };
 
 class ReliefParticles {

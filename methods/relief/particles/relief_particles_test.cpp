@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -112,6 +113,36 @@ TEST_F(ReliefParticlesTest, NothingTunnelsAtAnySpeed) {
         downwards -= particles.hits().size();
     }
     EXPECT_EQ(downwards, 0u);  // all of them fly within 20 cm of the middle, so each one hits
+}
+
+// Speeds from a thousandth of a texel a step to a hundred plates, particles near the surface and far, along the rim.
+TEST_F(ReliefParticlesTest, ThePyramidChangesNothingButTheTime) {
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        const scene::Panel panel = panelOf(1.7, 0.9, 0.2, 53, 38, 0, seed);
+        const DepthMap surface(*panel.relief, ledger_);
+        const DepthPyramid pyramid(surface, ledger_);
+        ReliefParticles slow(panel, ledger_), quick(panel, ledger_);
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<float> any(-1, 1);
+        for (std::uint64_t n = 0; n < 40'000; ++n) {
+            const float speed = std::pow(10.0f, 3 * any(random));
+            const Motion motion{{0.85f * any(random), 0.45f * any(random), -0.01f * std::abs(any(random))},
+                                speed * glm::vec3(any(random), any(random), 0.3f * any(random))};
+            slow.add(motion, {}, n);
+            quick.add(motion, {}, n);
+        }
+        for (int step = 0; step < 8; ++step) {
+            StepSettings settings{.gravity = {0.1f, -9.8f, -1}, .maximumAgeSteps = 8};
+            slow.step(surface, settings);
+            settings.pyramid = &pyramid;
+            quick.step(surface, settings);
+            ASSERT_EQ(slow.hits().size(), quick.hits().size()) << step;
+            for (std::size_t i = 0; i < slow.hits().size(); ++i)
+                ASSERT_EQ(slow.hits()[i].texels, quick.hits()[i].texels);
+            ASSERT_TRUE(std::ranges::equal(slow.places(), quick.places())) << step;
+            ASSERT_TRUE(std::ranges::equal(slow.velocities(), quick.velocities()));
+        }
+    }
 }
 
 TEST_F(ReliefParticlesTest, LeavesByTheRimAndByTheFaceAndDiesOfAge) {

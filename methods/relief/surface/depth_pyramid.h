@@ -29,6 +29,14 @@ class DepthPyramid {
     /// The blocks of a level over texels: as columns and rows of that level.
     [[nodiscard]] static TexelRectangle blocksOver(const TexelRectangle& texels, std::size_t level);
 
+    /// Of the block of a level that holds a patch.
+    [[nodiscard]] float nearestOver(int patchColumn, int patchRow, std::size_t level) const {
+        const Level& own = levels_[level];
+        return blocks_[own.offset +
+                       static_cast<std::size_t>(patchRow >> level) * static_cast<std::size_t>(own.columns) +
+                       static_cast<std::size_t>(patchColumn >> level)];
+    }
+
     [[nodiscard]] std::span<const Level> levels() const { return levels_; }
     [[nodiscard]] std::span<const float> blocks() const { return blocks_; }
 

@@ -14,14 +14,19 @@ struct Impact {
     std::uint32_t depth = 0;  ///< change at the centre
 };
 
-/// h(ρ) = h₀·(1 − ρ²/r²): a paraboloid about the hit, or one texel. Whole steps, so that sums do not depend on the
-/// order of the hits.
-[[nodiscard]] inline std::uint32_t changeAt(const Impact& impact, int column, int row) {
+/// h(ρ) = h₀·(1 − ρ²/r²) of an impact with a radius. Whole steps, so that sums do not depend on the order of the hits.
+[[nodiscard]] inline std::uint32_t changeWithin(const Impact& impact, int column, int row) {
     const float du = static_cast<float>(column) - impact.u, dv = static_cast<float>(row) - impact.v;
-    if (impact.radiusTexels <= 0)
-        return std::lround(impact.u) == column && std::lround(impact.v) == row ? impact.depth : 0;
     const float share = 1 - (du * du + dv * dv) / (impact.radiusTexels * impact.radiusTexels);
-    return share > 0 ? static_cast<std::uint32_t>(static_cast<double>(share) * impact.depth) : 0;
+    // A signed number of the same value, which processors convert faster; depths end at 2³⁰.
+    return static_cast<std::uint32_t>(
+        static_cast<std::int32_t>(static_cast<double>(share > 0 ? share : 0) * impact.depth));
+}
+
+/// A paraboloid about the hit, or one texel.
+[[nodiscard]] inline std::uint32_t changeAt(const Impact& impact, int column, int row) {
+    if (impact.radiusTexels > 0) return changeWithin(impact, column, row);
+    return std::lround(impact.u) == column && std::lround(impact.v) == row ? impact.depth : 0;
 }
 
 }  // namespace dustbench::relief

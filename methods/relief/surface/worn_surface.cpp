@@ -56,15 +56,27 @@ void WornSurface::gather(std::span<const Impact> impacts) {
     if (!impacts.empty()) include({0, 0, depths_.columns(), depths_.rows()});
 }
 
+/// Adds the hit, and the depth of an impact on one texel, to the texel nearest to it.
+void WornSurface::addToNearest(const Impact& impact) {
+    const auto column = static_cast<int>(std::lround(impact.u)), row = static_cast<int>(std::lround(impact.v));
+    if (column < 0 || row < 0 || column >= depths_.columns() || row >= depths_.rows()) return;
+    const std::size_t texel = depths_.texel(column, row);
+    ++hits_[texel];
+    if (impact.radiusTexels > 0) return;
+    addPending(texel, impact.depth);
+    include({column, row, column + 1, row + 1});
+}
+
 void WornSurface::scatter(std::span<const Impact> impacts) {
     for (const Impact& impact : impacts) {
+        addToNearest(impact);
+        if (impact.radiusTexels <= 0) continue;
         const TexelRectangle reach = reachOf(impact);
-        for (int row = reach.firstRow; row < reach.endRow; ++row)
-            for (int column = reach.firstColumn; column < reach.endColumn; ++column) {
-                const std::size_t texel = depths_.texel(column, row);
-                addPending(texel, changeAt(impact, column, row));
-                hits_[texel] += std::lround(impact.u) == column && std::lround(impact.v) == row ? 1 : 0;
-            }
+        for (int row = reach.firstRow; row < reach.endRow; ++row) {
+            std::uint32_t* pending = &pending_[depths_.texel(0, row)];
+            for (int column = reach.firstColumn; column < reach.endColumn; ++column)
+                pending[column] = std::min(DepthMap::bottom, pending[column] + changeWithin(impact, column, row));
+        }
         include(reach);
     }
 }

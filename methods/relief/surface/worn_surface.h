@@ -50,6 +50,7 @@ class WornSurface {
 
  private:
     void addPending(std::size_t texel, std::uint32_t change);
+    void addToNearest(const Impact& impact);
     void include(const TexelRectangle& reach);
     [[nodiscard]] TexelRectangle reachOf(const Impact& impact) const;
     template <typename Change>
