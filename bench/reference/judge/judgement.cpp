@@ -29,7 +29,7 @@ constexpr std::array<MeanMetric, 18> means{{
     {{"psnr_mask_db", "psnr_db where there is dust in either picture, dB"}, &MomentMetrics::psnrMaskDb},
     {{"ssim_mask", "ssim of the windows around dust in either picture"}, &MomentMetrics::ssimMask},
     {{"rmse_linear_mask", "rmse_linear where there is dust in either picture"}, &MomentMetrics::rmseLinearMask},
-    {{"error_max", "the greatest error of a pixel with dust, linear light"}, &MomentMetrics::errorMax},
+    {{"error_max", "maximum error of a pixel with dust, linear light"}, &MomentMetrics::errorMax},
     {{"rmse_linear", "root of the mean squared difference of linear light"}, &MomentMetrics::rmseLinear},
     {{"psnr_continuum_db", "psnr_db against 64 times as many particles, dB"}, &MomentMetrics::psnrContinuumDb},
     {{"gaps", "share of the trail that is not covered"}, &MomentMetrics::gaps},
