@@ -35,7 +35,7 @@ struct Settings {
     Puff puff = Puff::gaussian;
     draw::OpacityFrom opacity = draw::OpacityFrom::dust;
     double youngOpacity = 0.5;
-    draw::BillboardStyle style;
+    draw::BillboardStyle style{};
 };
 
 class Billboard final : public Method {

@@ -173,16 +173,16 @@ void mode(benchmark::State& state, const Settings& settings) {
 #define MODE(name, ...) \
     BENCHMARK_CAPTURE(mode, name, Settings __VA_ARGS__)->UseManualTime()->Unit(benchmark::kMillisecond)->MinTime(2)
 MODE(gaussian, {});
-MODE(viewplane, {draw::SortKind::radix, Puff::gaussian, {draw::Facing::viewplane, false}});
-MODE(soft, {draw::SortKind::radix, Puff::gaussian, {draw::Facing::viewpoint, true}});
-MODE(texture, {draw::SortKind::radix, Puff::texture, {}});
-MODE(textures, {draw::SortKind::radix, Puff::textures, {}});
-MODE(animated, {draw::SortKind::radix, Puff::animated, {}});
+MODE(viewplane, {.style = {draw::Facing::viewplane, false}});
+MODE(soft, {.style = {draw::Facing::viewpoint, true}});
+MODE(texture, {.puff = Puff::texture});
+MODE(textures, {.puff = Puff::textures});
+MODE(animated, {.puff = Puff::animated});
 
 /// Sort and upload only: the CPU's work per frame.
 void update(benchmark::State& state, draw::SortKind sort) {
     Workload work(static_cast<std::size_t>(state.range(0)), 1);
-    Billboard method({sort, Puff::gaussian, {}});
+    Billboard method({.sort = sort});
     method.prepare(work.scene, {}, work.device());
     const StageClock clock;
     const Frame frame{0, 1.0 / 60, work.state, work.dust, work.view, clock};
