@@ -1,6 +1,6 @@
 // The scene's ground as a surface: met from above; what is below may rise.
 //
-// Units: m. Frame: world. Threads: pure. Source: scene::Terrain's bilinear surface.
+// Units: m. Frame: world. Threads: pure. The surface is the bilinear one of scene::Terrain.
 #pragma once
 
 #include "methods/contract/terrain.h"
