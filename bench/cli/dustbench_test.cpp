@@ -46,6 +46,7 @@ TEST_F(Dustbench, WrongUseIsOneLineAndExitCodeThree) {
         {"run --method " + method + " --out o --drive slalon", "'slalom'"},
         {"run --method " + method + " --out o -P particle=5", "'particles'"},
         {"run --method " + method + " --out o -P particles=-5", "0..10000000"},
+        {"run --method " + method + " --out o -P particles=1000000000", "60 GB"},
         {"run --method " + method + " --out o -P particles", "name=value"},
         {"run --method " + method + " --out o --frames 0", "1..10000000"},
         {"run --method " + method + " --out o --frames many", "'many'"},

@@ -10,6 +10,7 @@
 #include "bench/scene/world.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
+#include "methods/kit/particles/particle_store.h"
 
 namespace dustbench::bench {
 namespace {
@@ -22,6 +23,19 @@ std::string plainName(std::string_view name) {
     for (const char letter : std::filesystem::path(name).stem().string())
         if (std::isalnum(static_cast<unsigned char>(letter)) || letter == '_' || letter == '-') plain.push_back(letter);
     return plain.substr(0, 40);
+}
+
+/// The message says what so many particles would need, which is what limits them.
+void requireFewEnough(const std::string& text) {
+    const Parameter& declared = *worldParameters().find("particles");
+    std::int64_t count = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    if (end != text.data() + text.size() || error != std::errc() || static_cast<double>(count) <= declared.maximum)
+        return;
+    const double bytes = static_cast<double>(particles::ParticleStore::bytesPerParticle);
+    throw InputError(fmt::format(
+        "parameter particles: got '{}', which need {:.3g} GB alone to be held, allowed: integer 0..{:.0f} ({:.3g} GB)",
+        text, static_cast<double>(count) * bytes / 1e9, declared.maximum, declared.maximum * bytes / 1e9));
 }
 
 }  // namespace
@@ -45,6 +59,7 @@ ResolvedParameters resolveParameters(const MethodInfo& method, const ParameterTe
         if (method.parameters.find(name)) {
             resolved.method.set(name, text);
         } else if (worldParameters().find(name)) {
+            if (name == "particles") requireFewEnough(text);
             resolved.world.set(name, text);
         } else {
             std::vector<std::string> known;
