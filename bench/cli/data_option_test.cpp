@@ -5,6 +5,7 @@
 
 #include "bench/cli/called_program.h"
 #include "bench/measure/provenance.h"
+#include "bench/results/freshness.h"
 #include "bench/results/stored_folder.h"
 
 namespace dustbench::cli {
@@ -175,6 +176,32 @@ TEST_F(Data, OfAMethodMayBeAFileThatTheRunKnowsByItsContent) {
         EXPECT_EQ(lost.code, 3);
         EXPECT_THAT(lost.err, AllOf(HasSubstr("no such file"), HasSubstr("own" + parameter.fileExtension)));
         EXPECT_FALSE(fs::exists(at("lost"))) << "found before a folder is made";
+    }
+}
+
+TEST_F(Data, ThatFilesNameLieBesideThemAndMakeResultsOutdatedWhenTheyChange) {
+    const std::string cube =
+        "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+        "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    write("own/shape.toml", "description = \"of a test\"\nmesh = \"box.obj\"\nparticles = 100\nresolution = 4\n");
+    write(
+        "own/particles.toml",
+        "emission = { part = \"stream\", rate_per_second = 50 }\nposition = { part = \"mesh\", at = \"place\", mesh = "
+        "\"./box.obj\" }\nvelocity = { part = \"random\" }\ncolour = { part = \"constant\" }\nsize = { part = "
+        "\"constant\" }\nlife = [ { part = \"lifetime\" } ]\n");
+    for (const auto& [method, parameter] :
+         {std::pair<std::string, std::string>{"voxel_shape", "shape=" + at("own/shape.toml")},
+          {"plugin_particles", "system=" + at("own/particles.toml")}}) {
+        if (std::ranges::find(methods(), method, &MethodInfo::id) == methods().end()) continue;
+        write("own/box.obj", cube);
+        const Called called = call("run --method " + method + " -P " + parameter +
+                                   " --size 64x48 --warmup 0 --frames 1 -P preroll=0 --out " + at(method));
+        ASSERT_EQ(called.code, 0) << called.err;
+        const bench::StoredRun run = onlyRun(at(method));
+        const std::string build = run.provenance.at("build_id");
+        EXPECT_EQ(bench::Freshness(build).whyOutdated(run), "") << method;
+        write("own/box.obj", cube + "# changed\n");
+        EXPECT_THAT(bench::Freshness(build).whyOutdated(run), HasSubstr("box.obj has changed since")) << method;
     }
 }
 

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <set>
+#include <map>
 
 #include "bench/measure/sha256.h"
 #include "build_facts_values.h"
@@ -81,11 +81,10 @@ Provenance startProvenance(std::vector<std::string> argv) {
 
 std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& inputs) {
     std::vector<InputHash> hashes;
-    const std::set<std::filesystem::path> files(inputs.begin(), inputs.end());  // a mesh may be used more than once
+    std::map<std::string, std::filesystem::path> files;  // a mesh may be used more than once, and be named in two ways
+    for (const std::filesystem::path& file : inputs) files.try_emplace(nameOfInput(file), file);
     hashes.reserve(files.size());
-    for (const std::filesystem::path& file : files) {
-        hashes.push_back({nameOfInput(file), sha256OfFile(file)});
-    }
+    for (const auto& [name, file] : files) hashes.push_back({name, sha256OfFile(file)});
     return hashes;
 }
 

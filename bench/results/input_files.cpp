@@ -13,10 +13,12 @@ std::vector<std::filesystem::path> dataFilesOf(const ParameterValues& parameters
     return files;
 }
 
-std::vector<std::filesystem::path> inputFilesOf(const World& world, const ParameterValues& ofMethod) {
-    std::vector<std::filesystem::path> files = world.inputFiles();
-    for (std::filesystem::path& file : dataFilesOf(ofMethod)) files.push_back(std::move(file));
-    return files;
+std::vector<std::filesystem::path> inputFilesOf(const World& world, const ParameterValues& ofMethod,
+                                                const files::InputLog& read) {
+    std::vector<std::filesystem::path> all = world.inputFiles();
+    for (std::filesystem::path& file : dataFilesOf(ofMethod)) all.push_back(std::move(file));
+    for (std::filesystem::path& file : read.files()) all.push_back(std::move(file));
+    return all;
 }
 
 }  // namespace dustbench::bench

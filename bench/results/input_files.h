@@ -6,13 +6,16 @@
 
 #include "bench/scene/world.h"
 #include "methods/contract/parameters.h"
+#include "methods/kit/files/input_log.h"
 
 namespace dustbench::bench {
 
 /// Files of data that a method's parameters name: a fluid, a shape. Throws InputError where one is missing.
 [[nodiscard]] std::vector<std::filesystem::path> dataFilesOf(const ParameterValues& parameters);
 
-/// The world's files and those of the method. Throws InputError where one is missing.
-[[nodiscard]] std::vector<std::filesystem::path> inputFilesOf(const World& world, const ParameterValues& ofMethod);
+/// The world's files, those of the method, and all that were read besides: files name others. Throws InputError where
+/// one is missing.
+[[nodiscard]] std::vector<std::filesystem::path> inputFilesOf(const World& world, const ParameterValues& ofMethod,
+                                                              const files::InputLog& read);
 
 }  // namespace dustbench::bench

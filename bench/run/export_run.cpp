@@ -28,6 +28,7 @@ void requireFramesWithinDrive(const RunSpec& spec, const World& world) {
 
 ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const RunProgress& progress,
                           const std::function<bool()>& interrupted, ExportRecord& record) {
+    const files::InputLog read;
     const MethodInfo& info = findMethod(spec.method);
     const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
     World world(spec.scene, spec.drive, parameters.world, spec.seed);
@@ -35,12 +36,12 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
     if (const std::string reason = info.cannotTake ? info.cannotTake(world.scene()) : ""; !reason.empty())
         throw InputError(fmt::format("method {} cannot take scene '{}': {}", spec.method, spec.scene, reason));
     record.drive = world.driveId();
-    record.provenance.inputs = hashInputs(inputFilesOf(world, parameters.method));
 
     VolumeExporter exporter(*spec.volumes, folder);
     gpu::Device device;
     record.provenance.device = device.info();
     FrameRunner runner(spec, world, device, parameters.method, false);
+    record.provenance.inputs = hashInputs(inputFilesOf(world, parameters.method, read));
 
     ExportResult result;
     const FrameRange& frames = spec.volumes->frames;

@@ -138,11 +138,12 @@ void runFrames(const RunSpec& spec, const World& world, FrameRunner& runner, con
 }
 
 void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& progress, RunRecord& record) {
+    const files::InputLog read;
     const MethodInfo& info = findMethod(spec.method);
     const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
     World world(spec.scene, spec.drive, parameters.world, spec.seed);
     record.drive = world.driveId();
-    record.provenance.inputs = hashInputs(inputFilesOf(world, parameters.method));
+    record.provenance.inputs = hashInputs(inputFilesOf(world, parameters.method, read));
     const int threads = oneapi::tbb::this_task_arena::max_concurrency();
 
     if (const std::string reason = info.cannotTake ? info.cannotTake(world.scene()) : ""; !reason.empty()) {
@@ -161,6 +162,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     record.provenance.gpuTimersTrusted = !whole.softwareRenderer && gpu::timerQueriesAreTrue(device);
     std::optional<FrameRunner> timed;
     FrameRunner& runner = timed.emplace(spec, world, device, parameters.method, record.provenance.gpuTimersTrusted);
+    record.provenance.inputs = hashInputs(inputFilesOf(world, parameters.method, read));  // the method's files too
     RunVolumes volumes(spec, folder, world, record.provenance.warnings);
     EnergyMeter energy(packageEnergy(), gpuEnergy(device.info().renderer));
     runFrames(spec, world, runner, folder, volumes, energy, progress, whole);

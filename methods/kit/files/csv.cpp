@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
 
 namespace dustbench::files {
 namespace {
@@ -100,6 +101,7 @@ CsvTable CsvTable::parseFile(const std::filesystem::path& file) {
     if (!stream || std::filesystem::is_directory(file))
         throw InputError(file.string() + ": cannot be read, expected a CSV file");
     const std::string text(std::istreambuf_iterator<char>(stream), {});
+    noteInput(file);
     return parseText(text, file.string());
 }
 

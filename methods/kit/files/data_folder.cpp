@@ -8,6 +8,7 @@
 #include <set>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
 #include "methods/kit/files/shipped_folder.h"
 
 namespace dustbench::files {
@@ -121,10 +122,12 @@ fs::path findData(std::string_view kind, std::string_view folder, std::string_vi
         const fs::path file(nameOrFile);
         if (!fs::is_regular_file(file))
             throw InputError(fmt::format("{} file '{}': no such file{}", kind, nameOrFile, nearestBeside(file)));
+        noteInput(file);
         return file;
     }
     const fs::path file = dataPath(fs::path(folder) / fmt::format("{}{}", nameOrFile, extension));
     if (file.empty()) throw unknownName(kind, nameOrFile, listData(folder, extension));
+    noteInput(file);
     return file;
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
 
 namespace dustbench::files {
 
@@ -64,6 +65,7 @@ TomlReader TomlReader::parseFile(const std::filesystem::path& file) {
     if (!stream || std::filesystem::is_directory(file))
         throw InputError(file.string() + ": cannot be read, expected a TOML file");
     const std::string text(std::istreambuf_iterator<char>(stream), {});
+    noteInput(file);
     return parseText(text, file.string());
 }
 

@@ -24,6 +24,7 @@
 #include <string>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
 #include "methods/kit/maths/srgb.h"
 #include "methods/kit/meshes/mesh_check.h"
 
@@ -152,6 +153,7 @@ scene::Mesh readMesh(const std::filesystem::path& file, const glm::vec3& colour)
         throw InputError(file.string() + ": the mesh cannot be read");
     if (vtkOBJReader::SafeDownCast(reader)) checkObj(file);
     if (vtkPLYReader::SafeDownCast(reader)) checkPly(file);
+    files::noteInput(file);
     Complaints complaints;
     complaints.listenTo(*reader);
     complaints.listenTo(*reader->GetExecutive());

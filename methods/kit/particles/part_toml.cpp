@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/particles/part_table.h"
 
@@ -29,14 +30,31 @@ std::vector<std::string> keysOf(const ParameterSet& declared) {
     return keys;
 }
 
-void readParameter(files::TomlReader& table, const PartInfo& info, const std::string& key, ParameterValues& values) {
+/// A file that a particle file names: beside that file if it is there, so that both can be moved together; else what
+/// the name means among the data.
+std::string namedBeside(const std::filesystem::path& from, const Parameter& parameter, const std::string& text) {
+    if (from.empty() || parameter.fileExtension.empty()) return text;
+    const std::filesystem::path named(text), beside = from.parent_path() / named;
+    const bool isFile = named.has_extension() || named.has_parent_path();
+    if (!isFile) return text;
+    if (std::filesystem::is_regular_file(beside)) return std::filesystem::absolute(beside).lexically_normal().string();
+    const auto data = files::dataPath(std::filesystem::path(parameter.dataFolder) / named);
+    if (data.empty())
+        throw InputError("parameter " + parameter.name + ": got '" + text + "', but there is no file '" +
+                         beside.lexically_normal().string() + "' and no such data" + files::nearestBeside(beside));
+    return data.string();
+}
+
+void readParameter(files::TomlReader& table, const std::filesystem::path& from, const PartInfo& info,
+                   const std::string& key, ParameterValues& values) {
     const auto parameters = parametersOf(info.parameters, key);
     if (parameters.empty()) throw unknownName("parameter of '" + info.name + "'", key, keysOf(info.parameters));
     const auto texts = table.scalars(key);
     if (texts.size() != parameters.size())
         throw InputError("parameter " + key + ": got " + std::to_string(texts.size()) + " values, expected " +
                          std::to_string(parameters.size()));
-    for (std::size_t i = 0; i < texts.size(); ++i) values.set(parameters[i]->name, texts[i]);
+    for (std::size_t i = 0; i < texts.size(); ++i)
+        values.set(parameters[i]->name, namedBeside(from, *parameters[i], texts[i]));
 }
 
 /// Runs `action` and prefixes its errors with the position of `key`.
@@ -49,26 +67,26 @@ auto at(const files::TomlReader& table, std::string_view key, Action action) {
     }
 }
 
-std::unique_ptr<Part> readPart(files::TomlReader table, PartKind kind) {
+std::unique_ptr<Part> readPart(files::TomlReader table, const std::filesystem::path& from, PartKind kind) {
     const std::string name = table.text("part");
     const PartInfo& info =
         at(table, "part", [&]() -> std::reference_wrapper<const PartInfo> { return findPart(kind, name); }).get();
     ParameterValues values(info.parameters);
     for (const std::string& key : table.keys())
-        if (key != "part") at(table, key, [&] { readParameter(table, info, key, values); });
+        if (key != "part") at(table, key, [&] { readParameter(table, from, info, key, values); });
     return at(table, "part", [&] { return info.create(values); });
 }
 
-/// Reads the parts in a table; all its other keys must have been read before.
-std::unique_ptr<PartList> readParts(files::TomlReader& table) {
+/// Reads the parts in a table; all its other keys must have been read before. `from`: the file, or empty.
+std::unique_ptr<PartList> readParts(files::TomlReader& table, const std::filesystem::path& from) {
     auto parts = std::make_unique<PartList>();
     for (std::size_t k = 0; k < partKindNames.size(); ++k) {
         const auto kind = static_cast<PartKind>(k);
         const std::string_view key = partKindNames[k];
         if (isList(kind)) {
-            for (files::TomlReader& each : table.tables(key)) parts->set(readPart(std::move(each), kind));
+            for (files::TomlReader& each : table.tables(key)) parts->set(readPart(std::move(each), from, kind));
         } else if (table.has(key)) {
-            parts->set(readPart(table.table(key), kind));
+            parts->set(readPart(table.table(key), from, kind));
         }
     }
     table.finish();
@@ -96,15 +114,16 @@ std::string readName(files::TomlReader& table, const std::vector<NamedParts>& be
     return name;
 }
 
-std::vector<NamedParts> readSystems(files::TomlReader file, const std::string& stem) {
+std::vector<NamedParts> readSystems(files::TomlReader file, const std::filesystem::path& from,
+                                    const std::string& stem) {
     std::vector<NamedParts> systems;
     if (!file.has("system")) {
-        systems.push_back({stem, readParts(file)});
+        systems.push_back({stem, readParts(file, from)});
         return systems;
     }
     for (files::TomlReader& table : file.tables("system")) {
         std::string name = readName(table, systems);
-        systems.push_back({std::move(name), readParts(table)});
+        systems.push_back({std::move(name), readParts(table, from)});
     }
     if (systems.empty()) throw InputError(file.where("system") + "key 'system': got no table, expected one or more");
     file.finish();
@@ -148,12 +167,12 @@ std::string partsToToml(const PartList& parts, const std::string& prefix) {
 }  // namespace
 
 std::vector<NamedParts> systemsFromFile(const std::filesystem::path& file) {
-    return readSystems(files::TomlReader::parseFile(file), file.stem().string());
+    return readSystems(files::TomlReader::parseFile(file), file, file.stem().string());
 }
 
 std::vector<NamedParts> systemsFromText(std::string_view text, std::string name) {
     const std::string stem = std::filesystem::path(name).stem().string();
-    return readSystems(files::TomlReader::parseText(text, std::move(name)), stem);
+    return readSystems(files::TomlReader::parseText(text, std::move(name)), {}, stem);
 }
 
 std::unique_ptr<PartList> partsFromFile(const std::filesystem::path& file) {

@@ -22,9 +22,9 @@ struct NamedParts {
 };
 
 /// One or more systems with distinct names, in the order of the file. Throws InputError with file, line, the value
-/// received and the values allowed.
+/// received and the values allowed. Meshes and pictures that it names by a path are relative to the file.
 [[nodiscard]] DUSTBENCH_API std::vector<NamedParts> systemsFromFile(const std::filesystem::path& file);
-/// `name` is the file name used in messages.
+/// `name` is the file name used in messages; paths are relative to the working directory.
 [[nodiscard]] DUSTBENCH_API std::vector<NamedParts> systemsFromText(std::string_view text, std::string name);
 
 /// Throws as above, and if the file holds several systems.

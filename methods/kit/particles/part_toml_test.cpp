@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "methods/contract/errors.h"
@@ -173,6 +174,41 @@ TEST(PartToml, ErrorsOfSeveralSystemsNameFileAndLine) {
 
 TEST(PartToml, MissingFileIsAnErrorWithItsName) {
     EXPECT_THROW(ParticleSystem::load("/no/such/dust.toml", 1), InputError);
+}
+
+TEST(PartToml, FilesThatAFileNamesLieBesideItAndElseAmongTheData) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(testing::TempDir()) / "files_beside";
+    fs::create_directories(folder / "meshes");
+    fs::copy_file(DUSTBENCH_SOURCE_DIR "/data/shapes/meshes/hare.ply", folder / "meshes/own.ply",
+                  fs::copy_options::overwrite_existing);
+    const auto read = [&](const std::string& mesh) {
+        std::ofstream(folder / "mine.toml")
+            << with(everyForce, "part = \"disc\", radius_metres = 0.2", "part = \"mesh\", mesh = \"" + mesh + "\"");
+        return partsFromFile(folder / "mine.toml")->position()->values().choice("mesh");
+    };
+    EXPECT_EQ(read("hare"), "hare");
+    EXPECT_EQ(read("meshes/own.ply"), (folder / "meshes/own.ply").string());
+    EXPECT_EQ(read("./meshes/../meshes/own.ply"), (folder / "meshes/own.ply").string());
+    EXPECT_THAT(read("hare.ply"), testing::EndsWith("data/shapes/meshes/hare.ply"));
+    // Where the program was started does not count.
+    const fs::path before = fs::current_path();
+    fs::current_path(folder / "meshes");
+    EXPECT_THAT(
+        [&] {
+            try {
+                return read("./own.ply");
+            } catch (const InputError& error) {
+                return std::string(error.what());
+            }
+        }(),
+        AllOf(HasSubstr("mine.toml:"), HasSubstr("there is no file '" + (folder / "own.ply").string())));
+    EXPECT_EQ(read("meshes/own.ply"), (folder / "meshes/own.ply").string());
+    fs::current_path(before);
+    // Saved, it says the same from any other folder.
+    const auto system = systemsFromFile(folder / "mine.toml");
+    const auto again = partsFromText(partsToToml(*system.front().parts), "elsewhere.toml");
+    EXPECT_EQ(again->position()->values().choice("mesh"), (folder / "meshes/own.ply").string());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
 
 namespace dustbench::volumes {
 namespace {
@@ -165,6 +166,7 @@ std::vector<std::filesystem::path> matchingFiles(const std::filesystem::path& pa
     if (files.empty() || !fs::is_regular_file(files.front(), error))
         throw InputError(pattern.string() +
                          ": no such file, expected .vti or .vdb files as `dustbench export` writes them");
+    for (const fs::path& file : files) files::noteInput(file);
     return files;
 }
 

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -175,6 +176,7 @@ void writeVoxels(const VoxelGrid& grid, const std::filesystem::path& file) {
 
 VoxelGrid readVoxels(MemoryLedger& ledger, const std::filesystem::path& file) {
     if (!std::ifstream(file) || std::filesystem::is_directory(file)) fail(file, "the voxels cannot be read");
+    files::noteInput(file);
     Complaints complaints;
     vtkNew<vtkXMLImageDataReader> reader;
     reader->AddObserver("ErrorEvent", complaints.command());

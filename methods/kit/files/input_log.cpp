@@ -1,0 +1,35 @@
+#include "methods/kit/files/input_log.h"
+
+#include <mutex>
+#include <stdexcept>
+
+namespace dustbench::files {
+namespace {
+
+std::mutex guard;
+InputLog* current = nullptr;
+
+}  // namespace
+
+InputLog::InputLog() {
+    const std::scoped_lock lock(guard);
+    if (current) throw std::logic_error("InputLog: there is one already");
+    current = this;
+}
+
+InputLog::~InputLog() {
+    const std::scoped_lock lock(guard);
+    current = nullptr;
+}
+
+std::vector<std::filesystem::path> InputLog::files() const {
+    const std::scoped_lock lock(guard);
+    return {files_.begin(), files_.end()};
+}
+
+void noteInput(const std::filesystem::path& file) {
+    const std::scoped_lock lock(guard);
+    if (current) current->files_.insert(std::filesystem::absolute(file).lexically_normal());
+}
+
+}  // namespace dustbench::files
