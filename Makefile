@@ -53,6 +53,11 @@ test: build/release/build.ninja ## Build everything and run every test
 	@cmake --build --preset release --parallel $(JOBS)
 	@ctest --preset release
 
+.PHONY: long
+long: build/release/build.ninja ## A simulated minute of every delivered particle system, at full size
+	@cmake --build --preset release --parallel $(JOBS) --target plugin_particles_tests
+	@DUSTBENCH_FULL_SIZE=1 build/release/plugin_particles_tests --gtest_filter='*DeliveredSystemsAreStable'
+
 .PHONY: bench
 bench: build/release/build.ninja ## Run every benchmark program
 	@cmake --build --preset release --parallel $(JOBS) --target benches

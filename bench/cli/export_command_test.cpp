@@ -88,7 +88,7 @@ TEST_F(ExportCommand, WritesTheSurfacesThatAMethodWearsWithTheirHeightsAndPartic
         call(fmt::format("export --method relief --scene relief_wall --size 96x72 --warmup 0 -P preroll=0.5 "
                          "-P particles=3000 --frames 0:3:2 --format vtp --out '{}'",
                          (folder_ / "out").string()));
-    ASSERT_EQ(called.exitCode, 0) << called.err;
+    ASSERT_EQ(called.code, 0) << called.err;
     const fs::path out = folder_ / "out";
     for (const char* part : {"relief_wall", "relief_sign"}) {
         EXPECT_EQ(stepsOf(out / fmt::format("{}.pvd", part)).size(), 2u) << part;
