@@ -115,6 +115,35 @@ TEST(SceneSurface, MirrorsTheVelocityRelativeToTheCar) {
     }
 }
 
+TEST(SceneSurface, MeetsTheCarWhereItIsWithinTheStep) {
+    // Shots at the flank of a car that drives a metre a step: those behind its rear at the moment of contact pass.
+    const scene::Scene scene = sceneWithBox();
+    const double speed = 60, shot = 64;
+    auto text = swarm("[0, 0, 0]", 0, "part = \"fixed\", direction = [0, 0, -1], speed = 64",
+                      "{ part = \"bounce\", shape = \"scene\", restitution = 1 }", 2000);
+    const std::string from = "part = \"sphere\", at = \"place\", place = [0, 0, 0], radius_metres = 0.000000";
+    text.replace(text.find(from), from.size(),
+                 "part = \"line\", at = \"place\", place = [1.6, 1, 3], direction = [1, 0, 0], length_metres = 4, base "
+                 "= \"middle\"");
+    auto system = test::systemFrom(text);
+    const int steps = 5;
+    for (int i = 1; i <= steps; ++i) {
+        const scene::SceneState state = driving(i * stepSeconds, speed);
+        system.update({scene, state, stepSeconds});
+    }
+    const ParticleStore& s = system.store();
+    int met = 0, passed = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const double born = steps * stepSeconds - static_cast<double>(s.age[i]), contact = born + 2.1 / shot;
+        const double behind = -0.8 + speed * contact - static_cast<double>(s.x[i]);
+        if (std::abs(behind) < 0.01) continue;
+        ASSERT_EQ(s.velocityZ[i] > 0, behind < 0) << s.x[i];
+        ++(behind < 0 ? met : passed);
+    }
+    EXPECT_GT(met, 300);
+    EXPECT_GT(passed, 300);
+}
+
 TEST(SceneSurface, WhatSticksRidesAlongHoweverTheCarMoves) {
     const scene::Scene scene = sceneWithBox();
     for (const double radius : {0.0, 12.0}) {
