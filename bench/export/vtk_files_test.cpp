@@ -7,7 +7,6 @@
 #include <vtkFieldData.h>
 #include <vtkHyperTreeGrid.h>
 #include <vtkHyperTreeGridNonOrientedGeometryCursor.h>
-#include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
@@ -25,11 +24,9 @@
 
 #include "bench/export/htg_writer.h"
 #include "bench/export/scene_writer.h"
-#include "bench/export/surface_writer.h"
 #include "bench/export/test_clouds.h"
 #include "bench/export/vti_writer.h"
 #include "bench/export/vtp_writer.h"
-#include "methods/kit/pictures/image.h"
 #include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
@@ -130,87 +127,6 @@ TEST(VtpFile, OfNoParticlesCanBeRead) {
     read(*reader, folder.path() / "a.vtp");
     EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_NE(reader->GetOutput()->GetPointData()->GetArray("serial"), nullptr);
-}
-
-/// A lattice of 5 × 4 points that tells its point in every number.
-CollectedSurface numberedSurface() {
-    CollectedSurface surface{"wall", 5, 4, {}, {}, {}, {{"depth_removed", "m", 1, {}}}};
-    for (int i = 0; i < 20; ++i) {
-        const auto number = static_cast<float>(i);
-        surface.position.emplace_back(i % 5, i / 5, 0.01f * number);
-        surface.colour.emplace_back(number, 0.5f, 0);
-        surface.height.push_back(number / 20);
-        surface.fields[0].values.push_back(2 * number);
-    }
-    return surface;
-}
-
-TEST(SurfaceFile, ReadsBackAsAMeshThatFacesForward) {
-    const TestFolder folder;
-    const CollectedSurface surface = numberedSurface();
-    writeSurface(surface, someSeconds, folder.path() / "a.vtp");
-    vtkNew<vtkXMLPolyDataReader> reader;
-    read(*reader, folder.path() / "a.vtp");
-    vtkPolyData& mesh = *reader->GetOutput();
-    expectTime(mesh);
-    ASSERT_EQ(mesh.GetNumberOfPoints(), 20);
-    ASSERT_EQ(mesh.GetNumberOfPolys(), 4 * 3);
-    const auto at = [&](const char* name, vtkIdType i) { return mesh.GetPointData()->GetArray(name)->GetTuple1(i); };
-    for (vtkIdType i = 0; i < 20; ++i) {
-        const double* point = mesh.GetPoint(i);
-        ASSERT_EQ(glm::vec3(point[0], point[1], point[2]), surface.position[static_cast<std::size_t>(i)]);
-        EXPECT_EQ(at("height", i), static_cast<double>(surface.height[static_cast<std::size_t>(i)]));
-        EXPECT_EQ(at("depth_removed", i), 2.0 * static_cast<double>(i));
-        EXPECT_EQ(mesh.GetPointData()->GetArray("colour")->GetComponent(i, 0), static_cast<double>(i));
-    }
-    double area = 0;
-    for (vtkIdType n = 0; n < mesh.GetNumberOfCells(); ++n) {
-        vtkNew<vtkIdList> corners;
-        mesh.GetCellPoints(n, corners);
-        ASSERT_EQ(corners->GetNumberOfIds(), 4);
-        for (vtkIdType k = 0; k < 4; ++k) {  // by the shoelace formula; positive: counter-clockwise from the front
-            double a[3], b[3];
-            mesh.GetPoint(corners->GetId(k), a);
-            mesh.GetPoint(corners->GetId((k + 1) % 4), b);
-            area += 0.5 * (a[0] * b[1] - b[0] * a[1]);
-        }
-    }
-    EXPECT_NEAR(area, 12, 1e-12);
-}
-
-TEST(SurfaceFile, HeightsReadBackFromTheTopRowDown) {
-    const TestFolder folder;
-    writeHeights(numberedSurface(), folder.path() / "a.exr");
-    const pictures::Image picture = pictures::readImage(folder.path() / "a.exr");
-    ASSERT_EQ(picture.width, 5);
-    ASSERT_EQ(picture.height, 4);
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 5; ++column)
-            EXPECT_EQ(picture.at(column, 3 - row), glm::vec4(glm::vec3(static_cast<float>(5 * row + column) / 20), 1));
-}
-
-TEST(CollectedSurfaces, RefuseColumnsOfAnotherSizeAndNumbersThatAreNone) {
-    const CollectedSurface good = numberedSurface();
-    const auto reason = [](const CollectedSurface& surface) {
-        const std::vector<GridField> fields{{"depth_removed", "m", 1, surface.fields[0].values}};
-        try {
-            CollectedVolume().surface({surface.name, surface.columns, surface.rows, surface.position, surface.colour,
-                                       surface.height, fields});
-        } catch (const std::runtime_error& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
-    EXPECT_EQ(reason(good), "");
-    CollectedSurface bad = good;
-    bad.height.pop_back();
-    EXPECT_THAT(reason(bad), testing::HasSubstr("surface wall of 5x4 points: height has 19 numbers, expected 20"));
-    bad = good;
-    bad.fields[0].values[7] = NAN;
-    EXPECT_THAT(reason(bad), testing::HasSubstr("depth_removed of point 7"));
-    bad = good;
-    bad.position[3].y = INFINITY;
-    EXPECT_THAT(reason(bad), testing::HasSubstr("position of point 3"));
 }
 
 struct Node {
