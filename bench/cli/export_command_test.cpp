@@ -85,7 +85,7 @@ double particleMass(const fs::path& vtp) {
 
 TEST_F(ExportCommand, WritesTheSurfacesThatAMethodWearsWithTheirHeightsAndParticles) {
     const Called called =
-        call(fmt::format("export --method relief --scene relief_wall --size 96x72 --warmup 0 -P preroll=0.5 "
+        call(fmt::format("export --method relief --scene relief_wall --size 96x72 --warmup 150 -P preroll=1 "
                          "-P particles=3000 --frames 0:3:2 --format vtp --out '{}'",
                          (folder_ / "out").string()));
     ASSERT_EQ(called.code, 0) << called.err;

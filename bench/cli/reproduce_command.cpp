@@ -49,6 +49,7 @@ std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
     for (const std::string& id : options.paper.empty() ? bench::listPapers() : std::vector{options.paper}) {
         PaperWork& paper = work.emplace_back();
         paper.paper = bench::loadPaper(id);
+        (void)bench::loadClaims(id);
         std::vector<std::string> suites = paper.paper.suites;
         if (options.controls) std::ranges::copy(paper.paper.controls, std::back_inserter(suites));
         for (const std::string& suite : suites) {

@@ -40,6 +40,7 @@ octree::DustSettings settingsOf(const ParameterValues& values) {
     settings.opacity = values.choice("opacity", draw::opacityOrigins);
     settings.youngOpacity = values.real("young_opacity");
     settings.worldEdgeMetres = values.real("world_edge");
+    settings.worldGrows = false;
     requireWithin(values.integer("limit_bytes"), settings.tree);
     return settings;
 }

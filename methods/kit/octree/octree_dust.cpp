@@ -82,7 +82,7 @@ Lattice latticeOver(const Puffs& dust, const glm::dvec3& vehicle, const DustSett
     const double step = lattice.cellEdgeMetres(lattice.depth - settings.tree.levels + 1);
     for (;; lattice.edgeMetres *= 2, ++lattice.depth) {
         lattice.origin = octreeWorldOrigin(worldMiddle(extents, vehicle, lattice.edgeMetres), lattice.edgeMetres, step);
-        if (lattice.depth == maximumDepth || holds(lattice, extents)) return lattice;
+        if (!settings.worldGrows || lattice.depth == maximumDepth || holds(lattice, extents)) return lattice;
     }
 }
 
@@ -306,7 +306,7 @@ void OctreeDust::volume(const Frame&, VolumeVisitor& visitor) const {
 void OctreeDust::report(const Frame& frame, Facts& facts) const {
     facts.tell("clipped", clipped_);
     facts.tell("structure_bytes", static_cast<std::int64_t>(builder_->structureBytes(tree_)));
-    facts.tell("world_edge_max", cloud_.lattice.edgeMetres);
+    if (settings_.worldGrows) facts.tell("world_edge_max", cloud_.lattice.edgeMetres);
     if (!facts.wants("mass_kept")) return;
     double ofParticles = 0, outside = 0, built = 0, ofShown = 0;
     for (std::size_t i = 0; i < frame.dust.size(); ++i) {
@@ -321,7 +321,8 @@ void OctreeDust::report(const Frame& frame, Facts& facts) const {
     facts.tell("mass_kept", ofShown / ofParticles);
     // By the other rules a voxel drops all particles but one; opacity by age alone keeps no mass.
     const bool keepsAll = settings_.tree.policy == OpacityPolicy::accumulate && !byAge_;
-    facts.tell("mass_lost", keepsAll ? std::abs(1 - built / ofParticles) : outside / ofParticles);
+    if (settings_.worldGrows)
+        facts.tell("mass_lost", keepsAll ? std::abs(1 - built / ofParticles) : outside / ofParticles);
 }
 
 MemoryReport OctreeDust::memory() const {

@@ -43,6 +43,7 @@ struct DustSettings {
     bool crossFade = false;
     double crossFadeSeconds = 0.1;
     double worldEdgeMetres = 128;  ///< of the smallest world
+    bool worldGrows = true;        ///< is doubled, with a level more, until it holds all particles
 };
 
 /// Adds the parameters above to the method's parameters, and the facts that OctreeDust reports.

@@ -48,7 +48,7 @@ TEST(StorageExperiment, HasEveryFindingOnce) {
         EXPECT_LE(finding.low, finding.value);
         EXPECT_LE(finding.value, finding.high);
     }
-    EXPECT_EQ(names.size(), 19u);
+    EXPECT_EQ(names.size(), 21u);
 }
 
 }  // namespace

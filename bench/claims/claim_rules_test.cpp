@@ -1,0 +1,377 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+#include "bench/claims/claim_control.h"
+#include "methods/kit/maths/philox.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr int repetitions = 6;
+
+/// ms of a method in a world: `value(method, particles, repetition)`; empty for a failed run.
+using Value = std::function<double(const std::string&, int, int)>;
+
+/// Two methods, three loads, six repetitions; `haze` has a parameter of its own.
+files::CsvTable table(const Value& value) {
+    std::string text =
+        "run_id,status,method,scene,repetition,p.particles,p.sort,frame_ms_median,draw_ms_median,popping\n";
+    int id = 0;
+    for (const char* method : {"haze", "mist"})
+        for (const int particles : {100, 200, 400, 800})
+            for (int repetition = 1; repetition <= repetitions; ++repetition) {
+                const double ms = value(method, particles, repetition);
+                text +=
+                    fmt::format("run{},{},{},plain,{},{},{},{},{},{}\n", id++, std::isfinite(ms) ? "done" : "failed",
+                                method, repetition, particles, method[0] == 'h' ? "radix" : "", ms, 0.8 * ms,
+                                repetition == 1 ? fmt::format("{}", ms) : "");
+            }
+    return files::CsvTable::parseText(text, "summary.csv");
+}
+
+/// Scatter of about one percent; deterministic.
+double scatter(int particles, int repetition, std::uint32_t stream) {
+    const auto words = maths::randomWords(
+        9, stream, static_cast<std::uint64_t>(particles) * 100 + static_cast<std::uint64_t>(repetition));
+    return 1 + 0.01 * static_cast<double>(maths::unitFloat(words[0]) + maths::unitFloat(words[1]) - 1);
+}
+
+Claim claimOf(const std::string& rule) {
+    return parseClaims("[[claim]]\nid = \"X\"\ntext = \"t\"\nsuite = \"s\"\nreason = \"r\"\n" + rule, "claims.toml")
+        .at(0);
+}
+
+ClaimResult judged(const std::string& rule, const Value& value) {
+    const files::CsvTable rows = table(value);
+    return judgeRule(claimOf(rule).rule, ResultRows(rows, nullptr));
+}
+
+/// Haze takes `ratio` times as long as mist in every world.
+Value ratioOf(double ratio) {
+    return [ratio](const std::string& method, int particles, int repetition) {
+        const bool haze = method == "haze";
+        return (haze ? ratio : 1) * (5 + 0.01 * particles) * scatter(particles, repetition, haze ? 1 : 2);
+    };
+}
+
+const std::string faster =
+    "quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze\"\nwith = \"mist\"\nmax = 1\n";
+
+TEST(ClaimRules, ARatioTurnsRoundWithTheTimes) {
+    const ClaimResult holds = judged(faster, ratioOf(0.9));
+    EXPECT_EQ(holds.verdict, ClaimVerdict::confirmed);
+    EXPECT_NEAR(holds.measured, 0.9, 0.01);
+    EXPECT_LT(holds.low, holds.measured);
+    EXPECT_GT(holds.high, holds.measured);
+    EXPECT_EQ(holds.runs.size(), 48u);
+    // The same table with the method names swapped.
+    const Value value = ratioOf(0.9);
+    const ClaimResult reversed = judged(faster, [&](const std::string& method, int particles, int repetition) {
+        return value(method == "haze" ? "mist" : "haze", particles, repetition);
+    });
+    EXPECT_EQ(reversed.verdict, ClaimVerdict::refuted);
+    EXPECT_EQ(judged(faster, ratioOf(1)).verdict, ClaimVerdict::unresolved);
+}
+
+TEST(ClaimRules, ARatioPairsTheSameWorldAndRepetitionAlone) {
+    // Rounds drift by a factor of three; only pairs within a round reveal the small difference.
+    const auto drifting = [](const std::string& method, int particles, int repetition) {
+        return (method == "haze" ? 0.97 : 1) * particles * (1 + repetition % 3);
+    };
+    const ClaimResult result = judged(faster, drifting);
+    EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
+    EXPECT_NEAR(result.low, 0.97, 1e-9);
+    EXPECT_NEAR(result.high, 0.97, 1e-9);
+}
+
+TEST(ClaimRules, AFindingIsJudgedByItsOwnInterval) {
+    const Claim claim = parseClaims(
+                            "[[claim]]\nid = \"X\"\ntext = \"t\"\nquantity = \"finding\"\nexperiment = \"sampling\"\n"
+                            "column = \"acceptance\"\nmin = 0.53\nreason = \"r\"\n",
+                            "claims.toml")
+                            .at(0);
+    const auto judgedAt = [&](double value) {
+        StoredFinding finding;
+        finding.experiment = "sampling";
+        finding.quantity = "acceptance";
+        finding.value = value;
+        finding.low = value - 0.01;
+        finding.high = value + 0.01;
+        return judgeFinding(claim.rule, {finding}).verdict;
+    };
+    EXPECT_EQ(judgedAt(0.55), ClaimVerdict::confirmed);
+    EXPECT_EQ(judgedAt(0.51), ClaimVerdict::refuted);
+    EXPECT_EQ(judgedAt(0.535), ClaimVerdict::unresolved);
+    const ClaimResult untested = judgeFinding(claim.rule, {});
+    EXPECT_EQ(untested.verdict, ClaimVerdict::notTested);
+    EXPECT_EQ(untested.note, "experiments.csv has no acceptance of the experiment 'sampling'");
+}
+
+TEST(ClaimRules, FewerRepetitionsThanSixResolveNothing) {
+    const ClaimResult result = judged(faster, [](const std::string& method, int particles, int repetition) {
+        return repetition == 2 ? std::nan("") : (method == "haze" ? 0.5 : 1) * particles;
+    });
+    EXPECT_EQ(result.verdict, ClaimVerdict::unresolved);
+    EXPECT_EQ(result.note, "5 repetitions, 6 are needed");
+}
+
+TEST(ClaimRules, AShareIsOfTheSumOfItsParts) {
+    const auto rule = [](double minimum) {
+        return fmt::format(
+            "quantity = \"share\"\ncolumn = \"frame_ms_median\"\nparts = [\"draw_ms_median\"]\nof = \"mist\"\nmin = "
+            "{}\n",
+            minimum);
+    };
+    EXPECT_EQ(judged(rule(0.5), ratioOf(1)).verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(judged(rule(0.9), ratioOf(1)).verdict, ClaimVerdict::refuted);
+    EXPECT_NEAR(judged(rule(0.9), ratioOf(1)).measured, 0.8, 1e-9);
+}
+
+TEST(ClaimRules, AGrowthIsFromTheMinimumLoadToTheMaximum) {
+    const std::string rule =
+        "quantity = \"growth\"\ncolumn = \"frame_ms_median\"\nagainst = \"p.particles\"\nof = \"mist\"\nmin = ";
+    const ClaimResult result = judged(rule + "2\n", ratioOf(1));
+    EXPECT_NEAR(result.measured, 13.0 / 6, 0.05);
+    EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(judged(rule + "3\n", ratioOf(1)).verdict, ClaimVerdict::refuted);
+}
+
+TEST(ClaimRules, AColumnMayBeTakenPerUnitOfAnother) {
+    const std::string rule =
+        "quantity = \"growth\"\ncolumn = \"frame_ms_median\"\nper = \"p.particles\"\nagainst = \"p.particles\"\n"
+        "of = \"mist\"\nmax = 1.1\n";
+    const auto power = [](double k) {
+        return [k](const std::string&, int particles, int repetition) {
+            return std::pow(particles, k) * scatter(particles, repetition, 5);
+        };
+    };
+    EXPECT_EQ(judged(rule, power(1)).verdict, ClaimVerdict::confirmed);
+    EXPECT_NEAR(judged(rule, power(1)).measured, 1, 0.02);
+    EXPECT_EQ(judged(rule, power(2)).verdict, ClaimVerdict::refuted);
+}
+
+TEST(ClaimRules, AnExponentIsThatOfTheFittedCurve) {
+    const std::string rule =
+        "quantity = \"exponent\"\ncolumn = \"frame_ms_median\"\nagainst = \"p.particles\"\nof = \"mist\"\n";
+    const auto power = [](double k) {
+        return [k](const std::string&, int particles, int repetition) {
+            return (1 + 0.01 * std::pow(particles, k)) * (1 + 0.1 * (scatter(particles, repetition, 4) - 1));
+        };
+    };
+    EXPECT_EQ(judged(rule + "min = 0.8\nmax = 1.2\n", power(1)).verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(judged(rule + "min = 0.8\nmax = 1.2\n", power(2)).verdict, ClaimVerdict::refuted);
+}
+
+TEST(ClaimRules, ATrendIsTheRankCorrelationWithTheLoad) {
+    const std::string rule =
+        "quantity = \"trend\"\ncolumn = \"frame_ms_median\"\nagainst = \"p.particles\"\nof = \"mist\"\nmin = 0.9\n";
+    EXPECT_EQ(judged(rule, ratioOf(1)).verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(judged(rule, ratioOf(1)).measured, 1);
+    const auto falling = [](const std::string&, int particles, int) { return 1000.0 - particles; };
+    EXPECT_EQ(judged(rule, falling).verdict, ClaimVerdict::refuted);
+    const auto upAndDown = [](const std::string&, int particles, int repetition) {
+        return particles == 400 ? 1.0 : particles * scatter(particles, repetition, 6);
+    };
+    EXPECT_EQ(judged(rule, upAndDown).verdict, ClaimVerdict::refuted);
+}
+
+TEST(ClaimRules, SlopesAreEqualForALineOnly) {
+    const std::string rule =
+        "quantity = \"slopes\"\ncolumn = \"frame_ms_median\"\nagainst = \"p.particles\"\nof = \"mist\"\nmin = 0.8\nmax "
+        "= "
+        "1.25\n";
+    const auto line = [](const std::string&, int particles, int) { return 500.0 - 0.5 * particles; };
+    EXPECT_EQ(judged(rule, line).verdict, ClaimVerdict::confirmed);
+    EXPECT_NEAR(judged(rule, line).measured, 1, 1e-12);
+    const auto inverse = [](const std::string&, int particles, int) { return 1e5 / particles; };
+    EXPECT_EQ(judged(rule, inverse).verdict, ClaimVerdict::refuted);
+    // From 100, 400, 800: (1000 − 250)/300 = 2.5 and (250 − 125)/400 = 0.3125.
+    EXPECT_NEAR(judged(rule, inverse).measured, 0.125, 1e-12);
+}
+
+TEST(ClaimRules, CellsThatDisagreeMakeItDependAndTheConditionIsInWords) {
+    const std::string rule = "quantity = \"value\"\ncolumn = \"frame_ms_median\"\nof = \"mist\"\nmax = 10\n";
+    // 6, 7, 9 and 13 ms: the mean of 8.75 would hide the last one.
+    const ClaimResult result = judged(rule, ratioOf(1));
+    EXPECT_EQ(result.verdict, ClaimVerdict::depends);
+    EXPECT_EQ(result.condition, "true for particles up to 400, false from 800");
+    ASSERT_EQ(result.cells.size(), 4u);
+    EXPECT_EQ(std::ranges::count(result.cells, ClaimVerdict::confirmed, &ClaimCell::verdict), 3);
+    EXPECT_EQ(judged(rule + "over = \"none\"\n", ratioOf(1)).verdict, ClaimVerdict::depends);
+    const auto slow = [](const std::string&, int, int) { return 20.0; };
+    EXPECT_EQ(judged(rule, slow).verdict, ClaimVerdict::refuted);
+}
+
+TEST(ClaimRules, ACrossoverIsNotHiddenByTheMean) {
+    // From 0.8 at 100 particles to 1.15 at 800; the geometric mean of the ratios is below 1.
+    const auto crossing = [](const std::string& method, int particles, int repetition) {
+        const double ratio = 0.8 + 0.0005 * (particles - 100);
+        return (method == "haze" ? ratio : 1) * particles * scatter(particles, repetition, method == "haze" ? 1 : 2);
+    };
+    const ClaimResult result = judged(faster, crossing);
+    EXPECT_LT(result.measured, 0.97);
+    EXPECT_EQ(result.verdict, ClaimVerdict::depends);
+    EXPECT_EQ(result.condition, "true for particles up to 400, false from 800");
+}
+
+TEST(ClaimRules, ADisagreementByChanceIsNoCondition) {
+    // All cells of equal speed: some interval of 95 % lies beside 1 now and then, but not after Bonferroni.
+    int depends = 0;
+    constexpr int trials = 400;
+    for (int trial = 0; trial < trials; ++trial) {
+        const auto even = [&](const std::string& method, int particles, int repetition) {
+            const auto stream = static_cast<std::uint32_t>(10 + 2 * trial + (method == "haze"));
+            return particles * scatter(particles, repetition, stream);
+        };
+        depends += judged(faster, even).verdict == ClaimVerdict::depends;
+    }
+    // Two errors of 0.05/2 each at most would have to meet: 400 · 0.05² / 2 = 0.5 on average.
+    EXPECT_LE(depends, 4);
+}
+
+TEST(ClaimRules, WhatNeedsNoRepetitionHoldsInAllCellsOrNone) {
+    const std::string rule =
+        "quantity = \"ratio\"\ncolumn = \"popping\"\nof = \"haze\"\nwith = \"mist\"\nover = \"none\"\nmax = 1\n";
+    EXPECT_EQ(judged(rule, ratioOf(0.9)).verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(judged(rule, ratioOf(1.1)).verdict, ClaimVerdict::refuted);
+    EXPECT_TRUE(std::isnan(judged(rule, ratioOf(1.1)).low));
+    EXPECT_EQ(
+        judged(rule, [](const std::string& method, int particles, int) { return method == "haze" ? particles : 300.0; })
+            .condition,
+        "true for particles up to 200, false from 400");
+}
+
+/// Rows of both methods for each seed, one of them invalid if asked: `value(method, seed)` is the metric.
+files::CsvTable seedTable(int seeds, const std::function<double(bool, int)>& value, int invalidSeed = 0) {
+    std::string text = "run_id,status,method,scene,seed,repetition,invalid,popping\n";
+    for (const bool haze : {true, false})
+        for (int seed = 1; seed <= seeds; ++seed)
+            text += fmt::format("run{}{},done,{},plain,{},1,{},{}\n", haze ? "h" : "m", seed, haze ? "haze" : "mist",
+                                seed, seed == invalidSeed ? "clipped" : "", value(haze, seed));
+    return files::CsvTable::parseText(text, "summary.csv");
+}
+
+const std::string bySeed =
+    "quantity = \"ratio\"\ncolumn = \"popping\"\nof = \"haze\"\nwith = \"mist\"\nover = \"seeds\"\nmax = 1\n";
+
+TEST(ClaimRules, ChanceIsMeasuredOverSeedsAndPairedByThem) {
+    // Clouds differ by a factor of ten; only pairs of one cloud show that haze pops a tenth less.
+    const auto value = [](bool haze, int seed) { return (haze ? 0.9 : 1) * seed * scatter(seed, 1, haze ? 7 : 8); };
+    const files::CsvTable ten = seedTable(10, value);
+    const ClaimResult result = judgeRule(claimOf(bySeed).rule, ResultRows(ten, nullptr));
+    EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
+    EXPECT_NEAR(result.measured, 0.9, 0.01);
+    EXPECT_LT(result.low, result.high);
+    ASSERT_EQ(result.cells.size(), 1u);
+    EXPECT_EQ(result.cells[0].turns, 10u);
+    const files::CsvTable four = seedTable(4, value);
+    const ClaimResult few = judgeRule(claimOf(bySeed).rule, ResultRows(four, nullptr));
+    EXPECT_EQ(few.verdict, ClaimVerdict::unresolved);
+    EXPECT_EQ(few.note, "4 seeds, 5 are needed");
+}
+
+TEST(ClaimRules, InvalidRunsAreNotUsed) {
+    const auto value = [](bool haze, int seed) { return seed == 3 && haze ? 1e6 : haze ? 0.9 : 1.0; };
+    const files::CsvTable rows = seedTable(6, value, 3);
+    const ClaimResult result = judgeRule(claimOf(bySeed).rule, ResultRows(rows, nullptr));
+    EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(result.cells.at(0).turns, 5u);
+    const files::CsvTable one = seedTable(1, value, 1);
+    EXPECT_EQ(judgeRule(claimOf(bySeed).rule, ResultRows(one, nullptr)).note,
+              "no popping of haze in a run of s that is done and valid: clipped (1 run)");
+}
+
+TEST(ClaimRules, EachVariantOfARatioIsACellOfItsOwn) {
+    // Mist in two layouts, of which haze beats one only.
+    std::string text = "run_id,status,method,scene,repetition,p.layout,frame_ms_median\n";
+    for (int repetition = 1; repetition <= repetitions; ++repetition)
+        for (const auto& [method, layout, ms] :
+             {std::tuple("haze", "", 1.0), {"mist", "old", 2.0}, {"mist", "new", 0.5}})
+            text += fmt::format("{}{}{},done,{},plain,{},{},{}\n", method, layout, repetition, method, repetition,
+                                layout, ms * scatter(repetition, repetition, ms > 1 ? 1 : 2));
+    const files::CsvTable rows = files::CsvTable::parseText(text, "summary.csv");
+    const ClaimResult result = judgeRule(claimOf(faster).rule, ResultRows(rows, nullptr));
+    EXPECT_EQ(result.verdict, ClaimVerdict::depends);
+    EXPECT_EQ(result.condition, "true with layout old, false with new");
+}
+
+TEST(ClaimRules, AMatchedRatioIsTakenWhereTheOtherColumnIsTheSame) {
+    // Gaps halve when the number of quads doubles; haze needs a quarter of the quads of mist for the same gaps.
+    std::string text = "run_id,status,method,scene,seed,repetition,p.particles,primitives_median,gaps\n";
+    for (int seed = 1; seed <= 6; ++seed)
+        for (const int particles : {100, 200, 400, 800, 1600, 3200})
+            for (const bool haze : {true, false})
+                text +=
+                    fmt::format("{}{}{},done,{},plain,{},1,{},{},{}\n", haze, seed, particles, haze ? "haze" : "mist",
+                                seed, particles, particles, scatter(seed, 1, 3) * (haze ? 25.0 : 100.0) / particles);
+    const files::CsvTable rows = files::CsvTable::parseText(text, "summary.csv");
+    const std::string rule =
+        "quantity = \"matched\"\ncolumn = \"primitives_median\"\nmatch = \"gaps\"\nagainst = \"p.particles\"\n"
+        "of = \"haze\"\nwith = \"mist\"\nover = \"seeds\"\nmax = 0.5\n";
+    const ClaimResult result = judgeRule(claimOf(rule).rule, ResultRows(rows, nullptr));
+    EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
+    EXPECT_NEAR(result.measured, 0.25, 0.002);
+    // At 1600 and 3200 haze has fewer gaps than mist ever gets to.
+    EXPECT_EQ(result.cells.size(), 4u);
+}
+
+const std::string slowed =
+    "[[claim.control]]\nwhy = \"swapped\"\ngives = \"refuted\"\nof = \"mist\"\nwith = \"haze\"\n";
+
+ClaimResult controlled(const std::string& rule, const Value& value) {
+    const files::CsvTable rows = table(value);
+    return judgeWithControls(claimOf(rule),
+                             [&](const Rule& each) { return judgeRule(each, ResultRows(rows, nullptr)); });
+}
+
+TEST(ClaimControls, OneThatTurnsLeavesTheVerdict) {
+    const ClaimResult result = controlled(faster + slowed, ratioOf(0.9));
+    EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(result.control, ControlState::turned);
+    EXPECT_EQ(result.controlNote, "refuted, as known (1.111: swapped)");
+}
+
+TEST(ClaimControls, ARuleThatCannotFailIsUntestable) {
+    // Anything up to 2 is "faster" to this rule: its control passes too.
+    const std::string lax = faster.substr(0, faster.find("max")) + "max = 2\n";
+    const ClaimResult result = controlled(lax + slowed, ratioOf(0.9));
+    EXPECT_EQ(result.verdict, ClaimVerdict::untestable);
+    EXPECT_EQ(result.control, ControlState::notTurned);
+    EXPECT_EQ(result.note, "measured: confirmed; its control did not turn");
+    EXPECT_EQ(result.controlNote, "confirmed, known: refuted (1.111: swapped)");
+}
+
+TEST(ClaimControls, ARefutedClaimNeedsAControlThatConfirms) {
+    EXPECT_EQ(controlled(faster + slowed, ratioOf(1.1)).verdict, ClaimVerdict::untestable);
+    const std::string other =
+        "[[claim.control]]\nwhy = \"swapped\"\ngives = \"confirmed\"\nof = \"mist\"\nwith = \"haze\"\n";
+    const ClaimResult result = controlled(faster + other, ratioOf(1.1));
+    EXPECT_EQ(result.verdict, ClaimVerdict::refuted);
+    EXPECT_EQ(result.control, ControlState::turned);
+    EXPECT_EQ(controlled(faster, ratioOf(0.9)).verdict, ClaimVerdict::untestable);
+}
+
+TEST(ClaimControls, RunsThatAreMissingAreSaid) {
+    const std::string elsewhere =
+        "[[claim.control]]\nwhy = \"slower\"\ngives = \"refuted\"\nof = \"haze sort=quick\"\nwith = \"mist\"\n";
+    const ClaimResult result = controlled(faster + elsewhere, ratioOf(0.9));
+    EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(result.control, ControlState::notRun);
+}
+
+TEST(ClaimRules, WhatIsMissingIsNamed) {
+    const auto none = [](const std::string&, int, int) { return std::nan(""); };
+    EXPECT_EQ(judged(faster, none).verdict, ClaimVerdict::notTested);
+    EXPECT_EQ(judged(faster, none).note, "no frame_ms_median of haze in a run of s that is done");
+    const Claim untestable =
+        parseClaims("[[claim]]\nid = \"X\"\ntext = \"t\"\nquantity = \"none\"\nmissing = \"no numbers\"", "c").at(0);
+    EXPECT_EQ(untestable.missing, "no numbers");
+}
+
+}  // namespace
+}  // namespace dustbench::bench
