@@ -36,8 +36,7 @@ TEST(SightExperiment, FindsWhatIsDrawnWrong) {
     std::map<std::string, double> errors;
     for (const Finding& finding : sight::describe().run(context)) errors[finding.quantity] = finding.value;
     ASSERT_EQ(errors.size(), 7u);
-    for (const auto& [name, error] : errors)
-        EXPECT_EQ(error < 1e-4, name != "solid_unseen") << name << " " << error;
+    for (const auto& [name, error] : errors) EXPECT_EQ(error < 1e-4, name != "solid_unseen") << name << " " << error;
     EXPECT_GT(errors["solid_unseen"], 0.1);
     // A ray that stops at an alpha of one half omits the other half.
     raycast::RaycastSettings settings;
