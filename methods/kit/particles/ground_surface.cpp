@@ -10,7 +10,7 @@ namespace {
 void meetPlane(std::size_t count, const float* __restrict fromY, const float* __restrict toY, float* __restrict share) {
     for (std::size_t i = 0; i < count; ++i) {
         const float at = fromY[i] > 0.0f ? fromY[i] / (fromY[i] - toY[i]) : 0.0f;
-        share[i] = (toY[i] < 0.0f) & (toY[i] < fromY[i]) ? at : Surface::none;
+        share[i] = ((toY[i] < 0.0f) & (toY[i] < fromY[i])) ? at : Surface::none;
     }
 }
 

@@ -108,6 +108,7 @@ Finding crossover(std::uint64_t seed) {
 Finding speedupOfFew(std::uint64_t seed) {
     Bodies3 exact(256, seed), tree(256, seed);
     std::vector<double> speedups;
+    speedups.reserve(repetitions);
     for (int k = 0; k < repetitions; ++k)
         speedups.push_back(secondsOf([&] { exact.pullPairs(0, 256); }) /
                            secondsOf([&] { tree.pullTree(onePercentAngle); }));
