@@ -150,6 +150,13 @@ Selection parseSelection(const std::string& text, const std::string& what) {
     return selection;
 }
 
+std::vector<std::string> alternativesIn(const std::string& text) {
+    std::vector<std::string> alternatives;
+    std::istringstream stream(text);
+    for (std::string each; std::getline(stream, each, '|');) alternatives.push_back(each);
+    return alternatives;
+}
+
 std::string textOf(const Selection& selection) {
     std::string text;
     for (const auto& [column, value] : selection)

@@ -45,6 +45,8 @@ using Selection = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] Selection parseSelection(const std::string& text, const std::string& what);
 /// The same as text.
 [[nodiscard]] std::string textOf(const Selection& selection);
+/// The values that a bar separates: `10|40`.
+[[nodiscard]] std::vector<std::string> alternativesIn(const std::string& text);
 /// `particles` for the column `p.particles`.
 [[nodiscard]] std::string nameOf(const std::string& column);
 /// Throws InputError if summary.csv has no such column. Parameters, `p.…`, may have any name.

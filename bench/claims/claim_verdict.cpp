@@ -116,7 +116,7 @@ ClaimVerdict verdictOfAll(const std::vector<ClaimCell>& cells) {
 /// Why cells are open: too few turns, or an interval that holds both.
 std::string openCells(const Rule& rule, const std::vector<ClaimCell>& cells) {
     const auto fewest = std::ranges::min_element(cells, {}, &ClaimCell::turns);
-    if (fewest->turns < minimumTurns(rule))
+    if (rule.quantity != Quantity::finding && fewest->turns < minimumTurns(rule))
         return fmt::format("{} {}{}, {} are needed", fewest->turns, turnName(rule), fewest->turns == 1 ? "" : "s",
                            minimumTurns(rule));
     if (cells.size() == 1) return "";
@@ -171,6 +171,22 @@ void judgeCurves(const Rule& rule, const CostCurves& curves, ClaimResult& result
     decide(result);
 }
 
+/// One of `cellCount` cells. A finding has its own 95 % interval; that for all cells together is wider by Student's
+/// factor.
+ClaimCell judgeOneFinding(const Rule& rule, const StoredFinding& finding, std::size_t cellCount) {
+    ClaimCell cell{{}, finding.value, finding.low, finding.high};
+    if (cellCount > 1) cell.cell = {{"finding", finding.quantity}};
+    cell.verdict = cell.ofAll = verdictOf(rule, finding.low, finding.high);
+    if (cellCount == 1 || finding.samples < 2) return cell;
+    const auto quantile = [&](double cells) {
+        return studentQuantile(1 - (1 - intervalConfidence) / 2 / cells, static_cast<double>(finding.samples) - 1);
+    };
+    const double wider = quantile(static_cast<double>(cellCount)) / quantile(1);
+    cell.ofAll = verdictOf(rule, finding.value - wider * (finding.value - finding.low),
+                           finding.value + wider * (finding.high - finding.value));
+    return cell;
+}
+
 void takeRuns(const std::vector<std::size_t>& used, const ResultRows& rows, ClaimResult& result) {
     result.runs.reserve(used.size());
     for (const std::size_t row : used) result.runs.push_back(rows.runId(row));
@@ -214,20 +230,28 @@ ClaimResult judgeRule(const Rule& rule, const ResultRows& rows) {
 
 ClaimResult judgeFinding(const Rule& rule, const std::vector<StoredFinding>& findings) {
     ClaimResult result;
-    const auto found = std::ranges::find_if(findings, [&](const StoredFinding& finding) {
-        return finding.experiment == rule.experiment && finding.quantity == rule.column;
-    });
-    if (found == findings.end()) {
-        result.note = fmt::format("experiments.csv has no {} of the experiment '{}'", rule.column, rule.experiment);
-        return result;
+    const std::vector<std::string> quantities = alternativesIn(rule.column);
+    std::vector<double> values;
+    for (const std::string& quantity : quantities) {
+        const auto found = std::ranges::find_if(findings, [&](const StoredFinding& finding) {
+            return finding.experiment == rule.experiment && finding.quantity == quantity;
+        });
+        if (found == findings.end()) {
+            result.cells.clear();
+            result.note = fmt::format("experiments.csv has no {} of the experiment '{}'", quantity, rule.experiment);
+            return result;
+        }
+        result.cells.push_back(judgeOneFinding(rule, *found, quantities.size()));
+        values.push_back(found->value);
     }
-    result.measured = found->value;
-    result.low = found->low;
-    result.high = found->high;
-    ClaimCell cell{{}, found->value, found->low, found->high};
-    cell.verdict = cell.ofAll = verdictOf(rule, found->low, found->high);
-    result.cells.push_back(cell);
-    result.verdict = cell.verdict;
+    result.measured = meanAndError(values).mean;
+    if (result.cells.size() == 1) {
+        result.low = result.cells[0].low;
+        result.high = result.cells[0].high;
+    }
+    decide(result);
+    if (result.verdict == ClaimVerdict::unresolved && result.cells.size() > 1)
+        result.note = openCells(rule, result.cells);
     return result;
 }
 

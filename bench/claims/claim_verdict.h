@@ -12,7 +12,8 @@
 //
 // The 95 % interval of a cell is Student's over the repetitions (at least 6) or seeds (at least 5), of logarithms for
 // ratios and growths if all values are above 0. For `depends` the level is 1 − 0.05/n for n cells (Bonferroni). An
-// exponent's interval is its fit's. Bytes and the like have none. Threads: pure. Source: Student1908.
+// exponent's interval is its fit's, a finding's that of its experiment. Bytes and the like have none. Threads: pure.
+// Source: Student1908.
 #pragma once
 
 #include <limits>

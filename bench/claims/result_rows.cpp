@@ -44,10 +44,9 @@ ResultRows::ResultRows(const files::CsvTable& table, const std::set<std::string>
 bool ResultRows::matches(std::size_t row, const Selection& selection) const {
     return std::ranges::all_of(selection, [&](const auto& cell) {
         if (!table_.hasColumn(cell.first)) return false;
-        std::istringstream choices(cell.second);
-        for (std::string choice; std::getline(choices, choice, '|');)
-            if (sameValue(table_.cell(row, cell.first), choice)) return true;
-        return false;
+        return std::ranges::any_of(alternativesIn(cell.second), [&](const std::string& choice) {
+            return sameValue(table_.cell(row, cell.first), choice);
+        });
     });
 }
 

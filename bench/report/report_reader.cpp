@@ -128,10 +128,17 @@ void inOrderOf(const Paper& paper, std::vector<RunGroup>& groups) {
     std::ranges::sort(groups.begin(), rest.begin(), {}, place);
 }
 
+std::set<std::string> controlsOf(const std::string& paper) {
+    try {
+        const std::vector<std::string> controls = loadPaper(paper).controls;
+        return {controls.begin(), controls.end()};
+    } catch (const InputError&) {  // which readPapers reports
+        return {};
+    }
+}
+
 void readPapers(const fs::path& folder, ReportData& data) {
-    std::set<std::string> ids;
-    for (const RunGroup& group : data.groups)
-        if (!group.paper.empty()) ids.insert(group.paper);
+    const std::set<std::string> ids = papersOf(data.groups);
     if (ids.empty()) return;
     const fs::path summary = folder / "summary.csv";
     if (!fs::exists(summary))
@@ -154,6 +161,19 @@ void readPapers(const fs::path& folder, ReportData& data) {
 }
 
 }  // namespace
+
+std::set<std::string> papersOf(const std::vector<RunGroup>& groups) {
+    std::map<std::string, std::set<std::string>> suitesOfPaper;
+    for (const RunGroup& group : groups)
+        if (!group.paper.empty()) suitesOfPaper[group.paper].insert(group.suite);
+    std::set<std::string> lent, ids, all;
+    for (const auto& [id, suites] : suitesOfPaper) lent.merge(controlsOf(id));
+    for (const auto& [id, suites] : suitesOfPaper) {
+        all.insert(id);
+        if (!std::ranges::includes(lent, suites)) ids.insert(id);
+    }
+    return ids.empty() ? all : ids;
+}
 
 ReportData readReport(const fs::path& folder, std::int64_t maximumPictureBytes) {
     if (!fs::is_directory(folder))

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <numeric>
+#include <set>
 
 #include "bench/report/frame_times.h"
 #include "bench/report/page.h"
@@ -252,6 +253,21 @@ TEST(ReportPictures, AreMissedAndNamedWhereTheyAreDamaged) {
     fs::remove_all(folder.path() / "runs");
     collectPictures(folder.path(), 100'000, gone);
     EXPECT_NE(unreasonable(gone).find("the pictures of 1 run are missing"), std::string::npos);
+}
+
+TEST(Report, APaperWhoseRunsAreAnothersControlsIsNotJudged) {
+    const auto group = [](const char* paper, const char* suite) {
+        RunGroup made;
+        made.paper = paper;
+        made.suite = suite;
+        return made;
+    };
+    const RunGroup own = group("juckel2007", "voxelshape-grid"), lent = group("senger2009", "senger-particles"),
+                   other = group("senger2009", "senger-memory"), exchanged = group("juckel2007", "voxelshape-memory");
+    EXPECT_EQ(papersOf({own, lent, group("", "mine")}), (std::set<std::string>{"juckel2007"}));
+    EXPECT_EQ(papersOf({own, lent, other}), (std::set<std::string>{"juckel2007", "senger2009"}));
+    EXPECT_EQ(papersOf({lent}), (std::set<std::string>{"senger2009"}));
+    EXPECT_EQ(papersOf({lent, exchanged}), (std::set<std::string>{"juckel2007", "senger2009"}));
 }
 
 TEST(Published, ReadsBandsAndRefusesThoseUpsideDown) {

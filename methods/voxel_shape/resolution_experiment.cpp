@@ -19,6 +19,7 @@ constexpr int coarsest = 10, finest = 120, between = 10;
 constexpr int width = 320, height = 240;
 constexpr int settlingSteps = 12;
 constexpr std::uint32_t particlesAVoxel = 6;  // as in the preset `figure` with 40,000 particles at 50 voxels per side
+constexpr std::uint64_t seeds = 5;
 constexpr std::array sidesDegrees{20.0, 140.0, 260.0};
 
 /// Returns a preset at rest at the world's origin.
@@ -77,7 +78,8 @@ Finding meanOf(const std::string& quantity, const std::vector<double>& values, d
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
     double squares = 0;
     for (const double value : values) squares += (value - mean) * (value - mean);
-    const double student = values.size() == 3 ? 4.303 : 2.201;  // two degrees of freedom, or eleven
+    constexpr double student = 2.776;  // four degrees of freedom
+    static_assert(seeds == 5);
     const double half = student * std::sqrt(squares / (count - 1) / count) + resolved;
     return {quantity, mean, mean - half, mean + half, static_cast<std::int64_t>(values.size())};
 }
@@ -117,28 +119,25 @@ ExperimentInfo describe() {
     info.source = "JuckelBeckhaus2007";
     info.run = [](ExperimentContext& context) {
         std::vector<Finding> findings;
-        std::vector<double> allKnees, allKept, allKeptAtTen, allKeptBeforeLast;
         for (const std::string shape : shapes) {
-            std::vector<double> knees, atFifty, atFinest;
-            for (std::uint64_t seed = context.seed(); seed < context.seed() + 3; ++seed) {
+            std::vector<double> knees, atFifty, atFinest, kept, keptAtTen, keptBeforeLast;
+            for (std::uint64_t seed = context.seed(); seed < context.seed() + seeds; ++seed) {
                 const Curve curve = outlineOf(context, shape, seed);
                 knees.push_back(curve.knee());
                 const auto fifty = std::ranges::find(curve.voxelsASide, 50) - curve.voxelsASide.begin();
                 atFifty.push_back(curve.overlaps[static_cast<std::size_t>(fifty)]);
                 atFinest.push_back(curve.overlaps.back());
-                allKept.push_back(atFifty.back() / atFinest.back());
-                allKeptAtTen.push_back(curve.overlaps.front() / atFinest.back());
-                allKeptBeforeLast.push_back(*(curve.overlaps.end() - 2) / atFinest.back());
+                kept.push_back(atFifty.back() / atFinest.back());
+                keptAtTen.push_back(curve.overlaps.front() / atFinest.back());
+                keptBeforeLast.push_back(*(curve.overlaps.end() - 2) / atFinest.back());
             }
-            allKnees.insert(allKnees.end(), knees.begin(), knees.end());
             findings.push_back(meanOf("silhouette_knee_" + shape, knees, between / 2.0));
             findings.push_back(meanOf("silhouette_at_50_" + shape, atFifty, 0));
             findings.push_back(meanOf("silhouette_at_120_" + shape, atFinest, 0));
+            findings.push_back(meanOf("silhouette_kept_at_50_" + shape, kept, 0));
+            findings.push_back(meanOf("silhouette_kept_at_10_" + shape, keptAtTen, 0));
+            findings.push_back(meanOf("silhouette_kept_at_110_" + shape, keptBeforeLast, 0));
         }
-        findings.push_back(meanOf("silhouette_knee", allKnees, between / 2.0));
-        findings.push_back(meanOf("silhouette_kept_at_50", allKept, 0));
-        findings.push_back(meanOf("silhouette_kept_at_10", allKeptAtTen, 0));
-        findings.push_back(meanOf("silhouette_kept_at_110", allKeptBeforeLast, 0));
         const double late = kneeOfLateCurve();
         findings.push_back({"knee_of_late_curve", late, late - between / 2.0, late + between / 2.0, 1});
         return findings;

@@ -1,6 +1,6 @@
-"""Makes the sample report and README's table and chart from one run, so that they agree.
+"""Makes the sample reports, a folder for each paper, and README's table and chart from the same runs, so that they agree.
 
-    make_sample.py PROGRAM      measures (minutes), writes this folder and README.md; `make sample` calls it
+    make_sample.py PROGRAM [PAPER …]    measures (half an hour), writes this folder and README.md; `make sample` calls it
     make_sample.py --write      README.md again from this folder
     make_sample.py --check      exit code 1 where README.md and this folder disagree
 """
@@ -17,7 +17,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 README = ROOT / "README.md"
 OUT = ROOT / "reports" / "out" / "sample"
-PAPER, SUITE = "carr2006", "carr2006-compare-quick"
+PAPERS = sorted(folder.parent.name for folder in (ROOT / "data" / "papers").glob("*/paper.toml"))
+PAPER, SUITE = "carr2006", "carr2006-compare-quick"  # what README shows
 BEGIN, END = "<!-- sample: `make sample` writes what follows -->\n", "<!-- end of sample -->\n"
 MACHINE = ("cpu", "cores", "gl_renderer", "git_commit", "started_utc")
 
@@ -27,23 +28,28 @@ def is_of_suite(row):
     return row["status"] == "done" and row["frames"] == "40" and row["method"] != "null_method"
 
 
-def measure(program):
-    shutil.rmtree(OUT, ignore_errors=True)
-    subprocess.run([program, "reproduce", "--paper", PAPER, "--quick", "--out", OUT], check=True)
-    for chart in (SUITE, SUITE + "-stages"):
-        subprocess.run([program, "report", OUT, "--chart", chart, "--format", "png"], check=True)
-        shutil.copy(OUT / "charts" / f"{chart}.png", HERE)
-    for name in ("index.html", "summary.csv", "claims.csv"):
-        shutil.copy(OUT / name, HERE)
-    provenance = json.loads(next((OUT / "runs").glob("*/run.json")).read_text())["provenance"]
-    with open(HERE / "machine.csv", "w", encoding="utf-8", newline="") as stream:
+def measure(program, paper):
+    out, kept = OUT / paper, HERE / paper
+    shutil.rmtree(out, ignore_errors=True)
+    subprocess.run([program, "reproduce", "--paper", paper, "--quick", "--controls", "--out", out], check=True)
+    subprocess.run([program, "report", out, "--pictures", "1"], check=True)
+    kept.mkdir(exist_ok=True)
+    for name in ("index.html", "summary.csv", "claims.csv", "experiments.csv"):
+        if (out / name).exists():
+            shutil.copy(out / name, kept)
+    if paper == PAPER:
+        for chart in (SUITE, SUITE + "-stages"):
+            subprocess.run([program, "report", out, "--chart", chart, "--format", "png"], check=True)
+            shutil.copy(out / "charts" / f"{chart}.png", kept)
+    provenance = json.loads(next((out / "runs").glob("*/run.json")).read_text())["provenance"]
+    with open(kept / "machine.csv", "w", encoding="utf-8", newline="") as stream:
         table = csv.writer(stream, lineterminator="\n")
         table.writerow(MACHINE)
         table.writerow([provenance[name] for name in MACHINE])
 
 
 def rows(name):
-    with open(HERE / name, encoding="utf-8", newline="") as stream:
+    with open(HERE / PAPER / name, encoding="utf-8", newline="") as stream:
         return list(csv.DictReader(stream))
 
 
@@ -71,7 +77,7 @@ def block():
         f"Dust behind the car at 320×240 pixels, medians of {repetitions} runs on {machine['cores']} cores of an",
         f"{machine['cpu'].replace('(R)', '')} with {machine['gl_renderer']}.",
         "*Build* is the time to build the octree, *draw* the time to draw the dust; the rest is mostly the scene.", ""]
-        + table() + ["", f"![Frame rate of the three methods against the number of particles, with intervals](reports/sample/{SUITE}.png)",
+        + table() + ["", f"![Frame rate of the three methods against the number of particles, with intervals](reports/sample/{PAPER}/{SUITE}.png)",
                      "", END.rstrip("\n"), ""])
 
 
@@ -94,12 +100,21 @@ def check():
             sys.exit(f"README.md has '{got}', reports/sample says '{expected}'; run `make sample`, or make_sample.py --write")
 
 
-if __name__ == "__main__":
-    if len(sys.argv) != 2:
+def main(arguments):
+    if not arguments:
         sys.exit(__doc__)
-    if sys.argv[1] == "--check":
+    if arguments[0] == "--check":
         check()
-    else:
-        if sys.argv[1] != "--write":
-            measure(sys.argv[1])
-        write()
+        return
+    if arguments[0] != "--write":
+        program, papers = arguments[0], arguments[1:] or PAPERS
+        for paper in papers:
+            if paper not in PAPERS:
+                sys.exit(f"make_sample.py: no paper '{paper}'; papers: {', '.join(PAPERS)}")
+        for paper in papers:
+            measure(program, paper)
+    write()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
