@@ -34,6 +34,14 @@ TEST(Timing, ExponentIsThatOfAPowerAndItsIntervalHoldsIt) {
     EXPECT_GT(noisy.high, 2);
     EXPECT_EQ(medianOf("m", {3, 1, 2}).value, 2);
     EXPECT_EQ(medianOf("m", {3, 1, 2}).high, 3);
+    // By tables of the sign test.
+    for (const auto& [count, below] :
+         std::map<std::size_t, std::size_t>{{1, 0}, {8, 0}, {9, 1}, {12, 2}, {15, 3}, {25, 7}})
+        EXPECT_EQ(valuesBelowTheInterval(count), below) << count;
+    const Finding nine = medianOf("m", {9, 1, 8, 2, 7, 3, 6, 4, 5});
+    EXPECT_EQ(nine.value, 5);
+    EXPECT_EQ(nine.low, 2);
+    EXPECT_EQ(nine.high, 8);
 }
 
 }  // namespace

@@ -90,16 +90,14 @@ std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, i
     Subject<StructureOfArrays<false>> soa(seed, particles);
     Subject<StructureOfArrays<true>> soaPool(seed, particles);
     std::map<std::string, Times> times;
-    Subject<List<true>> sameListPool(seed, particles);
-    Subject<ArrayOfStructures<true>> sameAosPool(seed, particles);
     Times listPoolAgain, aosPoolAgain;
     for (int k = 0; k < repetitions; ++k) {
-        sameListPool.measure(listPoolAgain);
-        sameAosPool.measure(aosPoolAgain);
         list.measure(times["list"]);
         listPool.measure(times["list_pool"]);
+        listPool.measure(listPoolAgain);
         aos.measure(times["aos"]);
         aosPool.measure(times["aos_pool"]);
+        aosPool.measure(aosPoolAgain);
         soa.measure(times["soa"]);
         soaPool.measure(times["soa_pool"]);
     }
@@ -123,7 +121,7 @@ ExperimentInfo describe() {
     info.summary =
         "Measures the cost of a linked list, arrays and a pool of the dead when particles are scanned and replaced.";
     info.source = "Thesis";
-    info.run = [](ExperimentContext& context) { return measureStorage(context.seed(), 100'000, 7); };
+    info.run = [](ExperimentContext& context) { return measureStorage(context.seed(), 100'000, 15); };
     return info;
 }
 

@@ -15,7 +15,7 @@ namespace dustbench::particles::storage {
 /// dead over with it.
 /// allocation_without_over_with_list: the same without the walk that finds the dead: time of freeing and allocating
 /// nodes, over that of taking them from the pool.
-/// allocation_of_equals, scan_of_equals: controls, two lists and two arrays of structures of the same kind.
+/// allocation_of_equals, scan_of_equals: controls, one list and one array of structures measured twice.
 /// scan_ns_…, churn_ns_…: nanoseconds per particle and step, by `list`, `aos`, `soa`, with `_pool`.
 [[nodiscard]] DUSTBENCH_API ExperimentInfo describe();
 [[nodiscard]] std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, int repetitions);
