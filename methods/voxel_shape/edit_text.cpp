@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> regionWords{"sphere", "box", "mesh",     "centre", "radius_metres",
-                                           "min",    "max", "position", "scale"};
+const std::vector<std::string> regionWords{"sphere",        "box", "mesh", "centre",   "to",
+                                           "radius_metres", "min", "max",  "position", "scale"};
 const std::vector<std::string> lookWords{"colour",
                                          "opacity",
                                          "size_voxels",

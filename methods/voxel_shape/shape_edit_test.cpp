@@ -1,6 +1,7 @@
 // Edits of a shape's file: spheres, boxes and meshes in which voxels change colour, activity or force, and are saved.
 #include <gtest/gtest.h>
 
+#include "methods/kit/maths/philox.h"
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/testing/test_input_error.h"
 #include "methods/kit/testing/test_moment.h"
@@ -65,6 +66,28 @@ TEST(ShapeEdit, CarvesPaintsAndPushesAndIsSavedAndReadBack) {
     }
     EXPECT_EQ(blue, 8) << "those about the corner in its middle; the next ones are 0.41 m away";
     EXPECT_EQ(pushed, 2 * 64);
+}
+
+TEST(ShapeEdit, ASweptSphereIsTheUnionOfAllSpheresAlongItsLine) {
+    const TestFolder folder;
+    const auto file = folder.write("s.toml", block +
+                                                 "[[edit]]\ncentre = [-0.5, 0.5, 0.2]\nto = [0.7, 1.3, -0.1]\n"
+                                                 "radius_metres = 0.3\ncolour = [1, 0, 0]\n");
+    const VoxelEdit edit = readShape(file).edits.at(0);
+    int within = 0;
+    for (std::uint64_t i = 0; i < 4000; ++i) {
+        const auto u = maths::uniform4(7, 1, i);
+        const glm::vec3 point = glm::vec3(-1.2f, 0, -0.8f) + glm::vec3(2.4f, 2, 1.6f) * glm::vec3(u[0], u[1], u[2]);
+        float nearest = INFINITY;
+        for (int k = 0; k <= 2000; ++k)
+            nearest =
+                std::min(nearest, glm::distance(point, glm::mix(edit.centre, edit.end, static_cast<float>(k) / 2000)));
+        if (std::abs(nearest - 0.3f) > 1e-3f) {
+            EXPECT_EQ(edit.contains(point), nearest < 0.3f) << nearest;
+        }
+        within += edit.contains(point);
+    }
+    EXPECT_GT(within, 200);
 }
 
 TEST(ShapeEdit, SaysThatAnOpenMeshHasNoInside) {

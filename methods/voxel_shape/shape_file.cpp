@@ -251,14 +251,15 @@ void readOthers(TomlReader& file, const std::filesystem::path& folder, Shape& sh
 VoxelEdit readEdit(TomlReader& table, const std::filesystem::path& folder) {
     VoxelEdit edit;
     edit.where = table.where();
-    const bool box = table.has("min") || table.has("max"), sphere = table.has("centre") || table.has("radius_metres"),
-               mesh = table.has("mesh");
+    const bool box = table.has("min") || table.has("max"),
+               sphere = table.has("centre") || table.has("radius_metres") || table.has("to"), mesh = table.has("mesh");
     if (int{box} + int{sphere} + int{mesh} != 1)
         throw InputError(edit.where +
                          "an edit takes either a box (min, max), a sphere (centre, radius_metres) or a closed mesh");
     if (sphere) {
         edit.region = VoxelEdit::Region::sphere;
         edit.centre = table.vector3("centre");
+        edit.end = table.has("to") ? glm::vec3(table.vector3("to")) : edit.centre;
         edit.radiusMetres = static_cast<float>(table.number("radius_metres", 1e-4, far));
     } else if (mesh) {
         edit.region = VoxelEdit::Region::mesh;

@@ -173,7 +173,8 @@ ToolInfo describe() {
     info.manual =
         "An edit names a region and the changes to the voxels whose centres lie in it. Its words are the keys of\n"
         "shape files (data/shapes/car.toml): metres in the shape's own frame, linear RGB, lists with commas.\n"
-        "  region  sphere=x,y,z,radius   box=x,y,z,x,y,z (minimum, maximum)   mesh=FILE [position=x,y,z] [scale=s]\n"
+        "  region  sphere=x,y,z,radius, swept along a line by to=x,y,z; box=x,y,z,x,y,z (minimum, maximum);\n"
+        "          mesh=FILE [position=x,y,z] [scale=s]\n"
         "  paint   colour opacity size_voxels fading_colour fading_opacity fading_size_voxels lifetime_seconds\n"
         "          interpolation_seconds pictures_per_second maximum_density\n"
         "  force   kind=linear acceleration=x,y,z; kind=orbit|gravity|spiral|helix axis=x,y,z radians_per_second=w\n"

@@ -9,6 +9,13 @@ namespace {
 
 constexpr std::uint32_t nobody = 0xffffffffu;
 
+float distanceToSegment(const glm::vec3& point, const glm::vec3& begin, const glm::vec3& end) {
+    const glm::vec3 along = end - begin;
+    const float squared = glm::dot(along, along);
+    const float t = squared > 0 ? glm::clamp(glm::dot(point - begin, along) / squared, 0.0f, 1.0f) : 0.0f;
+    return glm::distance(point, begin + t * along);
+}
+
 }  // namespace
 
 void VoxelChange::applyTo(Voxel& voxel, float voxelMetres) const {
@@ -69,7 +76,7 @@ void giveNearestLooks(VoxelGrid& grid, const Within& within) {
 }  // namespace
 
 bool VoxelEdit::contains(const glm::vec3& point) const {
-    if (region == Region::sphere) return glm::distance(point, centre) <= radiusMetres;
+    if (region == Region::sphere) return distanceToSegment(point, centre, end) <= radiusMetres;
     if (region == Region::mesh) return mesh->contains(glm::dvec3(point));
     return glm::all(glm::lessThanEqual(minimum, point)) && glm::all(glm::lessThanEqual(point, maximum));
 }

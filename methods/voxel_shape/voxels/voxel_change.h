@@ -42,7 +42,7 @@ struct VoxelEdit {
     std::string where;  ///< prefix of messages: `bunny.toml:31: `
     Region region = Region::box;
     glm::vec3 minimum{0}, maximum{0};  ///< of a box
-    glm::vec3 centre{0};               ///< of a sphere
+    glm::vec3 centre{0}, end{0};       ///< of a sphere that is swept from `centre` to `end`
     float radiusMetres = 0;
     std::shared_ptr<const SolidSpace> mesh;  ///< in the shape's frame
     VoxelChange change;
