@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <tuple>
+#include <vector>
 
 #include "bench/claims/claim_control.h"
 #include "methods/kit/maths/philox.h"
@@ -89,63 +90,26 @@ TEST(ClaimRules, ARatioPairsTheSameWorldAndRepetitionAlone) {
     EXPECT_NEAR(result.high, 0.97, 1e-9);
 }
 
-TEST(ClaimRules, AFindingIsJudgedByItsOwnInterval) {
-    const Claim claim = parseClaims(
-                            "[[claim]]\nid = \"X\"\ntext = \"t\"\nquantity = \"finding\"\nexperiment = \"sampling\"\n"
-                            "column = \"acceptance\"\nmin = 0.53\nreason = \"r\"\n",
-                            "claims.toml")
-                            .at(0);
-    const auto judgedAt = [&](double value) {
-        StoredFinding finding;
-        finding.experiment = "sampling";
-        finding.quantity = "acceptance";
-        finding.value = value;
-        finding.low = value - 0.01;
-        finding.high = value + 0.01;
-        return judgeFinding(claim.rule, {finding}).verdict;
+/// Times less a baseline, of either sign: one for each repetition, the same in every world.
+Value differences(const std::vector<double>& mist, double ratio) {
+    return [=](const std::string& method, int, int repetition) {
+        return (method == "haze" ? ratio : 1) * mist[static_cast<std::size_t>(repetition - 1)];
     };
-    EXPECT_EQ(judgedAt(0.55), ClaimVerdict::confirmed);
-    EXPECT_EQ(judgedAt(0.51), ClaimVerdict::refuted);
-    EXPECT_EQ(judgedAt(0.535), ClaimVerdict::unresolved);
-    const ClaimResult untested = judgeFinding(claim.rule, {});
-    EXPECT_EQ(untested.verdict, ClaimVerdict::notTested);
-    EXPECT_EQ(untested.note, "experiments.csv has no acceptance of the experiment 'sampling'");
 }
 
-TEST(ClaimRules, FindingsOfSeveralShapesAreCells) {
-    const Claim claim = parseClaims(
-                            "[[claim]]\nid = \"X\"\ntext = \"t\"\nquantity = \"finding\"\nexperiment = \"sampling\"\n"
-                            "column = \"kept_car|kept_bunny\"\nmin = 0.9\nreason = \"r\"\n",
-                            "claims.toml")
-                            .at(0);
-    const auto found = [](const char* quantity, double value, double half, std::int64_t samples) {
-        StoredFinding finding;
-        finding.experiment = "sampling";
-        finding.quantity = quantity;
-        finding.value = value;
-        finding.low = value - half;
-        finding.high = value + half;
-        finding.samples = samples;
-        return finding;
-    };
-    const auto judgedAt = [&](double car, double bunny, double half, std::int64_t samples) {
-        return judgeFinding(claim.rule,
-                            {found("kept_bunny", bunny, half, samples), found("kept_car", car, half, samples)});
-    };
-    EXPECT_EQ(judgedAt(0.95, 0.99, 0.01, 5).verdict, ClaimVerdict::confirmed);
-    EXPECT_EQ(judgedAt(0.80, 0.85, 0.01, 5).verdict, ClaimVerdict::refuted);
-    EXPECT_EQ(judgedAt(0.95, 0.905, 0.01, 5).note, "of 2 cells, 1 confirmed, 0 refuted");
-    const ClaimResult mixed = judgedAt(0.95, 0.80, 0.01, 5);
-    EXPECT_EQ(mixed.verdict, ClaimVerdict::depends);
-    EXPECT_EQ(mixed.condition, "true for finding kept_car, false with kept_bunny");
-    EXPECT_NEAR(mixed.measured, 0.875, 1e-12);
-    // Two cells widen an interval by 1.14 for many samples, and by 1.44 for three.
-    EXPECT_EQ(judgedAt(0.95, 0.889, 0.01, 3).verdict, ClaimVerdict::unresolved);
-    EXPECT_EQ(judgedAt(0.95, 0.889, 0.01, 100000).verdict, ClaimVerdict::unresolved);
-    EXPECT_EQ(judgedAt(0.95, 0.887, 0.01, 100000).verdict, ClaimVerdict::depends);
-    EXPECT_EQ(judgedAt(0.95, 0.887, 0.01, 3).verdict, ClaimVerdict::unresolved);
-    EXPECT_EQ(judgeFinding(claim.rule, {found("kept_car", 1, 0, 5)}).note,
-              "experiments.csv has no kept_bunny of the experiment 'sampling'");
+TEST(ClaimRules, ARatioOfTimesNearZeroIsThatOfTheMeans) {
+    const std::string twice =
+        "quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze\"\nwith = \"mist\"\nmin = 2\n";
+    const std::vector<double> clear{-0.1, 1.9, 1.2, 1.5, 0.9, 1.6}, lost{-0.9, 1.1, 0.2, 0.5, -0.1, -0.6};
+    const ClaimResult holds = judged(twice, differences(clear, 3));
+    EXPECT_EQ(holds.verdict, ClaimVerdict::confirmed);
+    for (const ClaimCell& cell : holds.cells) {
+        EXPECT_EQ(cell.turns, 6u) << "no repetition is left out";
+        EXPECT_NEAR(cell.measured, 3, 1e-9);
+    }
+    EXPECT_EQ(judged(twice, differences(clear, 1)).verdict, ClaimVerdict::refuted);
+    const ClaimResult open = judged(twice, differences(lost, 3));
+    EXPECT_EQ(open.verdict, ClaimVerdict::unresolved);
 }
 
 TEST(ClaimRules, FewerRepetitionsThanSixResolveNothing) {

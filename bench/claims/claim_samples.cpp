@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <stdexcept>
 
 #include "bench/measure/rank_correlation.h"
@@ -32,7 +34,9 @@ class SampleTable {
         if (rule_.over != Chance::seeds) return rows_.repetition(row);
         return static_cast<std::int64_t>(rows_.number(row, "seed").value_or(1));
     }
-    void add(const std::string& key, std::int64_t turn, double value) { values_[key][turn].push_back(value); }
+    void add(const std::string& key, std::int64_t turn, double numerator, double denominator = 1) {
+        values_[key][turn].push_back({numerator, denominator});
+    }
     [[nodiscard]] bool empty() const { return values_.empty(); }
 
     /// The values of one cell and turn are averaged; of what does not depend on the turn the first is taken.
@@ -43,21 +47,34 @@ class SampleTable {
         for (const auto& [key, turns] : values_) {
             samples.cells.push_back(rows_.cellValues(key, keys));
             for (const auto& [turn, list] : turns) {
-                double sum = 0;
-                for (const double value : list) sum += value;
                 const bool once = rule_.over != Chance::repetitions;
-                samples.list.push_back(
-                    {samples.cells.size() - 1, turn, once ? list.front() : sum / static_cast<double>(list.size())});
+                samples.list.push_back(meanOf(once ? std::span(list).first(1) : std::span(list)));
+                samples.list.back().cell = samples.cells.size() - 1;
+                samples.list.back().turn = turn;
                 if (rule_.over == Chance::none) break;
             }
         }
     }
 
  private:
+    struct Fraction {
+        double numerator, denominator;
+    };
+    static ClaimSample meanOf(std::span<const Fraction> fractions) {
+        ClaimSample mean{.denominator = 0};
+        const auto count = static_cast<double>(fractions.size());
+        for (const auto& [numerator, denominator] : fractions) {
+            mean.numerator += numerator / count;
+            mean.denominator += denominator / count;
+            mean.value += denominator > 0 ? numerator / denominator / count : std::numeric_limits<double>::quiet_NaN();
+        }
+        return mean;
+    }
+
     const Rule& rule_;
     const ResultRows& rows_;
     std::set<std::string> within_;
-    std::map<std::string, std::map<std::int64_t, std::vector<double>>> values_;
+    std::map<std::string, std::map<std::int64_t, std::vector<Fraction>>> values_;
 };
 
 std::optional<double> valueOf(const Rule& rule, const ResultRows& rows, std::size_t row) {
@@ -101,8 +118,8 @@ void addRatios(const Rule& rule, const ResultRows& rows, SampleTable& table, Cla
             const double x = *valueOf(rule, rows, a), y = *valueOf(rule, rows, b);
             if (x == 0 && y == 0)
                 ++samples.undefined;
-            else if (y > 0)
-                table.add(table.keyOf(a) + table.keyOf(b), table.turnOf(a), x / y);
+            else
+                table.add(table.keyOf(a) + table.keyOf(b), table.turnOf(a), x, y);
         }
     if (table.empty() && samples.missing.empty())
         samples.missing = fmt::format("no run of {} has its like of {} with a {} above 0", textOf(rule.of),
@@ -152,7 +169,7 @@ void addShares(const Rule& rule, const ResultRows& rows, SampleTable& table, Cla
         double sum = 0;
         for (const std::string& part : rule.parts) sum += rows.number(row, part).value_or(0);
         if (const double whole = *valueOf(rule, rows, row); whole != 0)
-            table.add(table.keyOf(row), table.turnOf(row), sum / whole);
+            table.add(table.keyOf(row), table.turnOf(row), sum, whole);
     }
 }
 
@@ -194,8 +211,8 @@ void addCurves(const Rule& rule, const ResultRows& rows, SampleTable& table, Cla
             if (const auto ratio = ratioOfSlopes(points)) table.add(where.first, where.second, *ratio);
         } else if (first->ms == 0 && last->ms == 0)
             ++samples.undefined;
-        else if (first->ms > 0)
-            table.add(where.first, where.second, last->ms / first->ms);
+        else
+            table.add(where.first, where.second, last->ms, first->ms);
     }
     if (table.empty() && samples.missing.empty())
         samples.missing = fmt::format("{} does not vary in the runs of {}", rule.against, textOf(rule.of));

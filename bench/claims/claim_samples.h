@@ -18,7 +18,9 @@ namespace dustbench::bench {
 struct ClaimSample {
     std::size_t cell = 0;   ///< index in `cells`
     std::int64_t turn = 1;  ///< repetition or seed
-    double value = 0;
+    double value = 0;       ///< NaN: a ratio whose denominator is not above 0
+    /// Of a ratio, growth or share; else the value and 1.
+    double numerator = 0, denominator = 1;
 };
 
 struct ClaimSamples {

@@ -11,6 +11,7 @@
 #include "bench/claims/claim_samples.h"
 #include "bench/measure/cost_fit.h"
 #include "bench/measure/paired_ratio.h"
+#include "bench/measure/ratio_of_means.h"
 #include "methods/contract/choices.h"
 
 namespace dustbench::bench {
@@ -54,7 +55,7 @@ struct Scale {
 Scale scaleOf(const Rule& rule, const ClaimSamples& samples) {
     const bool isFactor =
         rule.quantity == Quantity::ratio || rule.quantity == Quantity::matched || rule.quantity == Quantity::growth;
-    return {isFactor && std::ranges::all_of(samples.list, [](const ClaimSample& each) { return each.value > 0; })};
+    return {isFactor && std::ranges::none_of(samples.list, [](const ClaimSample& each) { return each.value <= 0; })};
 }
 
 std::size_t minimumTurns(const Rule& rule) {
@@ -64,6 +65,11 @@ std::size_t minimumTurns(const Rule& rule) {
 
 const char* turnName(const Rule& rule) {
     return rule.over == Chance::seeds ? "seed" : "repetition";
+}
+
+/// The level of each cell's interval so that all together hold with `intervalConfidence` (Bonferroni).
+double familyLevel(std::size_t cellCount) {
+    return 1 - (1 - intervalConfidence) / static_cast<double>(cellCount);
 }
 
 ClaimCell judgeCell(const Rule& rule, const std::vector<double>& values, const Scale& scale, std::size_t cellCount) {
@@ -80,16 +86,36 @@ ClaimCell judgeCell(const Rule& rule, const std::vector<double>& values, const S
     cell.low = end(intervalConfidence, -1);
     cell.high = end(intervalConfidence, 1);
     if (values.size() < minimumTurns(rule)) return cell;
-    const double familyLevel = 1 - (1 - intervalConfidence) / static_cast<double>(cellCount);
+    const double level = familyLevel(cellCount);
     cell.verdict = verdictOf(rule, cell.low, cell.high);
-    cell.ofAll = verdictOf(rule, end(familyLevel, -1), end(familyLevel, 1));
+    cell.ofAll = verdictOf(rule, end(level, -1), end(level, 1));
+    return cell;
+}
+
+/// A ratio of which a denominator is not above 0 in every turn: by the means, not by the single ratios.
+ClaimCell judgeRatioNearZero(const Rule& rule, const std::vector<ClaimSample>& samples, std::size_t cellCount) {
+    ClaimCell cell;
+    cell.turns = samples.size();
+    std::vector<std::pair<double, double>> pairs;
+    pairs.reserve(samples.size());
+    for (const ClaimSample& sample : samples) pairs.emplace_back(sample.numerator, sample.denominator);
+    const RatioOfMeans found = ratioOfMeans(pairs, intervalConfidence);
+    cell.measured = found.ratio;
+    if (rule.over == Chance::none) return cell;
+    cell.low = found.low;
+    cell.high = found.high;
+    if (samples.size() < minimumTurns(rule)) return cell;
+    const RatioOfMeans ofAll = ratioOfMeans(pairs, familyLevel(cellCount));
+    cell.verdict = verdictOf(rule, found.low, found.high);
+    cell.ofAll = verdictOf(rule, ofAll.low, ofAll.high);
     return cell;
 }
 
 /// The mean over the cells, with its interval over the turns that have a value in every cell.
 void measureAll(const Rule& rule, const ClaimSamples& samples, const Scale& scale, ClaimResult& result) {
     std::map<std::int64_t, std::vector<double>> byTurn;
-    for (const ClaimSample& sample : samples.list) byTurn[sample.turn].push_back(scale.to(sample.value));
+    for (const ClaimSample& sample : samples.list)
+        if (!std::isnan(sample.value)) byTurn[sample.turn].push_back(scale.to(sample.value));
     std::vector<double> means;
     for (const auto& [turn, values] : byTurn)
         if (values.size() == samples.cells.size()) means.push_back(meanAndError(values).mean);
@@ -132,10 +158,15 @@ void decide(ClaimResult& result) {
 
 void judgeSamples(const Rule& rule, const ClaimSamples& samples, ClaimResult& result) {
     const Scale scale = scaleOf(rule, samples);
-    std::vector<std::vector<double>> values(samples.cells.size());
-    for (const ClaimSample& sample : samples.list) values[sample.cell].push_back(scale.to(sample.value));
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        result.cells.push_back(judgeCell(rule, values[i], scale, values.size()));
+    std::vector<std::vector<ClaimSample>> samplesOfCell(samples.cells.size());
+    for (const ClaimSample& sample : samples.list) samplesOfCell[sample.cell].push_back(sample);
+    for (std::size_t i = 0; i < samplesOfCell.size(); ++i) {
+        const std::vector<ClaimSample>& list = samplesOfCell[i];
+        std::vector<double> values;
+        for (const ClaimSample& sample : list) values.push_back(scale.to(sample.value));
+        const bool isNearZero = std::ranges::any_of(values, [](double value) { return std::isnan(value); });
+        result.cells.push_back(isNearZero ? judgeRatioNearZero(rule, list, samplesOfCell.size())
+                                          : judgeCell(rule, values, scale, samplesOfCell.size()));
         result.cells.back().cell = samples.cells[i];
     }
     measureAll(rule, samples, scale, result);
@@ -178,10 +209,10 @@ ClaimCell judgeOneFinding(const Rule& rule, const StoredFinding& finding, std::s
     if (cellCount > 1) cell.cell = {{"finding", finding.quantity}};
     cell.verdict = cell.ofAll = verdictOf(rule, finding.low, finding.high);
     if (cellCount == 1 || finding.samples < 2) return cell;
-    const auto quantile = [&](double cells) {
-        return studentQuantile(1 - (1 - intervalConfidence) / 2 / cells, static_cast<double>(finding.samples) - 1);
+    const auto quantile = [&](double level) {
+        return studentQuantile((1 + level) / 2, static_cast<double>(finding.samples) - 1);
     };
-    const double wider = quantile(static_cast<double>(cellCount)) / quantile(1);
+    const double wider = quantile(familyLevel(cellCount)) / quantile(intervalConfidence);
     cell.ofAll = verdictOf(rule, finding.value - wider * (finding.value - finding.low),
                            finding.value + wider * (finding.high - finding.value));
     return cell;

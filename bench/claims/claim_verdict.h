@@ -11,9 +11,10 @@
 //     not-tested   a row that the rule needs is missing; the note says which
 //
 // The 95 % interval of a cell is Student's over the repetitions (at least 6) or seeds (at least 5), of logarithms for
-// ratios and growths if all values are above 0. For `depends` the level is 1 − 0.05/n for n cells (Bonferroni). An
-// exponent's interval is its fit's, a finding's that of its experiment. Bytes and the like have none. Threads: pure.
-// Source: Student1908.
+// ratios and growths if all values are above 0. A ratio of which a denominator is not above 0, as a method's own time
+// may be, is that of the means over all turns, with Fieller's interval (ratio_of_means.h). For `depends` the level is
+// 1 − 0.05/n for n cells (Bonferroni). An exponent's interval is its fit's, a finding's that of its experiment. Bytes
+// and the like have none. Threads: pure. Source: Student1908, Fieller1954.
 #pragma once
 
 #include <limits>

@@ -75,7 +75,8 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "rmse_linear_mask",
                                  "error_max",
                                  "volume_picture",
-                                 "invalid"})
+                                 "invalid",
+                                 "banding"})
             list.emplace_back(name);
         for (const MethodFact& fact : methodFacts()) list.push_back(fact.info.name);
         return list;

@@ -9,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "bench/measure/image/banding.h"
 #include "bench/measure/image/cutoff.h"
 #include "bench/measure/image/flip.h"
 #include "bench/measure/image/masked_error.h"
@@ -166,6 +167,7 @@ Scores scoresOf(const Flaw& flaw, int level) {
     const MaskedError masked = maskedError(referenceImages[middle], images[middle], mask);
     scores["psnr_mask_db"] = masked.psnrDb;
     scores["rmse_linear_mask"] = masked.rmseLinear;
+    scores["banding"] = banding(referenceImages[middle], images[middle], mask);
     scores["error_max"] = masked.maximum;
     scores["ssim_mask"] = meanWithin(similarity.map, mask);
     scores["flip_mask"] = meanWithin(seen.map, mask);

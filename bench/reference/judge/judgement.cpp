@@ -20,7 +20,7 @@ struct MeanMetric {
 };
 
 /// The metrics that a run reports as a mean over its moments.
-constexpr std::array<MeanMetric, 18> means{{
+constexpr std::array<MeanMetric, 19> means{{
     {{"psnr_db", "peak signal-to-noise ratio against the exact picture, dB"}, &MomentMetrics::psnrDb},
     {{"ssim", "structural similarity to the exact picture, 1: the same"}, &MomentMetrics::ssim},
     {{"flip", "difference from the exact picture that an eye sees when the two alternate, 0: none"},
@@ -30,6 +30,8 @@ constexpr std::array<MeanMetric, 18> means{{
     {{"ssim_mask", "ssim of the windows around dust in either picture"}, &MomentMetrics::ssimMask},
     {{"rmse_linear_mask", "rmse_linear where there is dust in either picture"}, &MomentMetrics::rmseLinearMask},
     {{"error_max", "maximum error of a pixel with dust, linear light"}, &MomentMetrics::errorMax},
+    {{"banding", "error that neighbouring pixels with dust share, linear light; noise averages out"},
+     &MomentMetrics::banding},
     {{"rmse_linear", "root of the mean squared difference of linear light"}, &MomentMetrics::rmseLinear},
     {{"psnr_continuum_db", "psnr_db against 64 times as many particles, dB"}, &MomentMetrics::psnrContinuumDb},
     {{"gaps", "share of the trail that is not covered"}, &MomentMetrics::gaps},

@@ -1,6 +1,7 @@
 #include "bench/reference/judge/moment_metrics.h"
 
 #include "bench/export/extinction_grid.h"
+#include "bench/measure/image/banding.h"
 #include "bench/measure/image/cutoff.h"
 #include "bench/measure/image/flip.h"
 #include "bench/measure/image/image_check.h"
@@ -59,6 +60,7 @@ JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, con
     const MaskedError masked = maskedError(reference, picture, mask);
     metrics.psnrMaskDb = masked.psnrDb;
     metrics.rmseLinearMask = masked.rmseLinear;
+    metrics.banding = banding(reference, picture, mask);
     metrics.errorMax = masked.maximum;
     const Measured similarity = ssim(reference, picture);
     metrics.ssim = similarity.value;

@@ -16,7 +16,7 @@ struct MomentMetrics {
     std::int64_t frame = 0;
     double timeSeconds = 0;
     std::optional<double> psnrDb, ssim, flip, flipMask, rmseLinear, psnrContinuumDb;
-    std::optional<double> psnrMaskDb, ssimMask, rmseLinearMask, errorMax;  ///< within the mask, as flipMask
+    std::optional<double> psnrMaskDb, ssimMask, rmseLinearMask, errorMax, banding;  ///< within the mask, as flipMask
     std::optional<bool> identical;
     std::optional<double> popping;  ///< from the frame before
     std::optional<double> gaps, components, componentsReference, cutoff, selfSimilarity, quadsPerPixel, volumeError,
