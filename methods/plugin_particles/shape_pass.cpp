@@ -8,6 +8,8 @@ std::unique_ptr<ShapePass> makePass(gpu::Device& device, const particles::Look& 
             return makePointPass(device, look);
         case particles::Primitive::lines:
             return makeLinePass(device, look);
+        case particles::Primitive::curves:
+            return makeCurvePass(device, look);
         case particles::Primitive::hybrid:
             return makeHybridPass(device, look);
         case particles::Primitive::objects:

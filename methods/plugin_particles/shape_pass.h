@@ -40,6 +40,8 @@ class ShapePass {
     /// Primitives that a `draw` submits.
     [[nodiscard]] virtual std::size_t count() const = 0;
     [[nodiscard]] virtual std::size_t gpuBytes() const = 0;
+    /// What the pass remembers from one upload to the next.
+    [[nodiscard]] virtual std::size_t cpuBytes() const { return 0; }
 };
 
 /// Throws InputError if the look's picture or mesh cannot be read.
@@ -47,6 +49,7 @@ class ShapePass {
                                                   const scene::Lights& lights);
 [[nodiscard]] std::unique_ptr<ShapePass> makePointPass(gpu::Device& device, const particles::Look& look);
 [[nodiscard]] std::unique_ptr<ShapePass> makeLinePass(gpu::Device& device, const particles::Look& look);
+[[nodiscard]] std::unique_ptr<ShapePass> makeCurvePass(gpu::Device& device, const particles::Look& look);
 [[nodiscard]] std::unique_ptr<ShapePass> makeHybridPass(gpu::Device& device, const particles::Look& look);
 [[nodiscard]] std::unique_ptr<ShapePass> makeSpritePass(gpu::Device& device, const particles::Look& look);
 [[nodiscard]] std::unique_ptr<ShapePass> makeObjectPass(gpu::Device& device, const particles::Look& look,

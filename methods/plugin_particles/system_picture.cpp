@@ -54,6 +54,7 @@ MemoryReport SystemPicture::memory() const {
     MemoryReport report;
     for (const auto& [structure, bytes] : ledger_.entries()) report.push_back({structure, bytes, 0});
     report.push_back({"primitives", 0, pass_->gpuBytes()});
+    if (pass_->cpuBytes() > 0) report.push_back({"last positions", pass_->cpuBytes(), 0});
     const std::size_t buffers = light_.gpuBytes() + oneEye_.gpuBytes() + bothEyes_.gpuBytes();
     if (buffers > 0) report.push_back({"own buffers", 0, buffers});
     return report;

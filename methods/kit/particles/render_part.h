@@ -11,7 +11,7 @@
 namespace dustbench::particles {
 
 /// The shapes that a file can request.
-enum class Primitive { puff, points, lines, hybrid, sprites, movingSprites, objects };
+enum class Primitive { puff, points, lines, curves, hybrid, sprites, movingSprites, objects };
 
 enum class Blending {
     alpha,     ///< C = α·C_particle + (1 − α)·C, sorted far to near
@@ -34,6 +34,8 @@ struct Look {
     float pixels = 0;       ///< of points; 0: the particle's own size
     bool round = false;     ///< points with a Gaussian profile
     float seconds = 0;      ///< of the path that lines and copies show; 0: one step
+    int steps = 1;          ///< of the path that curves show
+    int pieces = 1;         ///< straight pieces of a curve in each step
     std::string picture{};  ///< of sprites, a name in data/textures or a file; empty: a Gaussian
     int copies = 1;         ///< of anti-aliased sprites
     AntiAliasing by = AntiAliasing::copies;

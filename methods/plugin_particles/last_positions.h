@@ -1,0 +1,50 @@
+// Where each particle of a system was at its last steps.
+//
+// The store moves particles when others die: one that is not found at its last index was among those at the end, beyond
+// the present size. One that is not found at all is new: before, it is taken to have moved straight along its velocity.
+//
+// Units: m, s. Frame: world. Owns: the positions, a column for each step and axis. Threads: one writer.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <unordered_map>
+#include <vector>
+
+#include "methods/contract/volume.h"
+
+namespace dustbench::plugin_particles {
+
+class LastPositions {
+ public:
+    /// Keeps `positions` per particle, the present one included; two or more.
+    explicit LastPositions(std::size_t positions) : moments_(positions) {}
+
+    /// Adds the present positions. To be called once a step.
+    void follow(const Puffs& puffs, float stepSeconds);
+
+    /// The position of particle `i`, in the order of the last `follow`, `stepsBack` steps before it.
+    [[nodiscard]] glm::vec3 at(std::size_t i, std::size_t stepsBack) const {
+        const Moment& moment = moments_[(newest_ + moments_.size() - stepsBack) % moments_.size()];
+        return {moment[0][i], moment[1][i], moment[2][i]};
+    }
+    [[nodiscard]] std::size_t bytes() const;
+
+ private:
+    using Moment = std::array<std::vector<float>, 3>;
+    using Places = std::unordered_map<std::uint64_t, std::size_t>;
+
+    /// The particles that were at `size` or beyond, by their serials.
+    [[nodiscard]] Places placesBeyond(std::size_t size) const;
+    void resize(std::size_t size);
+    void begin(const Puffs& puffs, std::size_t i, float stepSeconds);
+    void move(std::size_t from, std::size_t to);
+
+    std::vector<Moment> moments_;  ///< a ring
+    std::size_t newest_ = 0;
+    std::vector<std::uint64_t> serial_;
+};
+
+}  // namespace dustbench::plugin_particles
