@@ -58,6 +58,17 @@ void apply(const Change& change, const std::vector<std::string>& systems, const 
     }
 }
 
+std::vector<particles::NamedParts> systemsOf(const ParameterValues& values) {
+    const auto file = files::findData("particle system", "particles", values.choice("system"), ".toml");
+    auto systems = particles::systemsFromFile(file);
+    try {
+        for (particles::NamedParts& system : systems) particles::scaleSizes(*system.parts, values.real("size_factor"));
+    } catch (const InputError& error) {
+        throw InputError(std::string("parameter size_factor: ") + error.what());
+    }
+    return systems;
+}
+
 /// Tries the changes on copies of the systems.
 void requirePossible(const std::vector<Change>& changes, const std::vector<particles::NamedParts>& systems) {
     std::vector<std::string> names;
@@ -203,6 +214,7 @@ MethodInfo describe() {
     info.source = "Thesis";
     info.parameters.dataFile("system", "wheel_dust", "particles", ".toml", systemNames(),
                              "what is simulated and drawn: one particle system, or several");
+    info.parameters.real("size_factor", 1, 1e-3, 1e3, "", "factor on the sizes of all particles");
     info.parameters.changes("at",
                             "changes of parts and their parameters during the run: 2.5s:velocity.speed=8, "
                             "1s:velocity.part=cone; with several systems 2s:smoke.velocity.speed=8");
@@ -214,8 +226,7 @@ MethodInfo describe() {
                           "particles alive in all systems of the file: maximum of the recorded frames"});
     info.facts.push_back({"systems", "systems", FactOver::lastFrame, "particle systems that the file holds"});
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
-        const auto file = files::findData("particle system", "particles", values.choice("system"), ".toml");
-        return std::make_unique<PluginParticles>(particles::systemsFromFile(file), values.changes("at"));
+        return std::make_unique<PluginParticles>(systemsOf(values), values.changes("at"));
     };
     return info;
 }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/testing/test_folder.h"
 #include "methods/kit/testing/test_input_error.h"
 #include "methods/kit/testing/test_moment.h"
 
@@ -75,6 +76,18 @@ class Counted final : public VolumeVisitor {
     float farthest = 0;
 };
 
+/// Sizes and heights of all particles.
+class Seen final : public VolumeVisitor {
+ public:
+    void puffs(const Puffs& puffs) override {
+        radius.insert(radius.end(), puffs.radius.begin(), puffs.radius.end());
+        height.insert(height.end(), puffs.y.begin(), puffs.y.end());
+    }
+    void octree(const OctreeVolume&) override {}
+    void grid(const GridVolume&) override {}
+    std::vector<float> radius, height;
+};
+
 TEST(PluginParticles, StepsEverySystemAndTellsWhatEachHolds) {
     Moment moment;
     PluginParticles method = made(fountain("one") + fountain("two"));
@@ -113,6 +126,44 @@ TEST(PluginParticles, SystemsDifferByTheirSeedAloneAndByTheRuns) {
     EXPECT_EQ(hashOf(fountain("one"), 3), hashOf(fountain("other"), 3));
     EXPECT_NE(hashOf(fountain("one"), 3), hashOf(fountain("one"), 4));
     EXPECT_NE(hashOf(fountain("one"), 3), hashOf(fountain("one") + fountain("two"), 3));
+}
+
+TEST(PluginParticles, ASizeFactorScalesEverySizeAndNothingElse) {
+    const TestFolder folder;
+    const std::string random = "size = { part = \"random\", average_metres = 0.4, variation_metres = 0.3 }",
+                      linear = "size = { part = \"linear\", start_metres = 0.1, end_metres = 0.7 }",
+                      constant = "size = { part = \"constant\", radius_metres = 0.2 }";
+    for (const std::string& size : {constant, random, linear}) {
+        std::string toml = fountain("one");
+        const auto file = folder.write("sized.toml", toml.replace(toml.find(constant), constant.size(), size));
+        const auto particlesAt = [&](const char* factor) {
+            const MethodInfo info = describe();
+            ParameterValues values(info.parameters);
+            values.set("system", file.string());
+            values.set("size_factor", factor);
+            const auto method = info.create(values);
+            Moment moment;
+            moment.run(*method, 30);
+            Seen seen;
+            method->volume(moment.frame(), seen);
+            return seen;
+        };
+        const Seen one = particlesAt("1"), quarter = particlesAt("0.25");
+        ASSERT_EQ(one.radius.size(), 300u);
+        EXPECT_EQ(quarter.height, one.height);
+        for (std::size_t i = 0; i < one.radius.size(); ++i)
+            EXPECT_NEAR(quarter.radius[i], 0.25f * one.radius[i], 1e-6f) << size;
+        EXPECT_THAT(inputError([&] { (void)particlesAt("1000000"); }), testing::HasSubstr("size_factor"));
+    }
+    std::string large = fountain("one");
+    const auto file = folder.write("large.toml", large.replace(large.find("0.2 }\nlife"), 3, "500"));
+    const MethodInfo info = describe();
+    ParameterValues values(info.parameters);
+    values.set("system", file.string());
+    values.set("size_factor", "10");
+    EXPECT_THAT(inputError([&] { (void)info.create(values); }),
+                testing::AllOf(testing::HasSubstr("size_factor"), testing::HasSubstr("radius_metres"),
+                               testing::HasSubstr("5000")));
 }
 
 TEST(PluginParticles, ShareTheLoadEvenly) {

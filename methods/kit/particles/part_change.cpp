@@ -1,5 +1,7 @@
 #include "methods/kit/particles/part_change.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 
@@ -105,6 +107,17 @@ void changePart(PartList& parts, std::string_view name, std::string_view value) 
     std::string_view rest = name;
     const PartKind kind = kindOf(cutFirst(rest));
     isList(kind) ? changeList(parts, kind, rest, value) : changeSingle(parts, kind, rest, value);
+}
+
+void scaleSizes(PartList& parts, double factor) {
+    const Part* size = parts.size();
+    if (factor == 1 || !size) return;
+    NamedValues scaled;
+    for (const Parameter& parameter : size->values().declared().all())
+        scaled.emplace_back(parameter.name, parameter.unit == "m"
+                                                ? fmt::format("{}", factor * size->values().real(parameter.name))
+                                                : size->values().canonical().at(parameter.name));
+    parts.set(makePart(PartKind::size, size->name(), scaled));
 }
 
 }  // namespace dustbench::particles

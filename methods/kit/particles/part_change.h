@@ -21,4 +21,7 @@ namespace dustbench::particles {
 /// the list would not be a system; the list is then unchanged.
 DUSTBENCH_API void changePart(PartList& parts, std::string_view name, std::string_view value);
 
+/// Multiplies every length of the part that gives sizes. Throws InputError if a length leaves its range.
+DUSTBENCH_API void scaleSizes(PartList& parts, double factor);
+
 }  // namespace dustbench::particles
