@@ -31,6 +31,14 @@ void requireRoom(const ResultsFolder& results, std::uint64_t bytes) {
                                                       bytesText(free), bytesText(bytes)));
 }
 
+/// Begins the reason of runs that their suite leaves out; later suites may run them.
+constexpr std::string_view leftOut = "left out by the suite: ";
+
+/// The suite ran it not, and does now.
+bool isWantedAgain(const PlannedRun& run, const StoredRun& stored) {
+    return run.skip.empty() && stored.status == RunStatus::skipped && stored.reason.starts_with(leftOut);
+}
+
 /// The runs of the plan to do; counts the others in `result`.
 std::vector<const PlannedRun*> chooseRuns(const std::vector<PlannedRun>& plan, const ResultsFolder& results,
                                           const ExecutionOptions& options, ExecutionResult& result) {
@@ -38,7 +46,7 @@ std::vector<const PlannedRun*> chooseRuns(const std::vector<PlannedRun>& plan, c
     std::vector<const PlannedRun*> toDo;
     for (const PlannedRun& run : plan) {
         const auto found = results.runs().find(runId(run.spec));
-        if (found == results.runs().end() || options.force ||
+        if (found == results.runs().end() || options.force || isWantedAgain(run, found->second) ||
             (options.retryFailed && isFailure(found->second.status))) {
             toDo.push_back(&run);
             continue;
@@ -67,9 +75,9 @@ bool coolDown(const ExecutionOptions& options, ExecutionListener& listener) {
     return true;
 }
 
-/// Stores a failed run: its reason and its log.
-void keepFailure(const fs::path& folder, const RunSpec& spec, RunStatus status, const std::string& reason,
-                 const ExecutionOptions& options) {
+/// Stores a run without results: its reason and its log.
+void keepReason(const fs::path& folder, const RunSpec& spec, RunStatus status, const std::string& reason,
+                const ExecutionOptions& options) {
     for (const auto& entry : fs::directory_iterator(folder))
         if (entry.path().filename() != "log.txt") fs::remove_all(entry.path());
     RunRecord record;
@@ -93,6 +101,11 @@ Outcome runOne(const PlannedRun& run, ResultsFolder& results, const ExecutionOpt
     const std::string id = runId(run.spec);
     requireRoom(results, maximumBytesOf(run.spec) + reserveBytes);
     const fs::path folder = results.beginRun(id);
+    if (!run.skip.empty()) {
+        keepReason(folder, run.spec, RunStatus::skipped, std::string(leftOut) + run.skip, options);
+        results.publish(id);
+        return {RunStatus::skipped, results.runs().at(id).reason, false};
+    }
     const fs::path specFile = folder / "spec.json";
     writeWhole(specFile, specToJson(run.spec));
 
@@ -127,7 +140,7 @@ Outcome runOne(const PlannedRun& run, ResultsFolder& results, const ExecutionOpt
         const RunStatus status = outcome.end == End::timedOut ? RunStatus::timeout : RunStatus::failed;
         std::string reason = outcome.succeeded() ? "ended without a result" : outcome.reason();
         if (status == RunStatus::timeout) reason += progress.empty() ? "" : " (at " + progress + ")";
-        keepFailure(folder, run.spec, status, reason, options);
+        keepReason(folder, run.spec, status, reason, options);
     } else if (fs::file_size(command.log) == 0) {
         fs::remove(command.log);
     }

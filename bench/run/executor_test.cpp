@@ -75,6 +75,28 @@ class Executor : public testing::Test {
 
 constexpr const char* good = "cp \"$2\" \"$1/run.json\"";
 
+TEST_F(Executor, RecordsWhatTheSuiteLeavesOutAndRunsItOnceTheSuiteWantsIt) {
+    plan_[2].skip = "takes minutes a frame";
+    for (const std::size_t kept : {0u, 4u}) {
+        const ExecutionResult result = runAll(shell(good));
+        EXPECT_EQ(result.kept, kept);
+        EXPECT_EQ(result.done + result.skipped + result.kept, 4u);
+        const auto table = files::CsvTable::parseFile(out() / "summary.csv");
+        ASSERT_EQ(table.rows(), 4u);
+        int skipped = 0;
+        for (std::size_t row = 0; row < 4; ++row) {
+            if (table.cell(row, "status") != "skipped") continue;
+            ++skipped;
+            EXPECT_EQ(table.cell(row, "reason"), "left out by the suite: takes minutes a frame");
+            EXPECT_EQ(table.cell(row, "seed"), "2");
+        }
+        EXPECT_EQ(skipped, 1);
+    }
+    plan_[2].skip.clear();
+    EXPECT_EQ(runAll(shell(good)).done, 1u);
+    EXPECT_EQ(runAll(shell(good)).kept, 4u);
+}
+
 TEST_F(Executor, KeepsEveryRunAndSummarisesThem) {
     const ExecutionResult result = runAll(shell(good));
     EXPECT_EQ(result.done, 4u);

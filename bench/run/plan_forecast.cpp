@@ -44,6 +44,7 @@ PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& re
     // One run per cell, with metrics if any of its runs has them.
     std::map<std::string, const PlannedRun*> cells;
     for (const PlannedRun* run : toDo) {
+        if (!run->skip.empty()) continue;
         const PlannedRun*& chosen = cells[cellOf(run->spec)];
         if (chosen == nullptr || run->spec.judging) chosen = run;
     }

@@ -33,7 +33,7 @@ Suite withBaselines(Suite suite) {
     std::map<std::string, std::size_t> added;                                    // by world
     std::vector<PlannedRun> baselines;
     for (const PlannedRun& cell : suite.cells) {
-        if (cell.spec.method == baselineMethod) continue;
+        if (cell.spec.method == baselineMethod || !cell.skip.empty()) continue;
         const auto [entry, isNew] = added.try_emplace(worldKey(cell.spec), baselines.size());
         if (isNew)
             baselines.push_back({baselineOf(cell.spec), labelOf(axes, cell.spec), cell.repetitions});

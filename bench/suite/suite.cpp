@@ -44,11 +44,12 @@ bool covers(const Exception& exception, const RunSpec& cell) {
 /// Returns the number of cells that it excludes wholly or in part.
 std::size_t leaveOut(const Exception& exception, std::vector<PlannedRun>& cells) {
     const auto isCovered = [&](const PlannedRun& cell) { return covers(exception, cell.spec); };
-    if (exception.afterRepetition == 0) return std::erase_if(cells, isCovered);
+    if (exception.afterRepetition == 0 && exception.reason.empty()) return std::erase_if(cells, isCovered);
     std::size_t count = 0;
     for (PlannedRun& cell : cells) {
         if (!isCovered(cell)) continue;
-        cell.repetitions = exception.afterRepetition;
+        cell.repetitions = std::max(exception.afterRepetition, 1);
+        cell.skip = exception.reason;
         ++count;
     }
     return count;
@@ -91,7 +92,8 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     // Without repetitions there is no interval, so such a suite is not about time.
     suite.baseline =
         draft.baseline.value_or(suite.repetitions > 1 || !suite.comparisons.empty() || !suite.fits.empty());
-    if (suite.cells.empty()) throw InputError("suite: nothing is left of it by its exceptions");
+    if (std::ranges::all_of(suite.cells, [](const PlannedRun& cell) { return !cell.skip.empty(); }))
+        throw InputError("suite: nothing is left of it by its exceptions");
     for (const PlannedComparison& comparison : suite.comparisons) (void)matchCells(suite, comparison);
     for (const PlannedFit& fit : suite.fits) (void)cellsByLoad(suite, fit);
     return suite;

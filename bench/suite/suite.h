@@ -18,6 +18,7 @@ struct PlannedRun {
     RunSpec spec;
     std::string label;    ///< the parameters that the suite sets: `particles=1000 speed=20`
     int repetitions = 0;  ///< of a cell with fewer than its suite; 0: the same number
+    std::string skip{};   ///< why the suite leaves it out: it is recorded as skipped; empty: it runs
 };
 
 /// interleaved: every repetition is a round over all cells. Each round shuffles the groups of cells (cell_groups.h)

@@ -207,6 +207,10 @@ void readExceptions(files::TomlReader& suite, SuiteDraft& draft) {
         }
         exception.afterRepetition =
             static_cast<int>(table.integer("after_repetition", 0, maximumRepetitions, exception.afterRepetition));
+        exception.reason = table.text("reason", "");
+        if (!exception.reason.empty() && exception.afterRepetition > 0)
+            throw InputError(table.where("reason") +
+                             "key 'reason': got it with after_repetition, allowed: for cells that are left out wholly");
         table.finish();
         draft.exceptions.push_back(std::move(exception));
     }

@@ -18,6 +18,7 @@ struct Exception {
     std::vector<std::string> methods, scenes, drives, sizes;
     ParameterLists parameters;
     int afterRepetition = 0;  ///< repetitions up to this one are kept
+    std::string reason;       ///< recorded with the cells, as skipped; empty: they do not appear
     std::string where;        ///< `file:line: `, for messages
 };
 

@@ -188,6 +188,23 @@ TEST(Suite, ExceptionsLeaveOutTheCellsThatHaveAllTheirValues) {
     EXPECT_THAT(messageOf("[[except]]\n[except.parameters]\nspeed = 0"), HasSubstr("nothing is left"));
 }
 
+TEST(Suite, ExceptionsWithAReasonStayInThePlanAsSkipped) {
+    const std::string text =
+        "methods = [\"null_method\"]\nrepetitions = 3\n[parameters]\nwork = [0, 1]\n"
+        "[[except]]\nreason = \"too much work\"\n[except.parameters]\nwork = 1\n";
+    int others = 0, skipped = 0;
+    for (const PlannedRun& run : planRuns(parseSuite(text, "s.toml", false))) {
+        const bool isLeftOut = run.spec.parameters.at("work") == "1";
+        EXPECT_EQ(run.skip, isLeftOut ? "too much work" : "");
+        ++(isLeftOut ? skipped : others);
+    }
+    EXPECT_EQ(others, 3);
+    EXPECT_EQ(skipped, 1);
+    EXPECT_THAT(messageOf("[[except]]\nreason = \"all\"\n"), HasSubstr("nothing is left"));
+    EXPECT_THAT(messageOf("[[except]]\nafter_repetition = 1\nreason = \"late\"\n"),
+                AllOf(HasSubstr("s.toml:3"), HasSubstr("after_repetition")));
+}
+
 TEST(Suite, ExceptionsAfterARepetitionLeaveTheEarlierOnes) {
     for (const char* order : {"interleaved", "batch"}) {
         const Suite suite = parseSuite("methods = [\"null_method\"]\nrepetitions = 3\norder = \"" + std::string(order) +
