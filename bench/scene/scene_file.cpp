@@ -70,9 +70,9 @@ void readTerrain(TomlReader& table, const std::filesystem::path& folder, SceneFi
 
 /// Reads all copies of one `[[solid]]` table: several are merged into one mesh in world coordinates, a single one gets
 /// a pose.
-void readSolid(TomlReader& table, const std::filesystem::path& folder, SceneFile& result) {
+void readSolid(TomlReader& table, const std::filesystem::path& from, SceneFile& result) {
     const std::string name = table.text("name");
-    const std::filesystem::path file = folder / table.text("mesh");
+    const std::string named = table.text("mesh");
     const glm::vec3 paint = colour(table, "colour", glm::vec3(0.5f), 1);
     const glm::dvec3 position = point(table, "position", {});
     const glm::dvec3 turn = glm::radians(table.vector3("rotation_degrees", {}));
@@ -83,8 +83,10 @@ void readSolid(TomlReader& table, const std::filesystem::path& folder, SceneFile
     const double stepTurn = angle(table, "repeat_turn_degrees", -360, 360, 0);
     table.finish();
 
+    std::filesystem::path file;
     std::shared_ptr<const scene::Mesh> mesh;
     try {
+        file = files::fileNamedBy(from, "scenes", named);
         mesh = std::make_shared<scene::Mesh>(meshes::readMesh(file, paint));
     } catch (const InputError& error) {
         throw InputError(table.where("mesh") + error.what());
@@ -213,7 +215,7 @@ SceneFile readScene(const std::filesystem::path& file) {
     result.scene.dustAlbedo = colour(root, "dust_albedo", result.scene.dustAlbedo, 1);
     readVehicle(root, result.scene);
     readCameras(root, result.cameras);
-    for (TomlReader& table : root.tables("solid")) readSolid(table, folder, result);
+    for (TomlReader& table : root.tables("solid")) readSolid(table, file, result);
     for (TomlReader& table : root.tables("panel"))
         result.scene.panels.push_back(readPanel(table, file, result.scene, result.files));
     root.finish();

@@ -45,6 +45,23 @@ glm::dvec3 volumes(const scene::Mesh& mesh) {
     return sum;
 }
 
+TEST(SceneFile, MeshesLieBesideTheFileElseAmongTheData) {
+    const TestFolder folder;
+    const auto meshOf = [&](const std::string& mesh) {
+        return readScene(folder.write("mine.toml",
+                                      "description = \"\"\n[[solid]]\nname = \"stone\"\nmesh = \"" + mesh + "\"\n"))
+            .files.back();
+    };
+    EXPECT_EQ(meshOf("meshes/rock.obj"), files::dataFolder() / "scenes/meshes/rock.obj");
+    std::filesystem::create_directories(folder.path() / "meshes");
+    std::filesystem::copy_file(files::dataFolder() / "scenes/meshes/crate.ply", folder.path() / "meshes/rock.obj.ply");
+    EXPECT_EQ(meshOf("meshes/rock.obj.ply"), folder.path() / "meshes/rock.obj.ply");
+    EXPECT_THAT(
+        inputError([&] { (void)meshOf("meshes/rok.obj"); }),
+        testing::AllOf(HasSubstr("mine.toml:4"), HasSubstr("tried " + (folder.path() / "meshes/rok.obj").string()),
+                       HasSubstr((files::dataFolder() / "scenes/meshes/rok.obj").string())));
+}
+
 TEST(SceneFile, SolidsOfTheBuiltInScenesAreClosedAndWoundAsSeenFromOutside) {
     int solids = 0;
     for (const std::string& id : files::listData("scenes", ".toml"))
@@ -163,7 +180,7 @@ TEST(SceneFile, SaysFileLineAndWhatWasExpectedOfBadInput) {
     EXPECT_THAT(message(head + "[camera.front]\nx = 1\n"), HasSubstr("'front'"));
     EXPECT_THAT(message(head + "[camera.fixed]\neye = [1, 1, 1]\ntarget = [1, 1, 1]\n"), HasSubstr("another point"));
     EXPECT_THAT(message(head + "[[solid]]\nname = \"a\"\nmesh = \"none.obj\"\n"),
-                HasSubstr("none.obj: the mesh cannot be read"));
+                HasSubstr("'none.obj': no such file, tried "));
     EXPECT_THAT(message(head + "[[solid]]\nname = \"a\"\nmesh = \"bad.obj\"\n"), HasSubstr("bad.obj"));
     const std::string field = "[terrain]\nkind = \"height_field\"\nspacing_metres = 1\nheight_metres = 1\n";
     EXPECT_THAT(message(head + field + "image = \"none.png\"\n"), HasSubstr("none.png"));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/data_folder.h"
 #include "methods/voxel_shape/shape_file.h"
 
 namespace dustbench::voxel_shape {
@@ -154,7 +155,7 @@ VoxelEdit readEditWords(EditKind kind, std::string_view option, std::string_view
     const std::string name = named(option, words), toml = editAsToml(kind, option, words, here);
     try {
         files::TomlReader table = files::TomlReader::parseText(toml, name);
-        VoxelEdit edit = readEdit(table, here);
+        VoxelEdit edit = readEdit(table, here / "words.toml");
         edit.where = name + ": ";
         return edit;
     } catch (const InputError& error) {
@@ -167,6 +168,17 @@ VoxelEdit readEditWords(EditKind kind, std::string_view option, std::string_view
     }
 }
 
+namespace {
+
+/// The path of a shape file in `folder` for what one in `from`'s folder names; data keep their names.
+std::string renamed(const std::string& named, const fs::path& from, const fs::path& folder) {
+    const fs::path beside = from.parent_path() / named;
+    const bool isData = !fs::exists(beside) && !files::dataPath(fs::path("shapes") / named).empty();
+    return named == "vehicle" || isData ? named : pathFrom(folder, beside);
+}
+
+}  // namespace
+
 std::string withEdits(std::string_view text, const fs::path& from, const fs::path& folder, std::string_view edits) {
     static const std::regex saved(R"((^|\n)[ \t]*save_voxels_as[ \t]*=[^\n]*)");
     static const std::regex path(
@@ -177,7 +189,7 @@ std::string withEdits(std::string_view text, const fs::path& from, const fs::pat
     for (std::sregex_iterator at(own.begin(), own.end(), path), end; at != end; ++at) {
         const std::string file = (*at)[2].matched ? (*at)[2].str() : (*at)[3].str();
         out.append(last, (*at)[0].first).append((*at)[1].str());
-        out += tomlText(file == "vehicle" ? file : pathFrom(folder, from.parent_path() / file));
+        out += tomlText(renamed(file, from, folder));
         last = (*at)[0].second;
     }
     out.append(last, own.cend());

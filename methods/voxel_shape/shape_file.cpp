@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/data_folder.h"
 #include "methods/kit/meshes/mesh_file.h"
 #include "methods/kit/meshes/open_edges.h"
 #include "methods/kit/volumes/vector_series.h"
@@ -85,9 +86,18 @@ VoxelChange readChange(TomlReader& table) {
     return change;
 }
 
+/// The file that `key` of the shape's file `from` names.
+std::filesystem::path fileAt(TomlReader& table, std::string_view key, const std::filesystem::path& from) {
+    try {
+        return files::fileNamedBy(from, "shapes", table.text(key));
+    } catch (const InputError& error) {
+        throw InputError(table.where(key) + "key '" + std::string(key) + "': " + error.what());
+    }
+}
+
 /// Reads the interior of a closed mesh, placed in the shape's frame.
-std::shared_ptr<const SolidSpace> readRegion(TomlReader& table, const std::filesystem::path& folder) {
-    const scene::Mesh mesh = meshes::readMesh(folder / table.text("mesh"), glm::vec3(0));
+std::shared_ptr<const SolidSpace> readRegion(TomlReader& table, const std::filesystem::path& from) {
+    const scene::Mesh mesh = meshes::readMesh(fileAt(table, "mesh", from), glm::vec3(0));
     if (meshes::openEdges(mesh) > 0)
         throw InputError(table.where("mesh") + "key 'mesh': the mesh has " + std::to_string(meshes::openEdges(mesh)) +
                          " open edges, expected a closed mesh");
@@ -96,13 +106,29 @@ std::shared_ptr<const SolidSpace> readRegion(TomlReader& table, const std::files
     return std::make_shared<const SolidSpace>(mesh, glm::scale(glm::translate(glm::mat4(1), place), glm::vec3(scale)));
 }
 
-void readSource(TomlReader& file, const std::filesystem::path& folder, Shape& shape) {
+/// Reads the mesh, or `mesh_otherwise` where it is missing.
+void readMeshName(TomlReader& file, const std::filesystem::path& from, Shape& shape) {
+    const std::string mesh = file.text("mesh");
+    shape.source = mesh == "vehicle" ? Source::vehicle : Source::mesh;
+    const bool hasOther = file.has("mesh_otherwise");
+    const std::string other = file.text("mesh_otherwise", "");
+    if (shape.source == Source::vehicle) return;
+    try {
+        shape.mesh = fileAt(file, "mesh", from);
+    } catch (const InputError&) {
+        if (!hasOther) throw;
+        shape.mesh = fileAt(file, "mesh_otherwise", from);
+    }
+}
+
+void readSource(TomlReader& file, const std::filesystem::path& from, Shape& shape) {
     if (int{file.has("grid")} + int{file.has("mesh")} + int{file.has("voxels_from")} != 1)
         throw InputError(file.where("mesh") + "expected exactly one of mesh, [grid] and voxels_from");
-    if (const std::string saved = file.text("save_voxels_as", ""); !saved.empty()) shape.savedVoxels = folder / saved;
+    if (const std::string saved = file.text("save_voxels_as", ""); !saved.empty())
+        shape.savedVoxels = from.parent_path() / saved;
     if (file.has("voxels_from")) {
         shape.source = Source::voxels;
-        shape.mesh = folder / file.text("voxels_from");
+        shape.mesh = fileAt(file, "voxels_from", from);
         return;
     }
     if (file.has("grid")) {
@@ -119,12 +145,7 @@ void readSource(TomlReader& file, const std::filesystem::path& folder, Shape& sh
         grid.finish();
         return;
     }
-    const std::string mesh = file.text("mesh");
-    shape.source = mesh == "vehicle" ? Source::vehicle : Source::mesh;
-    shape.mesh = folder / mesh;
-    const std::string other = file.text("mesh_otherwise", "");
-    if (shape.source == Source::mesh && !other.empty() && !std::filesystem::exists(shape.mesh))
-        shape.mesh = folder / other;
+    readMeshName(file, from, shape);
     shape.turn = glm::radians(vector(file, "turn_degrees", 360, glm::dvec3(0)));
     shape.lightFromAbove = number(file, "light_from_above", 0, 1, 0);
     shape.longestSideMetres = number(file, "longest_side_metres", 0, far, 0);
@@ -231,9 +252,9 @@ void readTrack(TomlReader& file, Shape& shape) {
 }
 
 /// Reads the further shapes of a scene.
-void readOthers(TomlReader& file, const std::filesystem::path& folder, Shape& shape) {
+void readOthers(TomlReader& file, const std::filesystem::path& from, Shape& shape) {
     for (TomlReader& table : file.tables("also")) {
-        Shape other = readShape(folder / table.text("shape"));
+        Shape other = readShape(fileAt(table, "shape", from));
         if (!other.others.empty())
             throw InputError(table.where("shape") + "key 'shape': " + other.name +
                              " contains further shapes ([[also]]); expected a single shape");
@@ -248,7 +269,7 @@ void readOthers(TomlReader& file, const std::filesystem::path& folder, Shape& sh
 
 }  // namespace
 
-VoxelEdit readEdit(TomlReader& table, const std::filesystem::path& folder) {
+VoxelEdit readEdit(TomlReader& table, const std::filesystem::path& from) {
     VoxelEdit edit;
     edit.where = table.where();
     const bool box = table.has("min") || table.has("max"),
@@ -263,7 +284,7 @@ VoxelEdit readEdit(TomlReader& table, const std::filesystem::path& folder) {
         edit.radiusMetres = static_cast<float>(table.number("radius_metres", 1e-4, far));
     } else if (mesh) {
         edit.region = VoxelEdit::Region::mesh;
-        edit.mesh = readRegion(table, folder);
+        edit.mesh = readRegion(table, from);
     } else {
         edit.minimum = table.vector3("min");
         edit.maximum = table.vector3("max");
@@ -285,7 +306,7 @@ Shape readShape(const std::filesystem::path& path) {
     Shape shape;
     shape.name = path.filename().string();
     (void)file.text("description");
-    readSource(file, path.parent_path(), shape);
+    readSource(file, path, shape);
     shape.meshColour = colour(file, "colour", shape.meshColour);
     shape.particles = static_cast<std::uint32_t>(file.integer("particles", 1, 10'000'000, shape.particles));
     if (shape.source == Source::voxels && (file.has("voxels") || file.has("particles")))
@@ -309,14 +330,14 @@ Shape readShape(const std::filesystem::path& path) {
     otherwise(shape.voxels.interpolationSeconds, 0.2f);
     otherwise(shape.voxels.picturesPerSecond, 0);
     if (!shape.voxels.fadingSizeVoxels) shape.voxels.fadingSizeVoxels = shape.voxels.sizeVoxels;
-    for (TomlReader& table : file.tables("edit")) shape.edits.push_back(readEdit(table, path.parent_path()));
+    for (TomlReader& table : file.tables("edit")) shape.edits.push_back(readEdit(table, path));
     readMotion(file, shape);
     readCollision(file, shape);
     readLook(file, shape);
     readStress(file, shape);
     readFlow(file, path.parent_path(), shape);
     readTrack(file, shape);
-    readOthers(file, path.parent_path(), shape);
+    readOthers(file, path, shape);
     file.finish();
     return shape;
 }

@@ -1,9 +1,11 @@
 // Options of a run of shapes: the paper's law or ours, a particle number to hold, several shapes at once.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "methods/kit/files/data_folder.h"
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/testing/test_input_error.h"
 #include "methods/kit/testing/test_moment.h"
@@ -35,6 +37,23 @@ std::unique_ptr<Method> presetWith(const std::vector<std::pair<const char*, cons
     ParameterValues values(info.parameters);
     for (const auto& [name, value] : settings) values.set(name, value);
     return info.create(values);
+}
+
+TEST(ShapeFile, MeshesLieBesideTheFileElseAmongTheData) {
+    const TestFolder folder;
+    const auto shapeWith = [&](const std::string& keys) {
+        return readShape(folder.write("mine.toml", "description = \"\"\n" + keys + "\n[place]\nfollow = \"world\"\n"));
+    };
+    const std::filesystem::path hare = files::dataFolder() / "shapes/meshes/hare.ply";
+    EXPECT_EQ(shapeWith("mesh = \"meshes/hare.ply\"").mesh, hare);
+    EXPECT_EQ(shapeWith("mesh = \"none.ply\"\nmesh_otherwise = \"meshes/hare.ply\"").mesh, hare);
+    (void)ballFile(folder);
+    EXPECT_EQ(shapeWith("mesh = \"ball.obj\"\nmesh_otherwise = \"meshes/hare.ply\"").mesh, folder.path() / "ball.obj");
+    EXPECT_THAT(inputError([&] { (void)shapeWith("mesh = \"bal.obj\""); }),
+                testing::AllOf(testing::HasSubstr("mine.toml:2"),
+                               testing::HasSubstr("tried " + (folder.path() / "bal.obj").string()),
+                               testing::HasSubstr((files::dataFolder() / "shapes/bal.obj").string()),
+                               testing::HasSubstr("did you mean '" + (folder.path() / "ball.obj").string() + "'?")));
 }
 
 class Moment : public TestMoment {

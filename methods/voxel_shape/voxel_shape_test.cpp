@@ -172,8 +172,10 @@ TEST(ShapeFile, SaysInOneLineWhatIsWrong) {
     folder.write("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const std::string grid = "[grid]\ncells = [2, 1, 1]\nedge_metres = 1\n";
     expect("", "expected exactly one of mesh, [grid] and voxels_from");
-    expect("voxels_from = \"no.vti\"\n", "no.vti: the voxels cannot be read");
-    expect("voxels_from = \"no.vti\"\nparticles = 3\n", "particles are not allowed with it");
+    expect("voxels_from = \"no.vti\"\n", "'no.vti': no such file, tried ");
+    folder.write("bad.vti", "no voxels\n");
+    expect("voxels_from = \"bad.vti\"\n", "bad.vti: not a complete VTK image data file");
+    expect("voxels_from = \"bad.vti\"\nparticles = 3\n", "particles are not allowed with it");
     expect("mesh = \"vehicle\"\nresolution = 300\n", "resolution");
     expect("mesh = \"vehicle\"\nresolutoin = 30\n", "resolutoin");
     expect("mesh = \"none.ply\"\n", "none.ply");

@@ -1,6 +1,7 @@
 #include "methods/kit/files/data_folder.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -114,6 +115,26 @@ bool isDataFile(std::string_view nameOrFile, std::string_view extension) {
 std::string fromFile(const fs::path& from, const std::string& nameOrFile, std::string_view extension) {
     if (!isDataFile(nameOrFile, extension)) return nameOrFile;
     return (from.parent_path() / nameOrFile).lexically_normal().string();
+}
+
+fs::path fileNamedBy(const fs::path& from, std::string_view folder, const std::string& named) {
+    const fs::path beside = (from.parent_path() / named).lexically_normal();
+    std::vector<std::string> tried;
+    const auto isThere = [&](const fs::path& file) {
+        if (fs::is_regular_file(file)) return true;
+        if (std::ranges::find(tried, file.string()) == tried.end()) tried.push_back(file.string());
+        return false;
+    };
+    fs::path found = isThere(beside) ? beside : fs::path();
+    if (found.empty() && fs::path(named).is_relative())
+        for (const fs::path& data : dataFolders())
+            if (const fs::path file = (data / folder / named).lexically_normal(); found.empty() && isThere(file))
+                found = file;
+    if (found.empty())
+        throw InputError(
+            fmt::format("'{}': no such file, tried {}{}", named, fmt::join(tried, ", "), nearestBeside(beside)));
+    noteInput(found);
+    return found;
 }
 
 fs::path findData(std::string_view kind, std::string_view folder, std::string_view nameOrFile,

@@ -41,6 +41,12 @@ DUSTBENCH_API void useDataFolders(std::string_view option, const std::vector<std
 [[nodiscard]] DUSTBENCH_API std::string fromFile(const std::filesystem::path& from, const std::string& nameOrFile,
                                                  std::string_view extension);
 
+/// The file that the data file `from` names by a path: relative to `from`, so that both can be moved together, else as
+/// `<folder>/<named>` among the data. Notes it as an input. Throws InputError with the places that were tried and the
+/// nearest name.
+[[nodiscard]] DUSTBENCH_API std::filesystem::path fileNamedBy(const std::filesystem::path& from,
+                                                              std::string_view folder, const std::string& named);
+
 /// The file that a name of `<folder>` stands for, or the file itself. Throws InputError with the nearest name or file;
 /// `kind` is the word for messages: `scene`, `drive`.
 [[nodiscard]] DUSTBENCH_API std::filesystem::path findData(std::string_view kind, std::string_view folder,

@@ -57,6 +57,31 @@ TEST_F(DataFolders, AddNamesAndTheFirstThatHasANameWins) {
     EXPECT_EQ(dataFolders().back(), dataFolder()) << "what is delivered is always last";
 }
 
+TEST_F(DataFolders, AFileNamedInAFileLiesBesideItElseAmongTheData) {
+    const fs::path beside = add("own/meshes", "stone.ply"), both = add("mine", "shapes/meshes/stone.ply"),
+                   data = add("mine", "shapes/meshes/tree.ply");
+    (void)add("theirs", "shapes/meshes/tree.ply");
+    const fs::path from = folder_.path() / "own" / "shape.toml";
+    useDataFolders("--data", {at("mine"), at("theirs")});
+    const auto named = [&](const std::string& file) { return fileNamedBy(from, "shapes", file); };
+    EXPECT_EQ(named("meshes/stone.ply"), beside);
+    EXPECT_EQ(named("./meshes/../meshes/stone.ply"), beside);
+    EXPECT_EQ(named("meshes/tree.ply"), data);
+    EXPECT_EQ(named("meshes/hare.ply"), dataFolder() / "shapes/meshes/hare.ply");
+    EXPECT_EQ(named(both.string()), both);
+    // Where the program was started does not count.
+    const fs::path before = fs::current_path();
+    fs::current_path(folder_.path() / "own" / "meshes");
+    EXPECT_THAT(inputError([&] { (void)named("stone.ply"); }), HasSubstr("'stone.ply': no such file"));
+    fs::current_path(before);
+    EXPECT_THAT(inputError([&] { (void)named("meshes/stome.ply"); }),
+                AllOf(HasSubstr("'meshes/stome.ply': no such file, tried " + at("own/meshes/stome.ply") + ", " +
+                                at("mine/shapes/meshes/stome.ply") + ", "),
+                      HasSubstr("did you mean '" + beside.string() + "'?")));
+    EXPECT_EQ(inputError([&] { (void)named("/nowhere/a.ply"); }),
+              "'/nowhere/a.ply': no such file, tried /nowhere/a.ply");
+}
+
 TEST_F(DataFolders, OfTheEnvironmentAreSeparatedByColons) {
     (void)add("mine", "drives/loop.csv");
     (void)add("theirs", "drives/lap.csv");

@@ -30,19 +30,16 @@ std::vector<std::string> keysOf(const ParameterSet& declared) {
     return keys;
 }
 
-/// A file that a particle file names: beside that file if it is there, so that both can be moved together; else what
-/// the name means among the data.
-std::string namedBeside(const std::filesystem::path& from, const Parameter& parameter, const std::string& text) {
+/// Replaces a path by the file that it stands for, absolute; a name stays as it is.
+std::string fileOf(const std::filesystem::path& from, const Parameter& parameter, const std::string& text) {
     if (from.empty() || parameter.fileExtension.empty()) return text;
-    const std::filesystem::path named(text), beside = from.parent_path() / named;
-    const bool isFile = named.has_extension() || named.has_parent_path();
-    if (!isFile) return text;
-    if (std::filesystem::is_regular_file(beside)) return std::filesystem::absolute(beside).lexically_normal().string();
-    const auto data = files::dataPath(std::filesystem::path(parameter.dataFolder) / named);
-    if (data.empty())
-        throw InputError("parameter " + parameter.name + ": got '" + text + "', but there is no file '" +
-                         beside.lexically_normal().string() + "' and no such data" + files::nearestBeside(beside));
-    return data.string();
+    const std::filesystem::path named(text);
+    if (!named.has_extension() && !named.has_parent_path()) return text;
+    try {
+        return std::filesystem::absolute(files::fileNamedBy(from, parameter.dataFolder, text)).lexically_normal();
+    } catch (const InputError& error) {
+        throw InputError("parameter " + parameter.name + ": " + error.what());
+    }
 }
 
 void readParameter(files::TomlReader& table, const std::filesystem::path& from, const PartInfo& info,
@@ -54,7 +51,7 @@ void readParameter(files::TomlReader& table, const std::filesystem::path& from, 
         throw InputError("parameter " + key + ": got " + std::to_string(texts.size()) + " values, expected " +
                          std::to_string(parameters.size()));
     for (std::size_t i = 0; i < texts.size(); ++i)
-        values.set(parameters[i]->name, namedBeside(from, *parameters[i], texts[i]));
+        values.set(parameters[i]->name, fileOf(from, *parameters[i], texts[i]));
 }
 
 /// Runs `action` and prefixes its errors with the position of `key`.
