@@ -77,6 +77,8 @@ int printPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, const
         if (const auto found = stored.find(id); found != stored.end()) {
             state = freshness.whyOutdated(found->second).empty() ? bench::runStatuses.wordOf(found->second.status)
                                                                  : "outdated";
+        } else if (!run.skip.empty()) {
+            state = "left out";
         } else {
             ++toDo;
             bytes += bench::maximumBytesOf(run.spec);
