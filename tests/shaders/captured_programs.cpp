@@ -40,9 +40,11 @@ const std::map<std::string, std::vector<std::string>> decidingValues{
      {"0s:render.part=points", "0s:render.part=points;0s:render.round=on",
       "0s:render.part=points;0s:render.blend=alpha", "0s:render.part=lines",
       "0s:render.part=lines;0s:render.fade=off;0s:render.blend=alpha", "0s:render.part=lines;0s:render.blend=alpha",
-      "0s:render.part=hybrid;0s:render.stereo=on", "0s:render.part=sprites",
-      "0s:render.part=sprites;0s:render.blend=alpha", "0s:render.part=sprites;0s:render.picture=puff",
-      "0s:render.part=aa_sprites", "0s:render.part=aa_sprites;0s:render.blend=alpha;0s:render.picture=puff",
+      "0s:render.part=curves", "0s:render.part=curves;0s:render.fade=off;0s:render.blend=alpha",
+      "0s:render.part=curves;0s:render.blend=alpha", "0s:render.part=hybrid;0s:render.stereo=on",
+      "0s:render.part=sprites", "0s:render.part=sprites;0s:render.blend=alpha",
+      "0s:render.part=sprites;0s:render.picture=puff", "0s:render.part=aa_sprites",
+      "0s:render.part=aa_sprites;0s:render.blend=alpha;0s:render.picture=puff",
       "0s:render.part=aa_sprites;0s:render.by=accumulation", "0s:render.part=objects",
       "0s:render.part=objects;0s:render.along_velocity=on", "0s:render.blend=additive"}}};
 
