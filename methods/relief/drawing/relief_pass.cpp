@@ -28,17 +28,6 @@ std::map<std::string, std::string> definitions(const ReliefStyle& style, const s
     return result;
 }
 
-/// The plate is near or partly beside the picture, so that its triangles are cut.
-bool isCut(const scene::Panel& panel, const glm::dmat4& panelToClip, double nearMetres) {
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec2 side((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5);
-        const glm::dvec4 place(side * panel.sizeMetres, (corner & 4) != 0 ? 0.0 : -panel.depthMetres, 1);
-        const glm::dvec4 clip = panelToClip * place;
-        if (clip.w < 2 * nearMetres || std::max(std::abs(clip.x), std::abs(clip.y)) > clip.w) return true;
-    }
-    return false;
-}
-
 std::uint8_t toByte(float share) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
 }
@@ -161,11 +150,6 @@ void ReliefPass::draw(const scene::View& view, const glm::dmat4& panelToWorld, c
     const glm::dvec3 eye = glm::transpose(glm::dmat3(panelToWorld)) * -glm::dvec3(panelToEye[3]);
     const glm::dmat4 panelToClip = glm::dmat4(centred.worldToClip()) * panelToEye;
     program_.set("panelToClip", glm::mat4(panelToClip));
-    const bool wholePicture = !mesh_ && isCut(panel_, panelToClip, view.camera.nearMetres);
-    if (!mesh_) {
-        program_.set("wholePicture", wholePicture ? 1 : 0);
-        program_.set("clipToPanel", glm::mat4(glm::inverse(panelToClip)));
-    }
     program_.set("eye", glm::vec3(eye));
     program_.set("pixelAngle", static_cast<float>(2 * std::tan(view.camera.verticalFieldOfView / 2) / view.height));
     program_.set("plate", glm::vec3(panel_.sizeMetres / 2.0, panel_.depthMetres));
@@ -180,7 +164,7 @@ void ReliefPass::draw(const scene::View& view, const glm::dmat4& panelToWorld, c
     if (mesh_)
         gpu::drawIndexed(program_, mesh_->vertices(), opaque, gpu::Primitives::triangles, mesh_->indexCount());
     else
-        gpu::draw(program_, noVertices_, opaque, gpu::Primitives::triangleStrip, wholePicture ? 3 : stripVertices);
+        gpu::draw(program_, noVertices_, opaque, gpu::Primitives::triangleStrip, stripVertices);
 }
 
 void ReliefPass::bindSurface() {

@@ -170,6 +170,30 @@ TEST_F(ReliefPassTest, TheMarchAndTheMeshShowTheSameWhereThePlateReachesBesideTh
     }
 }
 
+// From 3 cm to 1 m before a wall, in all directions: most of the plate lies beside the picture or behind the eye, so
+// that its triangles are cut.
+TEST_F(ReliefPassTest, NoPixelIsLostWhereThePlateReachesBehindTheEye) {
+    auto stripes = std::make_shared<scene::Relief>();
+    stripes->columns = stripes->rows = 128;
+    for (int i = 0; i < 128 * 128; ++i) stripes->depth.push_back(i / 16 % 2 == 0 ? 0.0f : 0.4f);
+    stripes->colour.assign(stripes->depth.size(), glm::vec3(0.5f));
+    panel_.relief = stripes;
+    panel_.sizeMetres = {4, 2};
+    panel_.depthMetres = 0.12;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> any(-1, 1);
+    Compared all;
+    for (int n = 0; n < 60; ++n) {
+        const glm::dvec3 eye(2.5 * any(random), 1.2 * any(random), std::pow(10.0, -0.75 + 0.75 * any(random)));
+        const glm::dvec3 target = eye + glm::dvec3(any(random), any(random), -0.3 * (1 + any(random)));
+        const Compared found = compare(viewFrom(eye, target), {});
+        EXPECT_LE(found.missed, 3) << n;  // rays along an edge of the plate
+        all.seen += found.seen, all.missed += found.missed, all.differ += found.differ;
+    }
+    EXPECT_GT(all.seen, 60 * width * height / 4);
+    EXPECT_LE(all.missed + all.differ, all.seen / 10'000);
+}
+
 // Within the plate: in a pit one sees its floor and walls; within the solid, through it.
 TEST_F(ReliefPassTest, AnEyeWithinThePlateSeesThePitItIsIn) {
     auto pit = std::make_shared<scene::Relief>();
