@@ -112,6 +112,27 @@ TEST(ClaimRules, ARatioOfTimesNearZeroIsThatOfTheMeans) {
     EXPECT_EQ(open.verdict, ClaimVerdict::unresolved);
 }
 
+TEST(ClaimRules, AFindingThatWasNotMeasuredTestsNothingAndItsNoteSaysWhy) {
+    Rule rule;
+    rule.quantity = Quantity::finding;
+    rule.experiment = "ageing";
+    rule.column = "crossover";
+    rule.minimum = 0;
+    StoredFinding finding;
+    finding.experiment = rule.experiment;
+    finding.quantity = rule.column;
+    finding.value = finding.low = finding.high = std::nan("");
+    finding.note = "skipped: too many tests";
+    const ClaimResult skipped = judgeFinding(rule, {finding});
+    EXPECT_EQ(skipped.verdict, ClaimVerdict::notTested);
+    EXPECT_EQ(skipped.note, finding.note);
+    finding.value = finding.low = finding.high = 1;
+    finding.note = "one of two cells skipped";
+    const ClaimResult partly = judgeFinding(rule, {finding});
+    EXPECT_EQ(partly.verdict, ClaimVerdict::confirmed);
+    EXPECT_EQ(partly.note, finding.note);
+}
+
 TEST(ClaimRules, FewerRepetitionsThanSixResolveNothing) {
     const ClaimResult result = judged(faster, [](const std::string& method, int particles, int repetition) {
         return repetition == 2 ? std::nan("") : (method == "haze" ? 0.5 : 1) * particles;

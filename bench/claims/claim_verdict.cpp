@@ -272,6 +272,11 @@ ClaimResult judgeFinding(const Rule& rule, const std::vector<StoredFinding>& fin
             result.note = fmt::format("experiments.csv has no {} of the experiment '{}'", quantity, rule.experiment);
             return result;
         }
+        if (!found->note.empty()) result.note += (result.note.empty() ? "" : "; ") + found->note;
+        if (!std::isfinite(found->value)) {
+            result.cells.clear();
+            return result;
+        }
         result.cells.push_back(judgeOneFinding(rule, *found, quantities.size()));
         values.push_back(found->value);
     }
@@ -282,7 +287,7 @@ ClaimResult judgeFinding(const Rule& rule, const std::vector<StoredFinding>& fin
     }
     decide(result);
     if (result.verdict == ClaimVerdict::unresolved && result.cells.size() > 1)
-        result.note = openCells(rule, result.cells);
+        result.note += (result.note.empty() ? "" : "; ") + openCells(rule, result.cells);
     return result;
 }
 

@@ -59,7 +59,7 @@ struct ClaimResult {
     double measured = std::numeric_limits<double>::quiet_NaN();  ///< mean over the cells
     double low = std::numeric_limits<double>::quiet_NaN();
     double high = std::numeric_limits<double>::quiet_NaN();
-    std::string note{};       ///< why it is not tested or not resolved
+    std::string note{};       ///< why it is not tested or not resolved; what its experiment left out
     std::string condition{};  ///< in which cells it is true, if in some only
     std::vector<ClaimCell> cells{};
     std::vector<std::string> runs{};  ///< ids of all runs used

@@ -2,11 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "bench/claims/lent_context.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
+namespace {
+
+/// An empty cell is a number that was not measured.
+double numberOrNan(const files::CsvTable& table, std::size_t row, std::string_view column) {
+    return table.cell(row, column).empty() ? std::numeric_limits<double>::quiet_NaN() : table.number(row, column);
+}
+
+}  // namespace
 
 std::vector<std::string> experimentNames() {
     std::vector<std::string> names;
@@ -14,20 +24,20 @@ std::vector<std::string> experimentNames() {
     return names;
 }
 
-std::vector<StoredFinding> runExperiment(std::string_view name, std::uint64_t seed) {
+std::vector<StoredFinding> runExperiment(std::string_view name, bool quick, std::uint64_t seed) {
     const ExperimentInfo& info = findExperiment(name);
-    LentContext context(seed);
+    LentContext context(seed, quick);
     std::vector<StoredFinding> findings;
     for (Finding& finding : info.run(context)) findings.push_back({std::move(finding), info.id});
     return findings;
 }
 
 std::string findingsCsv(const std::vector<StoredFinding>& findings) {
-    std::string text = "experiment,quantity,value,low,high,samples\n";
+    std::string text = "experiment,quantity,value,low,high,samples,note\n";
     for (const StoredFinding& finding : findings)
-        text +=
-            fmt::format("{},{},{},{},{},{}\n", finding.experiment, finding.quantity, files::csvNumber(finding.value),
-                        files::csvNumber(finding.low), files::csvNumber(finding.high), finding.samples);
+        text += fmt::format("{},{},{},{},{},{},{}\n", finding.experiment, finding.quantity,
+                            files::csvNumber(finding.value), files::csvNumber(finding.low),
+                            files::csvNumber(finding.high), finding.samples, files::csvCell(finding.note));
     return text;
 }
 
@@ -36,10 +46,13 @@ std::vector<StoredFinding> readFindings(const std::filesystem::path& folder) {
     std::vector<StoredFinding> findings;
     if (!std::filesystem::exists(file)) return findings;
     const files::CsvTable table = files::CsvTable::parseFile(file);
+    const bool hasNotes = table.hasColumn("note");  // older results do not
     for (std::size_t row = 0; row < table.rows(); ++row)
-        findings.push_back({{table.cell(row, "quantity"), table.number(row, "value"), table.number(row, "low"),
-                             table.number(row, "high"), static_cast<std::int64_t>(table.number(row, "samples"))},
-                            table.cell(row, "experiment")});
+        findings.push_back(
+            {{table.cell(row, "quantity"), numberOrNan(table, row, "value"), numberOrNan(table, row, "low"),
+              numberOrNan(table, row, "high"), static_cast<std::int64_t>(table.number(row, "samples")),
+              hasNotes ? table.cell(row, "note") : std::string()},
+             table.cell(row, "experiment")});
     return findings;
 }
 

@@ -20,7 +20,8 @@ struct StoredFinding : Finding {
 [[nodiscard]] std::vector<std::string> experimentNames();
 
 /// Throws InputError for an unknown name, or if an experiment needs OpenGL and it is not available.
-[[nodiscard]] std::vector<StoredFinding> runExperiment(std::string_view name, std::uint64_t seed = 1);
+[[nodiscard]] std::vector<StoredFinding> runExperiment(std::string_view name, bool quick = false,
+                                                       std::uint64_t seed = 1);
 
 [[nodiscard]] std::string findingsCsv(const std::vector<StoredFinding>& findings);
 /// Findings of a results folder; none if it has no experiments.csv. Throws InputError if it cannot be read.

@@ -1,5 +1,5 @@
-// The context that the harness lends to an experiment: its seed, worlds as in runs, and an OpenGL device created on
-// first use.
+// The context that the harness lends to an experiment: its seed and form, worlds as in runs, and an OpenGL device
+// created on first use.
 //
 // Owns: the device. Worlds are owned by the caller.
 #pragma once
@@ -17,9 +17,10 @@ namespace dustbench::bench {
 
 class LentContext final : public ExperimentContext {
  public:
-    explicit LentContext(std::uint64_t seed) : seed_(seed) {}
+    explicit LentContext(std::uint64_t seed, bool quick = false) : seed_(seed), quick_(quick) {}
 
     [[nodiscard]] std::uint64_t seed() const override { return seed_; }
+    [[nodiscard]] bool quick() const override { return quick_; }
     [[nodiscard]] gpu::Device& device() override;
     [[nodiscard]] std::unique_ptr<ExperimentWorld> world(const std::string& scene,
                                                          const std::map<std::string, std::string>& parameters,
@@ -27,6 +28,7 @@ class LentContext final : public ExperimentContext {
 
  private:
     std::uint64_t seed_;
+    bool quick_;
     std::optional<gpu::Device> device_;
 };
 

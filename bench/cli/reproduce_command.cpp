@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
@@ -41,6 +42,7 @@ struct PaperWork {
     bench::Paper paper;
     std::unique_ptr<bench::ResultsFolder> results;
     std::vector<SuiteWork> suites;
+    bool quick = false;  ///< short forms, of experiments too
 };
 
 /// Reads all input files, so that an error in the last paper is found before the first run.
@@ -49,6 +51,7 @@ std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
     for (const std::string& id : options.paper.empty() ? bench::listPapers() : std::vector{options.paper}) {
         PaperWork& paper = work.emplace_back();
         paper.paper = bench::loadPaper(id);
+        paper.quick = options.quick;
         (void)bench::loadClaims(id);
         std::vector<std::string> suites = paper.paper.suites;
         if (options.controls) std::ranges::copy(paper.paper.controls, std::back_inserter(suites));
@@ -95,6 +98,15 @@ bool sayHowLong(std::vector<PaperWork>& work) {
     return true;
 }
 
+/// What experiments left out, one line each.
+std::string notMeasured(const std::vector<bench::StoredFinding>& findings) {
+    std::string lines;
+    for (const bench::StoredFinding& finding : findings)
+        if (!std::isfinite(finding.value))
+            lines += fmt::format("\n{}: no {}: {}", finding.experiment, finding.quantity, finding.note);
+    return lines.empty() ? lines : lines + "\n";
+}
+
 /// Runs, tables, verdicts and the page of one paper.
 int reproducePaper(const PaperWork& work) {
     const bench::Paper& paper = work.paper;
@@ -110,8 +122,9 @@ int reproducePaper(const PaperWork& work) {
     }
     std::vector<bench::StoredFinding> findings;
     for (const std::string& id : paper.experiments)
-        std::ranges::move(bench::runExperiment(id), std::back_inserter(findings));
+        std::ranges::move(bench::runExperiment(id, work.quick), std::back_inserter(findings));
     if (!findings.empty()) bench::writeWhole(results.path() / "experiments.csv", bench::findingsCsv(findings));
+    std::cout << notMeasured(findings);
     const auto summary = files::CsvTable::parseFile(results.path() / "summary.csv");
     if (const std::string numbers = publishedReport(bench::tabulatePrinted(paper.id, summary)); !numbers.empty())
         std::cout << "\n" << numbers;
@@ -149,7 +162,8 @@ Command reproduceCommand() {
             [options](Arguments& arguments) {
                 arguments.text("--paper", "ID", "carr2006 …: a folder of data/papers; default: all of them",
                                options->paper);
-                arguments.flag("--quick", "the suites' short forms: minutes instead of hours", options->quick);
+                arguments.flag("--quick", "short forms of suites and experiments: minutes instead of hours",
+                               options->quick);
                 arguments.flag("--full",
                                "the whole suites (as without --quick); estimates first how long they will take",
                                options->full);

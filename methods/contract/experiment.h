@@ -18,12 +18,13 @@
 namespace dustbench {
 
 /// A number found by an experiment, with its 95 % interval; if nothing is random, the minimum and maximum of the
-/// observed values.
+/// observed values. A number that was not measured is NaN, and the note says why.
 struct Finding {
     std::string quantity;
     double value = 0;
     double low = 0, high = 0;
     std::int64_t samples = 0;  ///< draws, steps, pixels or births behind the value
+    std::string note{};        ///< what a reader must know, such as what was left out; may be empty
 };
 
 /// A scene with its vehicle, drive and dust, set up as for a run.
@@ -42,6 +43,8 @@ class DUSTBENCH_API ExperimentContext {
     virtual ~ExperimentContext();
     /// The only source of randomness.
     [[nodiscard]] virtual std::uint64_t seed() const = 0;
+    /// True if the short form is asked for: seconds instead of minutes.
+    [[nodiscard]] virtual bool quick() const = 0;
     /// Created on first call. Throws InputError if OpenGL is unavailable.
     [[nodiscard]] virtual gpu::Device& device() = 0;
     /// A world from `data/scenes/<scene>.toml`, with parameters as on the command line. Throws InputError.

@@ -23,6 +23,7 @@ TEST(ObstacleExperiment, TellsAnObstacleFromNoneAndFromOneThatSwallowsTheStream)
 class Context final : public ExperimentContext {
  public:
     [[nodiscard]] std::uint64_t seed() const override { return 1; }
+    [[nodiscard]] bool quick() const override { return true; }
     [[nodiscard]] gpu::Device& device() override { return draw::TestCanvas::device(); }
     [[nodiscard]] std::unique_ptr<ExperimentWorld> world(const std::string&, const std::map<std::string, std::string>&,
                                                          int, int) override {

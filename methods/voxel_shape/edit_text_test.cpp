@@ -29,6 +29,7 @@ const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 
 class Services final : public ExperimentContext {
  public:
     [[nodiscard]] std::uint64_t seed() const override { return 1; }
+    [[nodiscard]] bool quick() const override { return true; }
     [[nodiscard]] gpu::Device& device() override { return TestMoment::device(); }
     [[nodiscard]] std::unique_ptr<ExperimentWorld> world(const std::string&, const std::map<std::string, std::string>&,
                                                          int, int) override {
