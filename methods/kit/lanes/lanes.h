@@ -10,7 +10,9 @@ namespace dustbench::lanes {
 using Float4 = float __attribute__((vector_size(16)));
 using Float8 = float __attribute__((vector_size(32)));
 using Float16 = float __attribute__((vector_size(64)));
+using Double4 = double __attribute__((vector_size(32)));
 using Int4 = int __attribute__((vector_size(16)));
+using Unsigned4 = unsigned __attribute__((vector_size(16)));
 using Int16 = int __attribute__((vector_size(64)));
 
 template <typename Vector>

@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "methods/kit/parallel/for_each_block.h"
+#include "methods/relief/particles/open_space.h"
 #include "methods/relief/surface/surface_hit.h"
 
 namespace dustbench::relief {
 namespace {
 
 constexpr std::size_t blockSize = 4096;
+constexpr std::size_t fatesTogether = 64;
 constexpr float nearEdge = 0.01f;     // texels
 constexpr float depthMargin = 1e-5f;  // of the depth: that of floats, and of blocks, which are rounded
 
@@ -97,10 +99,20 @@ Fate ArrayMover::advance(glm::vec4& place, glm::vec4& velocity, const DepthMap& 
     return exit < 1 || place.w >= settings.maximumAgeSteps ? Fate::gone : Fate::lives;
 }
 
+/// The z above which nothing is, with a margin; the face where that is not known or another law moves.
+float ArrayMover::openAbove(const StepSettings& settings) const {
+    if (!settings.pyramid || settings.law != MotionLaw::fixed) return 0;
+    const float nearest = settings.pyramid->blocks().back() - 2 * depthMargin;
+    return std::min(0.0f, nearest / patchScale_.z);
+}
+
 void ArrayMover::move(const MovingColumns& columns, const DepthMap& surface, const StepSettings& settings) {
+    const OpenSpace space(settings, within_, openAbove(settings));
     parallel::forEachBlock(columns.places.size(), blockSize, [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i)
-            columns.fates[i] = advance(columns.places[i], columns.velocities[i], surface, settings);
+            columns.fates[i] = space.step(columns.places[i], columns.velocities[i])
+                                   ? Fate::lives
+                                   : advance(columns.places[i], columns.velocities[i], surface, settings);
     });
 }
 
@@ -110,21 +122,33 @@ void ReliefParticles::step(Mover& mover, const DepthMap& surface, const StepSett
     settle(surface);
 }
 
+namespace {
+
+/// Whole groups of living particles are passed over.
+std::size_t firstNotLiving(std::span<const Fate> fates) {
+    std::size_t first = 0;
+    for (; first + fatesTogether <= fates.size(); first += fatesTogether) {
+        unsigned any = 0;
+        for (std::size_t i = first; i < first + fatesTogether; ++i) any |= static_cast<unsigned>(fates[i]);
+        if (any != 0) break;
+    }
+    while (first < fates.size() && fates[first] == Fate::lives) ++first;
+    return first;
+}
+
+}  // namespace
+
 /// Lists the hits and closes the gaps of those that ended.
 void ReliefParticles::settle(const DepthMap& surface) {
     hits_.clear();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < fates_.size(); ++i) {
+    std::size_t kept = firstNotLiving(fates_);
+    for (std::size_t i = kept; i < fates_.size(); ++i) {
         if (fates_[i] == Fate::hit) {
             const glm::dvec3 texels = texels_.toTexels(glm::dvec3(places_[i]));
             hits_.push_back({glm::vec3(texels), glm::vec3(velocities_[i]),
                              glm::vec3(texels_.normal(surface.slopeAt(texels.x, texels.y))), looks_[i], serials_[i]});
         }
         if (fates_[i] != Fate::lives) continue;
-        if (kept == i) {
-            ++kept;
-            continue;
-        }
         places_[kept] = places_[i];
         velocities_[kept] = velocities_[i];
         looks_[kept] = looks_[i];

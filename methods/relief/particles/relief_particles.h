@@ -84,6 +84,7 @@ class ArrayMover final : public Mover {
     void move(const MovingColumns& columns, const DepthMap& surface, const StepSettings& settings) override;
 
  private:
+    [[nodiscard]] float openAbove(const StepSettings& settings) const;
     [[nodiscard]] bool staysAbove(const glm::vec3& from, const glm::vec3& to, const DepthPyramid& pyramid) const;
     [[nodiscard]] Fate advance(glm::vec4& place, glm::vec4& velocity, const DepthMap& surface,
                                const StepSettings& settings) const;

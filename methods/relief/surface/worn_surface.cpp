@@ -1,17 +1,46 @@
 #include "methods/relief/surface/worn_surface.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
+#include <numeric>
 #include <utility>
 
+#include "methods/kit/lanes/lanes.h"
+#include "methods/relief/surface/reach.h"
+
 namespace dustbench::relief {
+namespace {
+
+using lanes::Double4;
+using lanes::Float4;
+using lanes::Int4;
+using lanes::Unsigned4;
+
+constexpr std::size_t spareTexels = 3;  // four are written at a time, from any on
+constexpr int tileTexels = 64;
+constexpr std::size_t fewHits = 1000;
+constexpr std::size_t nearTexels = std::size_t{1} << 17;  // with two columns of them 1 MiB
+
+/// changeWithin (impact.h) of four columns at once. `squaredDv`: (row − v)².
+[[gnu::always_inline]] inline Int4 changesWithin(const Impact& impact, const Int4& columns, float squaredDv) {
+    const Float4 du = __builtin_convertvector(columns, Float4) - impact.u;
+    const Float4 share = 1 - (du * du + squaredDv) / (impact.radiusTexels * impact.radiusTexels);
+    const Double4 inside = __builtin_convertvector(lanes::atLeast(share, Float4{}), Double4);
+    return __builtin_convertvector(inside * static_cast<double>(impact.depth), Int4);
+}
+
+}  // namespace
+
 WornSurface::WornSurface(const scene::Relief& relief, MemoryLedger& ledger)
     : depths_(relief, ledger),
       hits_(ledger.account("relief hits")),
       worn_(ledger.account("relief wear")),
       laid_(ledger.account("relief deposit")),
-      pending_(ledger.account("relief pending")) {
-    for (LedgerVector<std::uint32_t>* column : {&hits_, &worn_, &laid_, &pending_}) column->resize(depths_.size());
+      pending_(ledger.account("relief pending")),
+      sorted_(ledger.account("relief sorted hits")),
+      tileEnds_(ledger.account("relief sorted hits")) {
+    for (LedgerVector<std::uint32_t>* column : {&hits_, &worn_, &laid_}) column->resize(depths_.size());
+    pending_.resize(depths_.size() + spareTexels);
     initial_ = presentVolume();
     changed_ = {0, 0, depths_.columns(), depths_.rows()};
 }
@@ -30,55 +59,87 @@ void WornSurface::addPending(std::size_t texel, std::uint32_t change) {
     pending_[texel] = std::min(DepthMap::bottom, pending_[texel] + change);
 }
 
-void WornSurface::include(const TexelRectangle& reach) {
-    waiting_ = joined(waiting_, reach);
-}
-
-TexelRectangle WornSurface::reachOf(const Impact& impact) const {
-    const double reach = std::max(0.5, static_cast<double>(impact.radiusTexels));
-    const auto clamped = [](double texel, int size) {
-        return static_cast<int>(std::clamp(texel, 0.0, static_cast<double>(size)));
-    };
-    const auto u = static_cast<double>(impact.u), v = static_cast<double>(impact.v);
-    return {clamped(std::floor(u - reach), depths_.columns()), clamped(std::floor(v - reach), depths_.rows()),
-            clamped(std::floor(u + reach) + 1, depths_.columns()), clamped(std::floor(v + reach) + 1, depths_.rows())};
-}
-
 void WornSurface::gather(std::span<const Impact> impacts) {
-    for (int row = 0; row < depths_.rows(); ++row)
-        for (int column = 0; column < depths_.columns(); ++column) {
-            const std::size_t texel = depths_.texel(column, row);
-            for (const Impact& impact : impacts) {
-                addPending(texel, changeAt(impact, column, row));
-                hits_[texel] += std::lround(impact.u) == column && std::lround(impact.v) == row ? 1 : 0;
-            }
-        }
-    if (!impacts.empty()) include({0, 0, depths_.columns(), depths_.rows()});
+    for (std::size_t first = 0; first < impacts.size(); first += Reaches::most) {
+        const auto held = impacts.subspan(first, std::min(Reaches::most, impacts.size() - first));
+        const Reaches reaches(held, depths_);
+        for (int row = 0; row < depths_.rows(); ++row)
+            for (int column = 0; column < depths_.columns(); ++column)
+                for (std::size_t k = 0; k < held.size(); k += Reaches::compared)
+                    if (reaches.anyHolds(k, column, row))
+                        gatherAt(column, row, held.subspan(k, std::min(Reaches::compared, held.size() - k)));
+    }
+    if (!impacts.empty()) waiting_ = {0, 0, depths_.columns(), depths_.rows()};
 }
 
-/// Adds the hit, and the depth of an impact on one texel, to the texel nearest to it.
-void WornSurface::addToNearest(const Impact& impact) {
-    const auto column = static_cast<int>(std::lround(impact.u)), row = static_cast<int>(std::lround(impact.v));
+void WornSurface::gatherAt(int column, int row, std::span<const Impact> impacts) {
+    const std::size_t texel = depths_.texel(column, row);
+    for (const Impact& impact : impacts) {
+        addPending(texel, changeAt(impact, column, row));
+        hits_[texel] += nearestTexel(impact, depths_) == texel ? 1 : 0;
+    }
+}
+
+void WornSurface::addPit(const Impact& impact, const TexelRectangle& reach) {
+    for (int row = reach.firstRow; row < reach.endRow; ++row) {
+        const float dv = static_cast<float>(row) - impact.v;
+        std::uint32_t* pending = &pending_[depths_.texel(reach.firstColumn, row)];
+        Int4 columns = Int4{0, 1, 2, 3} + reach.firstColumn;
+        for (int column = reach.firstColumn; column < reach.endColumn; column += 4, columns += 4, pending += 4) {
+            const Int4 change = changesWithin(impact, columns, dv * dv) & (columns < reach.endColumn);
+            Unsigned4 sum;
+            std::memcpy(&sum, pending, sizeof sum);
+            sum = lanes::atMost(sum + Unsigned4(change), Unsigned4{} + DepthMap::bottom);
+            lanes::store(pending, sum);
+        }
+    }
+}
+
+/// Hits in the order of tiles of the surface: neighbours in the list are neighbours in memory.
+std::span<const Impact> WornSurface::sortedByTile(std::span<const Impact> impacts) {
+    const auto tilesAcross = static_cast<std::size_t>(depths_.columns() / tileTexels + 1);
+    const auto tileOf = [&](const Impact& impact) {
+        const int column = std::clamp(static_cast<int>(impact.u), 0, depths_.columns() - 1);
+        const int row = std::clamp(static_cast<int>(impact.v), 0, depths_.rows() - 1);
+        return static_cast<std::size_t>(row / tileTexels) * tilesAcross + static_cast<std::size_t>(column / tileTexels);
+    };
+    tileEnds_.assign(tilesAcross * static_cast<std::size_t>(depths_.rows() / tileTexels + 1) + 1, 0);
+    for (const Impact& impact : impacts) ++tileEnds_[tileOf(impact) + 1];
+    std::partial_sum(tileEnds_.begin(), tileEnds_.end(), tileEnds_.begin());
+    sorted_.resize(impacts.size());
+    for (const Impact& impact : impacts) sorted_[tileEnds_[tileOf(impact)]++] = impact;
+    return sorted_;
+}
+
+/// Of a hit on one texel.
+[[gnu::always_inline]] inline void WornSurface::addDot(const Impact& impact, TexelRectangle& reach) {
+    const int column = nearestTo(impact.u), row = nearestTo(impact.v);
     if (column < 0 || row < 0 || column >= depths_.columns() || row >= depths_.rows()) return;
     const std::size_t texel = depths_.texel(column, row);
     ++hits_[texel];
-    if (impact.radiusTexels > 0) return;
     addPending(texel, impact.depth);
-    include({column, row, column + 1, row + 1});
+    reach = {std::min(reach.firstColumn, column), std::min(reach.firstRow, row), std::max(reach.endColumn, column + 1),
+             std::max(reach.endRow, row + 1)};
 }
 
 void WornSurface::scatter(std::span<const Impact> impacts) {
-    for (const Impact& impact : impacts) {
-        addToNearest(impact);
-        if (impact.radiusTexels <= 0) continue;
-        const TexelRectangle reach = reachOf(impact);
-        for (int row = reach.firstRow; row < reach.endRow; ++row) {
-            std::uint32_t* pending = &pending_[depths_.texel(0, row)];
-            for (int column = reach.firstColumn; column < reach.endColumn; ++column)
-                pending[column] = std::min(DepthMap::bottom, pending[column] + changeWithin(impact, column, row));
+    TexelRectangle dots{depths_.columns(), depths_.rows(), 0, 0};  // empty
+    for (const Impact& impact : isWorthSorting(impacts) ? sortedByTile(impacts) : impacts) {
+        if (impact.radiusTexels <= 0) {
+            addDot(impact, dots);
+            continue;
         }
-        include(reach);
+        const TexelRectangle reach = reachOf(impact, depths_);
+        if (const std::size_t nearest = nearestTexel(impact, depths_); nearest < hits_.size()) ++hits_[nearest];
+        waiting_ = joined(waiting_, reach);
+        addPit(impact, reach);
     }
+    waiting_ = joined(waiting_, dots);
+}
+
+/// Sorting costs as much as a few texels that are far away: many pits on a surface larger than a cache.
+bool WornSurface::isWorthSorting(std::span<const Impact> impacts) const {
+    return depths_.size() > nearTexels && impacts.size() >= fewHits && impacts.front().radiusTexels > 0;
 }
 
 template <typename Change>

@@ -1,7 +1,7 @@
 // A relief that wears: its depths, and per texel the number of hits, the amount removed and the amount deposited.
 //
 // Two algorithms give the same bits. `gather` visits each texel and tests every hit, as in the paper; its cost is
-// texels × hits. `scatter` visits each hit and writes the texels within its reach.
+// texels × hits. `scatter` visits each hit and writes the texels within its reach, four of a row at a time.
 //
 // Volumes: in steps of DepthMap times one texel. removed, laid on and present volume obey, exactly,
 //
@@ -50,14 +50,18 @@ class WornSurface {
 
  private:
     void addPending(std::size_t texel, std::uint32_t change);
-    void addToNearest(const Impact& impact);
-    void include(const TexelRectangle& reach);
-    [[nodiscard]] TexelRectangle reachOf(const Impact& impact) const;
+    void gatherAt(int column, int row, std::span<const Impact> impacts);
+    void addPit(const Impact& impact, const TexelRectangle& reach);
+    void addDot(const Impact& impact, TexelRectangle& reach);
+    [[nodiscard]] bool isWorthSorting(std::span<const Impact> impacts) const;
+    [[nodiscard]] std::span<const Impact> sortedByTile(std::span<const Impact> impacts);
     template <typename Change>
     void forEachPending(const Change& change);
 
     DepthMap depths_;
     LedgerVector<std::uint32_t> hits_, worn_, laid_, pending_;
+    LedgerVector<Impact> sorted_;
+    LedgerVector<std::uint32_t> tileEnds_;
     TexelRectangle waiting_;  ///< texels with a pending amount
     TexelRectangle changed_;
     std::uint64_t initial_ = 0, takenOff_ = 0, laidOn_ = 0;
