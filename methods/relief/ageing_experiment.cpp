@@ -1,18 +1,21 @@
 #include "methods/relief/ageing_experiment.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "methods/kit/maths/philox.h"
+#include "methods/relief/ageing_cost.h"
+#include "methods/relief/mean_finding.h"
 
 namespace dustbench::relief::ageing {
 namespace {
 
-constexpr int rounds = 7;
-constexpr double studentOfSix = 2.447;  // t(0.975; rounds − 1)
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 scene::Relief flatRelief(int side) {
     scene::Relief relief{side, side, {}, {}};
@@ -20,40 +23,77 @@ scene::Relief flatRelief(int side) {
     return relief;
 }
 
-std::vector<Impact> randomImpacts(int side, int hits, std::uint64_t seed, std::uint32_t depth) {
-    std::vector<Impact> impacts;
-    impacts.reserve(static_cast<std::size_t>(hits));
-    for (int n = 0; n < hits; ++n) {
-        const auto random = maths::uniform4(seed, 1, static_cast<std::uint64_t>(n));
-        impacts.push_back(
-            {random[0] * static_cast<float>(side) - 0.5f, random[1] * static_cast<float>(side) - 0.5f, 0, depth});
-    }
-    return impacts;
+std::string cellName(const char* search, const CostCell& cell) {
+    return fmt::format("{}_ms_{}_{}", search, cell.hits, cell.side);
 }
 
-/// Returns the exponents of several rounds as a finding: their mean and its 95 % interval.
-Finding findingOf(const char* quantity, const std::vector<double>& exponents) {
-    double mean = 0, squares = 0;
-    for (const double exponent : exponents) mean += exponent / rounds;
-    for (const double exponent : exponents) squares += (exponent - mean) * (exponent - mean);
-    const double half = studentOfSix * std::sqrt(squares / (rounds - 1) / rounds);
-    return {quantity, mean, mean - half, mean + half, rounds};
+/// The time of each cell, or why it was skipped.
+void addTimes(const char* search, const std::vector<CostCell>& cells, std::vector<Finding>& findings) {
+    for (const CostCell& cell : cells) {
+        std::vector<double> milliseconds;
+        for (const double seconds : cell.seconds) milliseconds.push_back(1e3 * seconds);
+        if (!milliseconds.empty()) {
+            findings.push_back(meanOf(cellName(search, cell), milliseconds));
+            continue;
+        }
+        findings.push_back({cellName(search, cell), missing, missing, missing, 0,
+                            fmt::format("skipped: {} hits on {}² texels are {:.2g} tests, more than {:.0e}", cell.hits,
+                                        cell.side, cell.tests(), mostTests)});
+    }
 }
 
-Finding growth(const char* quantity, Search search, bool overTexels, std::uint64_t seed) {
-    const std::vector<int> sides = overTexels ? std::vector<int>{64, 128, 256} : std::vector<int>{96};
-    const std::vector<int> counts = overTexels ? std::vector<int>{96} : std::vector<int>{128, 512, 2048};
-    std::vector<double> exponents;
-    for (int round = 0; round < rounds; ++round) {
-        std::vector<double> sizes, seconds;
-        for (const int side : sides)
-            for (const int hits : counts) {
-                sizes.push_back(overTexels ? static_cast<double>(side) * side : hits);
-                seconds.push_back(ageingSeconds(search, side, hits, seed + static_cast<std::uint64_t>(round), 3));
-            }
-        exponents.push_back(growthExponent(sizes, seconds));
+/// The two exponents of a search, over all cells that were measured.
+void addExponents(const std::string& search, const std::vector<CostCell>& cells, int rounds,
+                  std::vector<Finding>& findings) {
+    std::vector<double> overHits, overTexels;
+    for (std::size_t round = 0; round < static_cast<std::size_t>(rounds); ++round) {
+        const Exponents exponents = exponentsOf(cells, round);
+        overHits.push_back(exponents.overHits);
+        overTexels.push_back(exponents.overTexels);
     }
-    return findingOf(quantity, exponents);
+    const auto skipped = std::ranges::count_if(cells, [](const CostCell& cell) { return cell.seconds.empty(); });
+    for (const auto& [name, values] : {std::pair("_over_hits", overHits), {"_over_texels", overTexels}}) {
+        findings.push_back(meanOf(search + name, values));
+        if (skipped > 0)
+            findings.back().note =
+                fmt::format("{} of {} cells were skipped: more than {:.0e} tests", skipped, cells.size(), mostTests);
+    }
+}
+
+/// R25: what both searches cost over hits and texels.
+void addGrowth(const CostSweep& sweep, std::vector<Finding>& findings) {
+    CostSweep each = sweep;
+    for (const auto& [name, search] : {std::pair("gather", Search::gather), {"scatter", Search::scatter}}) {
+        each.search = search;
+        const std::vector<CostCell> cells = measureCost(each);
+        addExponents(name, cells, sweep.rounds, findings);
+        addTimes(name, cells, findings);
+    }
+    each.reach = 16;
+    addExponents("scatter_in_a_corner", measureCost(each), sweep.rounds, findings);
+}
+
+Finding crossover(std::uint64_t seed) {
+    CostSweep sweep{Search::gather, {1, 2, 4, 8, 16, 32, 64}, {1000}, seed};
+    const std::vector<CostCell> gather = measureCost(sweep);
+    sweep.search = Search::scatter;
+    const std::vector<CostCell> scatter = measureCost(sweep);
+    std::vector<double> logarithms;
+    for (std::size_t round = 0; round < static_cast<std::size_t>(sweep.rounds); ++round)
+        logarithms.push_back(std::log(crossoverTexels(gather, scatter, round)));
+    Finding finding = meanOf("crossover_texels", logarithms);
+    if (std::isfinite(finding.value))
+        for (double* number : {&finding.value, &finding.low, &finding.high}) *number = std::exp(*number);
+    else
+        finding = {
+            finding.quantity,
+            missing,
+            missing,
+            missing,
+            sweep.rounds,
+            fmt::format("{} takes longer on each surface from 1 to 64² texels",
+                        gather.front().seconds.front() > scatter.front().seconds.front() ? "gather" : "scatter")};
+    return finding;
 }
 
 /// R24: how often y decreases in a step of the paper's law, for particles without initial vertical velocity.
@@ -91,7 +131,12 @@ std::vector<Finding> hitTexels(std::uint64_t seed) {
     constexpr int side = 128, hits = 1000;
     MemoryLedger ledger;
     WornSurface surface(flatRelief(side), ledger);
-    surface.scatter(randomImpacts(side, hits, seed, DepthMap::bottom));
+    std::vector<Impact> impacts;
+    for (int n = 0; n < hits; ++n) {
+        const auto random = maths::uniform4(seed, 1, static_cast<std::uint64_t>(n));
+        impacts.push_back({random[0] * float{side} - 0.5f, random[1] * float{side} - 0.5f, 0, DepthMap::bottom});
+    }
+    surface.scatter(impacts);
     surface.takeOff();
     std::int64_t hit = 0, atBottom = 0, changed = 0;
     for (std::size_t i = 0; i < surface.depths().size(); ++i) {
@@ -107,33 +152,15 @@ std::vector<Finding> hitTexels(std::uint64_t seed) {
             {"other_texels_changed", changedShare, changedShare, changedShare, others}};
 }
 
+CostSweep shortSweep(std::uint64_t seed) {
+    return {.sides = {64, 128, 256}, .hits = {512, 2048, 8192}, .seed = seed};
+}
+
+CostSweep wholeSweep(std::uint64_t seed) {
+    return {.sides = {256, 512, 1024, 2048, 4096}, .hits = {1000, 10'000, 100'000, 1'000'000}, .seed = seed};
+}
+
 }  // namespace
-
-double ageingSeconds(Search search, int side, int hits, std::uint64_t seed, int repetitions) {
-    const std::vector<Impact> impacts = randomImpacts(side, hits, seed, DepthMap::bottom / 1000);
-    MemoryLedger ledger;
-    WornSurface surface(flatRelief(side), ledger);
-    double shortest = std::numeric_limits<double>::infinity();
-    for (int repetition = 0; repetition < repetitions; ++repetition) {
-        const auto begin = std::chrono::steady_clock::now();
-        search == Search::gather ? surface.gather(impacts) : surface.scatter(impacts);
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-        surface.takeOff();
-        shortest = std::min(shortest, took.count());
-    }
-    return shortest;
-}
-
-double growthExponent(const std::vector<double>& sizes, const std::vector<double>& seconds) {
-    const auto n = static_cast<double>(sizes.size());
-    double x = 0, y = 0, xx = 0, xy = 0;
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
-        const double a = std::log(sizes[i]), b = std::log(seconds[i]);
-        x += a / n, y += b / n;
-        xx += a * a / n, xy += a * b / n;
-    }
-    return (xy - x * y) / (xx - x * x);
-}
 
 ExperimentInfo describe() {
     ExperimentInfo info;
@@ -141,10 +168,9 @@ ExperimentInfo describe() {
         "Measures how the cost of ageing a relief grows with hits and texels, and what a hit does to its texture.";
     info.source = "Bergeron";
     info.run = [](ExperimentContext& context) {
-        std::vector<Finding> findings{growth("gather_over_hits", Search::gather, false, context.seed()),
-                                      growth("gather_over_texels", Search::gather, true, context.seed()),
-                                      growth("scatter_over_hits", Search::scatter, false, context.seed()),
-                                      growth("scatter_over_texels", Search::scatter, true, context.seed())};
+        std::vector<Finding> findings;
+        addGrowth(context.quick() ? shortSweep(context.seed()) : wholeSweep(context.seed()), findings);
+        findings.push_back(crossover(context.seed()));
         findings.push_back(loweredGreen("green_lowered", {0, -9.8f, 0}, context.seed()));
         findings.push_back(loweredGreen("green_lowered_without_gravity", glm::vec3(0), context.seed()));
         for (const Finding& finding : hitTexels(context.seed())) findings.push_back(finding);

@@ -1,30 +1,25 @@
 // How the cost of ageing a surface grows with the numbers of hits and texels, for both search modes (claim R25), and
 // what a hit does to the paper's texture (claim R24).
 //
+// Findings; SEARCH is `gather` or `scatter`, intervals are over seven rounds with other hits each:
+//     SEARCH_over_hits, SEARCH_over_texels  exponents of the time, over all cells (ageing_cost.h)
+//     SEARCH_ms_HITS_SIDE                   the time of a cell, in ms; empty with the reason if it was skipped
+//     scatter_in_a_corner_over_hits, …      of hits in a corner of 16² texels: memory is near on any surface
+//     crossover_texels                      from how many texels on `scatter` takes less time, for 1,000 hits
+//     green_lowered                         share of steps in which y falls under the paper's motion
+//     green_lowered_without_gravity         the same without gravity, a control
+//     hit_texels_at_bottom                  share of the texels hit under the paper's ageing whose depth is 1
+//     other_texels_changed                  share of the others whose depth is another than before
+//
+// The short form has 64² to 256² texels under 512 to 8,192 hits, the whole 256² to 4096² under 10³ to 10⁶.
+//
 // Threads: one. Source: Bergeron, 3.4, 4 and 5.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "methods/contract/experiment.h"
-#include "methods/relief/living_relief.h"
 
 namespace dustbench::relief::ageing {
 
-/// Returns the minimum of `repetitions` times to age a surface of side × side texels by `hits` random hits, in seconds.
-[[nodiscard]] double ageingSeconds(Search search, int side, int hits, std::uint64_t seed, int repetitions);
-
-/// Returns the slope of log(seconds) over log(size) by least squares.
-[[nodiscard]] double growthExponent(const std::vector<double>& sizes, const std::vector<double>& seconds);
-
-/// The experiment `ageing`:
-///     gather_over_hits, gather_over_texels    exponents of the time of `gather`
-///     scatter_over_hits, scatter_over_texels  the same of `scatter`
-///     green_lowered                           share of steps in which y falls under the paper's motion
-///     green_lowered_without_gravity           the same without gravity, a control
-///     hit_texels_at_bottom                    share of the texels hit under the paper's ageing whose depth is 1
-///     other_texels_changed                    share of the others whose depth is another than before
 [[nodiscard]] ExperimentInfo describe();
 
 }  // namespace dustbench::relief::ageing

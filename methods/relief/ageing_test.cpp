@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "methods/relief/ageing_experiment.h"
+#include "methods/relief/ageing_cost.h"
 #include "methods/relief/surface/worn_surface.h"
 
 namespace dustbench::relief {
@@ -103,10 +103,39 @@ TEST(Ageing, ADepositHasTheVolumeOfItsMass) {
     EXPECT_NEAR(laid / (0.5 / 1500), 1, 0.05);
 }
 
-TEST(AgeingExperiment, FindsTheExponentOfAPowerLaw) {
-    EXPECT_NEAR(
-        ageing::growthExponent({1, 2, 4, 8}, {3, 3 * std::pow(2, 1.3), 3 * std::pow(4, 1.3), 3 * std::pow(8, 1.3)}),
-        1.3, 1e-12);
+// Cells of a power law, one of them skipped.
+TEST(AgeingCost, FindsTheExponentsOfAPowerLaw) {
+    std::vector<ageing::CostCell> cells;
+    for (const int side : {4, 16, 64})
+        for (const int hits : {10, 100, 1000}) {
+            ageing::CostCell& cell = cells.emplace_back(ageing::CostCell{side, hits, {}});
+            if (side < 64 || hits < 1000) cell.seconds = {3 * std::pow(hits, 0.8) * std::pow(cell.texels(), 1.3)};
+        }
+    const ageing::Exponents found = ageing::exponentsOf(cells, 0);
+    EXPECT_NEAR(found.overHits, 0.8, 1e-12);
+    EXPECT_NEAR(found.overTexels, 1.3, 1e-12);
+}
+
+// One falls with the texels and the other grows: they meet at 100 texels.
+TEST(AgeingCost, FindsWhereTwoCurvesCross) {
+    std::vector<ageing::CostCell> rising, falling;
+    for (const int side : {2, 8, 32}) {
+        rising.push_back({side, 1, {static_cast<double>(side) * side}});
+        falling.push_back({side, 1, {1e4 / (static_cast<double>(side) * side)}});
+    }
+    EXPECT_NEAR(ageing::crossoverTexels(rising, falling, 0), 100, 1e-9);
+    EXPECT_TRUE(std::isnan(ageing::crossoverTexels(rising, rising, 0)));
+}
+
+TEST(AgeingCost, SkipsWhatTakesTooManyTests) {
+    const auto gather = ageing::measureCost({.sides = {16, 1024}, .hits = {3, 100'000}, .rounds = 2});
+    ASSERT_EQ(gather.size(), 4u);
+    for (const std::size_t i : {0u, 1u, 2u}) EXPECT_EQ(gather[i].seconds.size(), 2u) << i;
+    EXPECT_TRUE(gather[3].seconds.empty());
+    EXPECT_GT(gather[3].tests(), ageing::mostTests);
+    const auto scatter =
+        ageing::measureCost({.search = Search::scatter, .sides = {1024}, .hits = {100'000}, .rounds = 1});
+    EXPECT_EQ(scatter.at(0).seconds.size(), 1u);  // which makes no tests
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/maths/philox.h"
+#include "methods/relief/mean_finding.h"
 #include "methods/relief/particles/relief_particles.h"
 #include "methods/relief/relief_studio.h"
 
@@ -14,8 +15,8 @@ namespace {
 
 constexpr int width = 400, height = 200;
 constexpr int seeds = 5;
-constexpr double studentOfFour = 2.776;  // t(0.975; seeds − 1)
 constexpr double threshold = 0.5;
+constexpr double takenShare = 0.05;
 constexpr double kilograms = 0.002, metresPerSecond = 5, hardness = 1e4;
 constexpr std::int64_t fewest = 10, most = 2'000'000;  // particles in a lot and in all
 constexpr int windowRadius = 5;
@@ -74,21 +75,13 @@ const scene::Panel& signOf(const scene::Scene& scene) {
     throw InputError("experiment legibility: the scene has no panel 'sign'");
 }
 
-Finding meanOf(const char* quantity, const std::vector<double>& values) {
-    double mean = 0, squares = 0;
-    for (const double value : values) mean += value / seeds;
-    for (const double value : values) squares += (value - mean) * (value - mean);
-    const double half = studentOfFour * std::sqrt(squares / (seeds - 1) / seeds);
-    return {quantity, mean, mean - half, mean + half, seeds};
-}
-
 std::vector<Finding> measured(ExperimentContext& context) {
     const auto world = context.world("relief_wall", {}, width, height);
     const scene::Panel& sign = signOf(world->scene());
     const AgeingSettings paper{.model = AgeingModel::paper};
     const AgeingSettings crater{.massKilograms = kilograms, .hardnessJoulesPerCubicMetre = hardness};
     const AgeingSettings soft{.massKilograms = kilograms, .hardnessJoulesPerCubicMetre = hardness / 2};
-    std::vector<double> byPaper, byCrater, bySoft, ratios, ofEquals;
+    std::vector<double> byPaper, byCrater, bySoft, ratios, ofEquals, ofVolume;
     for (std::uint64_t k = 0; k < seeds; ++k) {
         const auto until = [&](const AgeingSettings& ageing, std::uint64_t otherSeed = 0) {
             return particlesUntil(threshold, context.device(), world->scene(), sign, ageing,
@@ -99,10 +92,13 @@ std::vector<Finding> measured(ExperimentContext& context) {
         bySoft.push_back(until(soft));
         ratios.push_back(byCrater.back() / bySoft.back());
         ofEquals.push_back(byCrater.back() / until(crater, seeds));
+        const std::uint64_t seed = context.seed() + k;
+        ofVolume.push_back(particlesUntilTaken(takenShare, sign, crater, seed) /
+                           particlesUntilTaken(takenShare, sign, soft, seed));
     }
-    return {meanOf("particles_paper", byPaper), meanOf("particles_crater", byCrater),
-            meanOf("particles_crater_soft", bySoft), meanOf("hardness_ratio", ratios),
-            meanOf("hardness_ratio_of_equals", ofEquals)};
+    return {meanOf("particles_paper", byPaper),           meanOf("particles_crater", byCrater),
+            meanOf("particles_crater_soft", bySoft),      meanOf("hardness_ratio", ratios),
+            meanOf("hardness_ratio_of_equals", ofEquals), meanOf("hardness_ratio_of_volume", ofVolume)};
 }
 
 }  // namespace
@@ -153,6 +149,20 @@ double particlesUntil(double limit, gpu::Device& device, const scene::Scene& sce
         count += lot;
     }
     return static_cast<double>(count);
+}
+
+double particlesUntilTaken(double share, const scene::Panel& panel, const AgeingSettings& ageing, std::uint64_t seed) {
+    MemoryLedger ledger;
+    WornSurface surface(*panel.relief, ledger);
+    const double wanted = share * static_cast<double>(surface.initialVolume());
+    double before = 0;
+    for (std::int64_t count = 0; count < most; count += fewest) {
+        hit(surface, panel, ageing, seed, count, fewest);
+        const auto taken = static_cast<double>(surface.takenOffVolume());
+        if (taken >= wanted) return static_cast<double>(count) + fewest * (wanted - before) / (taken - before);
+        before = taken;
+    }
+    return static_cast<double>(most);
 }
 
 ExperimentInfo describe() {

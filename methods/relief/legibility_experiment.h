@@ -6,7 +6,8 @@
 //
 // Findings, means over 5 seeds: `particles_paper` (each hit sinks one texel and turns it white), `particles_crater` at
 // 10⁴ J/m³, `particles_crater_soft` at half of that, and `hardness_ratio`, the first of the latter two by the second: 2
-// if what counts is the volume taken off. Control: `hardness_ratio_of_equals`, of two signs of the same hardness.
+// if what counts is the volume taken off. Controls: `hardness_ratio_of_equals`, of two signs of the same hardness, and
+// `hardness_ratio_of_volume`, with a twentieth of the sign's volume taken off in place of its legibility.
 //
 // Threads: the OpenGL thread. Source: Wang2004; the question is ours.
 #pragma once
@@ -24,6 +25,10 @@ namespace dustbench::relief::legibility {
 /// The number of particles at which the similarity falls below `threshold`.
 [[nodiscard]] double particlesUntil(double threshold, gpu::Device& device, const scene::Scene& scene,
                                     const scene::Panel& panel, const AgeingSettings& ageing, std::uint64_t seed);
+
+/// The number of particles that take off this share of the sign's volume.
+[[nodiscard]] double particlesUntilTaken(double share, const scene::Panel& panel, const AgeingSettings& ageing,
+                                         std::uint64_t seed);
 
 [[nodiscard]] ExperimentInfo describe();
 

@@ -1,0 +1,80 @@
+#include "methods/relief/motion_experiment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "methods/kit/maths/philox.h"
+#include "methods/relief/mean_finding.h"
+#include "methods/relief/particles/relief_motion.h"
+
+namespace dustbench::relief::motion {
+namespace {
+
+constexpr glm::vec3 gravity{0, -9.8f, 0};
+constexpr int particles = 1000;
+constexpr std::uint64_t seeds = 7;
+
+/// One step of a law: the particle, its age in steps with this one, and the step in s.
+using Law = Motion (*)(const Motion&, float, float);
+
+Motion paper(const Motion& old, float ageSteps, float dt) {
+    return moved(MotionLaw::paper, old, gravity, ageSteps, dt);
+}
+Motion fixed(const Motion& old, float ageSteps, float dt) {
+    return moved(MotionLaw::fixed, old, gravity, ageSteps, dt);
+}
+Motion weightless(const Motion& old, float ageSteps, float dt) {
+    return moved(MotionLaw::fixed, old, glm::vec3(0), ageSteps, dt);
+}
+Motion firstOrder(const Motion& old, float, float dt) {
+    return {old.place + old.velocity * dt, old.velocity + gravity * dt};
+}
+
+double distanceAfterOneSecond(Law law, const glm::vec3& velocity, int steps) {
+    Motion particle{glm::vec3(0), velocity};
+    for (int step = 1; step <= steps; ++step)
+        particle = law(particle, static_cast<float>(step), 1.0f / static_cast<float>(steps));
+    return glm::distance(glm::dvec3(particle.place), glm::dvec3(velocity) + 0.5 * glm::dvec3(gravity));
+}
+
+double medianDistance(Law law, int steps, std::uint64_t seed) {
+    std::vector<double> distances;
+    distances.reserve(particles);
+    for (std::uint64_t n = 0; n < particles; ++n) {
+        const auto random = maths::uniform4(seed, 4, n);
+        const glm::vec3 velocity(maths::centred(random[0]), maths::centred(random[1]), maths::centred(random[2]));
+        distances.push_back(distanceAfterOneSecond(law, velocity, steps));
+    }
+    std::ranges::nth_element(distances, distances.begin() + particles / 2);
+    return distances[particles / 2];
+}
+
+Finding distanceOf(std::string quantity, Law law, int steps, std::uint64_t seed) {
+    std::vector<double> medians;
+    for (std::uint64_t k = 0; k < seeds; ++k) medians.push_back(medianDistance(law, steps, seed + k));
+    return meanOf(std::move(quantity), medians);
+}
+
+std::vector<Finding> measured(ExperimentContext& context) {
+    std::vector<Finding> findings;
+    for (const int steps : {1, 4, 8, 12})
+        findings.push_back(distanceOf(fmt::format("distance_paper_{}", steps), paper, steps, context.seed()));
+    for (const int steps : {1, 4, 8, 12, 60})
+        findings.push_back(distanceOf(fmt::format("distance_fixed_{}", steps), fixed, steps, context.seed()));
+    findings.push_back(distanceOf("distance_first_order_60", firstOrder, 60, context.seed()));
+    findings.push_back(distanceOf("distance_without_gravity", weightless, 60, context.seed()));
+    return findings;
+}
+
+}  // namespace
+
+ExperimentInfo describe() {
+    ExperimentInfo info;
+    info.summary = "How far a particle is from its parabola after one second, under both laws of motion.";
+    info.source = "Bergeron";
+    info.run = measured;
+    return info;
+}
+
+}  // namespace dustbench::relief::motion
