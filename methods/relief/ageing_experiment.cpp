@@ -37,7 +37,7 @@ void addTimes(const char* search, const std::vector<CostCell>& cells, std::vecto
             continue;
         }
         findings.push_back({cellName(search, cell), missing, missing, missing, 0,
-                            fmt::format("skipped: {} hits on {}² texels are {:.2g} tests, more than {:.0e}", cell.hits,
+                            fmt::format("skipped: {} hits on {}² texels are {:.3g} tests, more than {:.0e}", cell.hits,
                                         cell.side, cell.tests(), mostTests)});
     }
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the pictures and charts of the guide on reliefs.
 
-    python3 reports/pictures/make_reliefs.py [NAME …]    these are made anew: signs, grazing, slalom, paths, angles
+    python3 reports/pictures/make_reliefs.py [NAME …]    these are made anew: signs, within, grazing, slalom, paths, angles
 
 Run it from the root of the tree after `make build`. Single pictures are in out/reliefs/. Needs oiiotool and rsvg-convert.
 """
@@ -19,6 +19,7 @@ OUT = pathlib.Path("out/reliefs")
 PICTURES = pathlib.Path("reports/pictures")
 # Eye, target (x along the way, y up, metres) and field of view in degrees.
 SIGN = ((11.6, 0.95, -0.45), (11.2, 0.8, -1.9), 48)
+WITHIN = ((12.1, 0.95, -1.1), (11.28, 0.79, -1.95), 36)
 WALL = ((8.0, 1.25, 0.9), (8.0, 0.85, -1.9), 62)
 
 
@@ -74,6 +75,21 @@ def grazing():
     ways = ("march=paper", "march=paper -P linear_steps=60", "march=safe", "march=mesh")
     made = [run(f"grazing-{n}", scene, f"-P particles=10 -P {way}", "576x360", 1, 1) / "f000000.png" for n, way in enumerate(ways)]
     mosaic(made, 2, 480, "relief_grazing.png")
+
+
+def within():
+    """Live particles within the sign, which is deep here. The dust before it is many small puffs, too thin to hide them."""
+    dust = pathlib.Path("data/particles/wheel_dust.toml").read_text()
+    for key, value in (("average_seconds", 1.2), ("variation_seconds", 0.2), ("start_metres", 0.05), ("end_metres", 0.2), ("speed", 1.5)):
+        dust, count = re.subn(rf"(?m)^{key} = .*", f"{key} = {value}", dust)
+        assert count == 1, key
+    dust = re.sub(r"(?m)^(opacity_\w+ = )([0-9.]+)", lambda found: f"{found[1]}{float(found[2]) / 400}", dust)
+    thin = OUT / "thin_dust.toml"
+    thin.write_text(dust)
+    scene = scene_with("within", WITHIN, [("drive", f'"straight"\ndust = "{thin.resolve()}"')])
+    scene.write_text(scene.read_text().replace("depth_metres = 0.02", "depth_metres = 0.25"))  # of the sign alone
+    run("within", scene, "-P particles=500000 -P gravity=1 -P grain_metres=0.005 -P hardness=1e6", "720x405", 65, 64)
+    mosaic([max(OUT.glob("within/runs/*/images/f000064.png"), key=lambda file: file.stat().st_mtime)], 1, 720, "relief_within.png")
 
 
 def slalom():
@@ -208,7 +224,7 @@ def angles():
     write_charts([missed, difference], "relief_angles.png")
 
 
-PICTURES_MADE = {make.__name__: make for make in (signs, grazing, slalom, paths, angles)}
+PICTURES_MADE = {make.__name__: make for make in (signs, within, grazing, slalom, paths, angles)}
 
 if __name__ == "__main__":
     OUT.mkdir(parents=True, exist_ok=True)

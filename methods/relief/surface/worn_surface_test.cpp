@@ -52,6 +52,23 @@ TEST(WornSurface, GatherAndScatterGiveTheSameBitsInAnyOrderOfHits) {
     }
 }
 
+// Many pits on a large surface are written in the order of tiles; some lie beside the map or at its rim.
+TEST(WornSurface, PitsInTheOrderOfTilesGiveTheSameBits) {
+    const scene::Relief relief = randomRelief(470, 300, 5);
+    MemoryLedger ledger;
+    WornSurface gathered(relief, ledger), scattered(relief, ledger);
+    std::vector<Impact> impacts = randomImpacts(2000, 476, 306, 8);
+    std::ranges::reverse(impacts);
+    impacts.insert(impacts.begin(), {-3, -3, 4, 1000});
+    gathered.gather(impacts);
+    scattered.scatter(impacts);
+    gathered.takeOff();
+    scattered.takeOff();
+    EXPECT_GT(scattered.takenOffVolume(), 0u);
+    EXPECT_EQ(copied(gathered.depths().depths()), copied(scattered.depths().depths()));
+    EXPECT_EQ(copied(gathered.hits()), copied(scattered.hits()));
+}
+
 TEST(WornSurface, TenThousandHitsKeepTheVolumeExactly) {
     const scene::Relief relief = randomRelief(128, 64, 9);
     MemoryLedger ledger;
