@@ -1,5 +1,8 @@
 #include "bench/scene/panel_table.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -66,7 +69,8 @@ glm::dvec2 readSize(files::TomlReader& table) {
     const std::vector<double> size = table.numbers("size_metres", 2);
     if (size.size() != 2 || !(size[0] >= 0.01 && size[0] <= 1000) || !(size[1] >= 0.01 && size[1] <= 1000))
         throw InputError(table.where("size_metres") +
-                         "key 'size_metres': expected two numbers 0.01..1000, width and height");
+                         fmt::format("key 'size_metres': got [{}], expected two numbers 0.01..1000, width and height",
+                                     fmt::join(size, ", ")));
     return {size[0], size[1]};
 }
 
