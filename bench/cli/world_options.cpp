@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/cli/shared_options.h"
+#include "bench/scene/camera_path.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/data_folder.h"
@@ -36,6 +37,11 @@ bench::ParameterLists WorldOptions::parameterLists() const {
 void WorldOptions::declareWorld(Arguments& arguments) {
     arguments.text("--scene", "ID", "one of `dustbench list scenes`, or a .toml file", scene);
     arguments.text("--drive", "ID", "one of `dustbench list drives`, or a .csv file; default: the scene's own", drive);
+    arguments.text(
+        "--camera-path", "FILE",
+        "key-framed camera instead of the parameter `camera`: CSV with time_s, eye_x, eye_y, eye_z, target_x, "
+        "target_y, target_z, fov_deg; or its rows, separated by ';'",
+        cameraPath);
     arguments.texts("-P", "name=value", "set a parameter of the method or of the world", parameters);
     arguments.integer("--warmup", "unrecorded frames before frame 0", warmup, 0, 10'000'000);
     arguments.text("--size", "WxH", "of the picture, pixels", size);
@@ -57,6 +63,8 @@ bench::RunSpec WorldOptions::toWorldSpec() const {
     spec.drive = drive;
     (void)files::findData("scene", "scenes", spec.scene, ".toml");
     if (!spec.drive.empty()) (void)files::findData("drive", "drives", spec.drive, ".csv");
+    spec.cameraPath = cameraPath;
+    if (!cameraPath.empty()) (void)bench::CameraPath::read(cameraPath);
     spec.warmup = warmup;
     spec.size = bench::parseSize(size);
     spec.seed = static_cast<std::uint64_t>(seed);

@@ -155,6 +155,7 @@ std::string toJson(const RunRecord& record) {
                  {"method", spec.method},
                  {"scene", spec.scene},
                  {"drive", record.drive},
+                 {"camera_path", spec.cameraPath.empty() ? Json(nullptr) : Json(spec.cameraPath)},
                  {"seed", spec.seed},
                  {"repetition", spec.repetition},
                  {"frames", spec.frames},
@@ -200,6 +201,7 @@ std::string specToJson(const RunSpec& spec) {
     return text({{"method", spec.method},
                  {"scene", spec.scene},
                  {"drive", spec.drive},
+                 {"camera_path", spec.cameraPath},
                  {"parameters", spec.parameters},
                  {"frames", spec.frames},
                  {"warmup", spec.warmup},
@@ -221,6 +223,7 @@ RunSpec specFromJson(std::string_view text) {
         spec.method = json.at("method").get<std::string>();
         spec.scene = json.at("scene").get<std::string>();
         spec.drive = json.at("drive").get<std::string>();
+        spec.cameraPath = json.at("camera_path").get<std::string>();
         for (const auto& [name, value] : json.at("parameters").items())
             spec.parameters[name] = value.get<std::string>();
         spec.frames = json.at("frames").get<std::int64_t>();

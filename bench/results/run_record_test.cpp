@@ -39,6 +39,10 @@ TEST(RunRecord, SpecificationSurvivesItsFile) {
         {2, 10, 4}, {VolumeFormat::htg, VolumeFormat::vdb}, 77, Box{{-1.5, 0.1, 2}, {3, 4, 5}}, VdbPrecision::single};
     EXPECT_EQ(canonicalKey(specFromJson(specToJson(withVolumes))), canonicalKey(withVolumes));
     EXPECT_NE(canonicalKey(withVolumes), canonicalKey(spec()));
+    RunSpec withPath = spec();
+    withPath.cameraPath = "0,1,2,3,4,5,6,50;2,1,2,9,4,5,6,50";
+    EXPECT_EQ(canonicalKey(specFromJson(specToJson(withPath))), canonicalKey(withPath));
+    EXPECT_NE(runId(withPath), runId(spec()));
     EXPECT_THROW((void)specFromJson("{}"), InputError);
     EXPECT_THROW((void)specFromJson("not json"), InputError);
 }

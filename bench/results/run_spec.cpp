@@ -101,6 +101,7 @@ void requireFramesWithinRun(const RunSpec& spec) {
 
 std::string canonicalKey(const RunSpec& spec) {
     std::string key = fmt::format("method={}\nscene={}\ndrive={}\n", spec.method, spec.scene, spec.drive);
+    if (!spec.cameraPath.empty()) key += fmt::format("camera_path={}\n", spec.cameraPath);
     for (const auto& [name, text] : spec.parameters) key += fmt::format("p.{}={}\n", name, text);
     key += fmt::format("frames={}\nwarmup={}\nsize={}x{}\nseed={}\nthreads={}\nsync={}\nimages={}\nrepetition={}\n",
                        spec.frames, spec.warmup, spec.size.width, spec.size.height, spec.seed, spec.threads,

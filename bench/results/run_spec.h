@@ -34,6 +34,7 @@ struct RunSpec {
     std::string method;
     std::string scene = "plain";
     std::string drive;          ///< empty: the scene's own
+    std::string cameraPath;     ///< file or rows (camera_path.h); empty: the camera of the parameter `camera`
     ParameterTexts parameters;  ///< the world's and the method's, all of them, in canonical form
     std::int64_t frames = 120;
     std::int64_t warmup = 10;

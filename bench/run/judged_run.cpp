@@ -29,7 +29,9 @@ class FinerRun {
     FinerRun(const RunSpec& spec, gpu::Device& device)
         : parameters_(resolvedWith(spec, spec.judging->finer)),
           world_(spec.scene, spec.drive, parameters_.world, spec.seed),
-          runner_(spec, world_, device, parameters_.method, false) {}
+          runner_(spec, world_, device, parameters_.method, false) {
+        world_.followPath(spec.cameraPath);
+    }
 
     void step(std::int64_t step, std::int64_t prerollSteps, std::int64_t warmup) {
         const std::int64_t index = step - prerollSteps - warmup;
@@ -75,6 +77,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
     const MethodInfo& info = findMethod(spec.method);
     const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
     World world(spec.scene, spec.drive, parameters.world, spec.seed);
+    world.followPath(spec.cameraPath);
     std::optional<World> continuum;
     std::optional<FinerRun> finer;
     if (spec.judging->finer.empty())

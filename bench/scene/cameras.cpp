@@ -60,6 +60,11 @@ scene::Camera cameraAt(CameraKind kind, const CameraSet& cameras, const scene::S
             camera.verticalFieldOfView = orbit.verticalFieldOfView;
             break;
         }
+        case CameraKind::wheel:
+            camera.eye = turned(cameras.wheel.offset, state.vehicle.heading, state.vehicle.position);
+            camera.target = turned(cameras.wheel.lookAt, state.vehicle.heading, state.vehicle.position);
+            camera.verticalFieldOfView = cameras.wheel.verticalFieldOfView;
+            break;
     }
     return camera;
 }

@@ -1,4 +1,4 @@
-// The cameras of a scene: fixed, chasing the vehicle, or orbiting it. Pure functions of state and time.
+// The cameras of a scene: fixed, chasing the vehicle, orbiting it, or beside a wheel. Pure functions of state and time.
 //
 // Units: SI, radians. Frame: world, or the vehicle's heading frame (+X forward, +Y up, +Z right) where stated.
 #pragma once
@@ -10,9 +10,11 @@
 
 namespace dustbench::bench {
 
-enum class CameraKind { chase, fixed, orbit };
-inline constexpr Choices<CameraKind> cameraKinds{
-    {"chase", CameraKind::chase}, {"fixed", CameraKind::fixed}, {"orbit", CameraKind::orbit}};
+enum class CameraKind { chase, fixed, orbit, wheel };
+inline constexpr Choices<CameraKind> cameraKinds{{"chase", CameraKind::chase},
+                                                 {"fixed", CameraKind::fixed},
+                                                 {"orbit", CameraKind::orbit},
+                                                 {"wheel", CameraKind::wheel}};
 
 struct FixedCamera {
     glm::dvec3 eye{30, 4, 24};
@@ -37,10 +39,18 @@ struct OrbitCamera {
     double verticalFieldOfView = 0.9;
 };
 
+/// Rides along, without smoothing, and looks at the dust that a rear wheel raises.
+struct WheelCamera {
+    glm::dvec3 offset{0.8, 0.55, 2.9};
+    glm::dvec3 lookAt{-1.6, 0.4, 0.6};
+    double verticalFieldOfView = 0.9;
+};
+
 struct CameraSet {
     FixedCamera fixed;
     ChaseCamera chase;
     OrbitCamera orbit;
+    WheelCamera wheel;
 };
 
 /// The vehicle's heading and height as seen by the chase camera: a first-order lag behind the true ones.

@@ -75,6 +75,15 @@ TEST(Cameras, OrbitKeepsItsRadiusAndTurnsAtItsRate) {
     }
 }
 
+TEST(Cameras, TheWheelsRidesAlongWithoutLag) {
+    const CameraSet cameras;
+    const scene::SceneState state = at(100, 50, std::numbers::pi / 2);  // looks along −Z, its right is +X
+    const scene::Camera camera = cameraAt(CameraKind::wheel, cameras, state, {0, 7}, scene::Terrain{});
+    const auto inWorld = [](const glm::dvec3& p) { return glm::dvec3(100 + p.z, p.y, 50 - p.x); };
+    expectNear(camera.eye, inWorld(cameras.wheel.offset));
+    expectNear(camera.target, inWorld(cameras.wheel.lookAt));
+}
+
 TEST(Cameras, NeverSinkIntoTheGround) {
     const scene::Terrain hill({50, 50, 50, 50}, 2, 2, 1000, -500, -500);
     scene::SceneState state = at(0, 0, 0);

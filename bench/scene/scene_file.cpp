@@ -186,6 +186,12 @@ void readCameras(TomlReader& root, CameraSet& cameras) {
             camera.lookAt = point(table, "look_at", camera.lookAt);
             camera.verticalFieldOfView = fieldOfView(table, camera.verticalFieldOfView);
         });
+        readTable(kinds, "wheel", [&](TomlReader& table) {
+            WheelCamera& camera = cameras.wheel;
+            camera.offset = point(table, "offset", camera.offset);
+            camera.lookAt = point(table, "look_at", camera.lookAt);
+            camera.verticalFieldOfView = fieldOfView(table, camera.verticalFieldOfView);
+        });
     });
 }
 

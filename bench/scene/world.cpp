@@ -6,7 +6,6 @@
 #include <span>
 #include <stdexcept>
 
-#include "bench/scene/cameras.h"
 #include "bench/scene/drive_controls.h"
 #include "bench/scene/scene_file.h"
 #include "bench/scene/vehicle_dynamics.h"
@@ -92,6 +91,7 @@ struct World::State {
     Controls controls{};
     SceneState now{};
     CameraLag lag{};
+    std::optional<CameraPath> path{};  ///< instead of `camera`
 
     [[nodiscard]] const VehicleParameters& vehicle() const { return file.scene.vehicle->parameters; }
     [[nodiscard]] double time() const { return static_cast<double>(stepIndex) * stepSeconds; }
@@ -167,7 +167,23 @@ std::vector<std::filesystem::path> World::inputFiles() const {
 
 scene::View World::view(int width, int height) const {
     const State& s = *state_;
+    if (s.path) return {s.path->at(s.now.timeSeconds), width, height};
     return {cameraAt(s.camera, s.file.cameras, s.now, s.lag, s.file.scene.terrain), width, height};
+}
+
+void World::look(CameraKind camera) {
+    state_->camera = camera;
+    state_->path.reset();
+}
+
+void World::follow(CameraPath path) {
+    state_->path = std::move(path);
+}
+
+void World::followPath(const std::string& fileOrRows) {
+    if (fileOrRows.empty()) return;
+    follow(CameraPath::read(fileOrRows));
+    if (isCameraFile(fileOrRows)) state_->file.files.emplace_back(fileOrRows);
 }
 
 void World::readInput() {

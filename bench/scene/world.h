@@ -6,9 +6,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/scene/camera_path.h"
+#include "bench/scene/cameras.h"
 #include "bench/scene/control_source.h"
 #include "bench/scene/time_step.h"
 #include "methods/contract/memory_report.h"
@@ -43,6 +46,12 @@ class World {
     /// Valid until the next step.
     [[nodiscard]] Puffs dust() const;
     [[nodiscard]] scene::View view(int width, int height) const;
+    /// The camera from now on; nothing else of the world changes. At first it is that of the parameter `camera`.
+    void look(CameraKind camera);
+    void follow(CameraPath path);
+    /// follow() the rows or the file of a camera path (CameraPath::read), which then is one of the input files; an
+    /// empty text changes nothing.
+    void followPath(const std::string& fileOrRows);
 
     /// The seed and the requested number of particles.
     [[nodiscard]] RunSetup setup() const;

@@ -143,7 +143,7 @@ TEST(World, FollowsTheDunesWithItsWheels) {
 }
 
 TEST(World, ShowsTheVehicleFromEveryCamera) {
-    for (const char* camera : {"chase", "fixed", "orbit"}) {
+    for (const char* camera : {"chase", "fixed", "orbit", "wheel"}) {
         World world("plain", "", with({{"camera", camera}, {"preroll", "1"}}), 1);
         run(world, world.prerollSteps() + 60);
         const scene::View view = world.view(640, 480);
@@ -151,6 +151,29 @@ TEST(World, ShowsTheVehicleFromEveryCamera) {
         EXPECT_LT(std::abs(clip.x), clip.w) << camera;
         EXPECT_LT(std::abs(clip.y), clip.w) << camera;
     }
+}
+
+TEST(World, ACameraPathChangesTheViewAlone) {
+    const TestFolder folder;
+    const auto file = folder.write("path.csv", CameraPath({{0, {9, 8, 7}, {0, 1, 0}, 40}}).csv());
+    World world("plain", "", with({{"preroll", "0.5"}}), 7);
+    world.followPath(file.string());
+    run(world, 90);
+    EXPECT_EQ(world.stateHash(), hashAfter("plain", 7, 90));
+    EXPECT_EQ(world.view(64, 48).camera.eye, glm::dvec3(9, 8, 7));
+    EXPECT_EQ(world.inputFiles().back(), file);
+    world.look(CameraKind::fixed);
+    EXPECT_EQ(world.view(64, 48).camera.eye, glm::dvec3(48, 3, 18));
+    EXPECT_THAT(inputError([&] { world.followPath("aside"); }), HasSubstr("camera path: got 'aside'"));
+}
+
+TEST(World, ACameraPathGoesByTheTimeOfTheDrive) {
+    World world("plain", "", with({{"preroll", "1"}}), 1);
+    world.followPath("0,0,5,20,0,1,0,50;2,8,5,20,8,1,0,50");
+    run(world, 60);
+    EXPECT_NEAR(world.view(64, 48).camera.eye.x, 0, 1e-9);  // the drive begins
+    run(world, 60);
+    EXPECT_NEAR(world.view(64, 48).camera.eye.x, 4, 1e-9);
 }
 
 TEST(World, NamesEveryInputFile) {
