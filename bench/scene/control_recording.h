@@ -16,7 +16,8 @@ class ControlRecording {
     void add(const Controls& controls) { steps_.push_back(controls); }
     [[nodiscard]] std::size_t steps() const { return steps_.size(); }
     /// `time_s,throttle,brake,steer`. A drive's pedals apply from the beginning of a step; its steering is the value at
-    /// the end of the step. Throws std::logic_error if nothing was recorded.
+    /// the end of the step. A time that two roundings write in two ways has two equal rows. Throws std::logic_error if
+    /// nothing was recorded.
     [[nodiscard]] std::string csv() const;
 
  private:
