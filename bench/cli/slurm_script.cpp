@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/results/shell_words.h"
+
 namespace dustbench::cli {
 namespace {
 
@@ -32,17 +34,6 @@ std::string slurmTime(double seconds) {
 
 }  // namespace
 
-std::string shellQuoted(const std::string& text) {
-    const bool plain = !text.empty() && std::ranges::all_of(text, [](char letter) {
-        return std::isalnum(static_cast<unsigned char>(letter)) ||
-               std::string_view("_-./:,=+@").find(letter) != std::string_view::npos;
-    });
-    if (plain) return text;
-    std::string quoted = "'";
-    for (const char letter : text) quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-    return quoted + "'";
-}
-
 std::vector<std::string> withoutOptions(const std::vector<std::string>& words,
                                         const std::vector<std::string>& options) {
     std::vector<std::string> rest;
@@ -61,8 +52,9 @@ std::string slurmScript(const SlurmJob& job) {
     const double seconds =
         secondsAroundShard + static_cast<double>(job.maximumRunsOfShard) * (job.timeoutSeconds + around);
     std::string arguments;
-    for (const std::string& word : job.arguments) arguments += " " + shellQuoted(word);
-    return fmt::format(R"script(#!/bin/bash
+    for (const std::string& word : job.arguments) arguments += " " + bench::shellQuoted(word);
+    return fmt::format(
+        R"script(#!/bin/bash
 #SBATCH --job-name=dustbench-{name}
 #SBATCH --array=1-{shards}
 #SBATCH --nodes=1
@@ -100,12 +92,11 @@ merging="$({{ echo '#!/bin/bash' && printf 'exec' && printf ' %q' "${{merge[@]}}
         --output=dustbench-{name}-%j-merge.log)"
 echo "$array ${{merging%%;*}}"
 )script",
-                       fmt::arg("name", plainName(job.name)), fmt::arg("shards", job.shards),
-                       fmt::arg("time", slurmTime(seconds)), fmt::arg("runs", job.runs),
-                       fmt::arg("most", job.maximumRunsOfShard), fmt::arg("timeout", job.timeoutSeconds),
-                       fmt::arg("around", around), fmt::arg("extra", secondsAroundShard),
-                       fmt::arg("program", shellQuoted(job.program)), fmt::arg("folder", shellQuoted(job.folder)),
-                       fmt::arg("out", shellQuoted(job.out)), fmt::arg("arguments", arguments));
+        fmt::arg("name", plainName(job.name)), fmt::arg("shards", job.shards), fmt::arg("time", slurmTime(seconds)),
+        fmt::arg("runs", job.runs), fmt::arg("most", job.maximumRunsOfShard), fmt::arg("timeout", job.timeoutSeconds),
+        fmt::arg("around", around), fmt::arg("extra", secondsAroundShard),
+        fmt::arg("program", bench::shellQuoted(job.program)), fmt::arg("folder", bench::shellQuoted(job.folder)),
+        fmt::arg("out", bench::shellQuoted(job.out)), fmt::arg("arguments", arguments));
 }
 
 }  // namespace dustbench::cli

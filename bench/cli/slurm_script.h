@@ -24,7 +24,4 @@ struct SlurmJob {
 [[nodiscard]] std::vector<std::string> withoutOptions(const std::vector<std::string>& words,
                                                       const std::vector<std::string>& options);
 
-/// Quotes the text as one word of a POSIX shell.
-[[nodiscard]] std::string shellQuoted(const std::string& text);
-
 }  // namespace dustbench::cli
