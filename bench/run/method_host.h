@@ -36,6 +36,8 @@ class MethodHost {
     /// Results of the last `draw`, linear: the method's layer, and the composed picture as it would be displayed.
     [[nodiscard]] pictures::Image layer() const;
     [[nodiscard]] pictures::Image result() const;
+    /// The composed picture of the last `draw`, display-encoded; valid as long as the host.
+    [[nodiscard]] const gpu::Texture& display() const { return composite_->result(); }
     /// The layer over its scene, linear.
     [[nodiscard]] pictures::Image picture() const;
     /// Draws the frame outside all timing. `withDetail`: also draws the layer without the scene.

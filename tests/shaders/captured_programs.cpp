@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bench/scene/world.h"
+#include "bench/view/split_view.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/draw/composite.h"
@@ -233,6 +234,7 @@ void drawGrids(gpu::Device& device) {
 
 void drawEverything(gpu::Device& device) {
     (void)gpu::timerQueriesAreTrue(device);
+    const bench::SplitView twoPictures(device);
     drawGrids(device);
     Stages stages(device);
     for (const MethodInfo& info : methods()) {

@@ -1,0 +1,80 @@
+// The keys of the window and what they do: one table for the input and for the help.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace dustbench::bench {
+
+/// Keys that the window or a text field reads, by what they are called, whatever the window system numbers them.
+enum class Key {
+    left,
+    right,
+    up,
+    down,
+    tab,
+    home,
+    end,
+    erase,
+    backspace,
+    enter,
+    escape,
+    space,
+    period,
+    f1,
+    a,
+    b,
+    c,
+    d,
+    f,
+    g,
+    h,
+    k,
+    p,
+    q,
+    r,
+    s,
+    v,
+    w,
+    x,
+    y,
+    z,
+};
+inline constexpr std::size_t keyCount = static_cast<std::size_t>(Key::z) + 1;
+
+enum class Action {
+    throttle,
+    brake,
+    steerLeft,
+    steerRight,
+    pause,
+    step,
+    restart,
+    nextCamera,
+    addCameraKey,
+    saveCameraPath,
+    flip,
+    difference,
+    panels,
+    help,
+    savePicture,
+    saveState,
+    saveDrive,
+    copyLine,
+    quit,
+};
+
+struct KeyBinding {
+    Key key;
+    bool control;  ///< together with Ctrl
+    Action action;
+    std::string_view name;  ///< of the key, as the help says it
+    std::string_view help;
+};
+
+/// In the order of the help. Driving is for as long as the key is held, as is flipping.
+[[nodiscard]] std::span<const KeyBinding> keyBindings();
+[[nodiscard]] std::optional<Action> actionOf(Key key, bool control);
+
+}  // namespace dustbench::bench

@@ -1,0 +1,169 @@
+#include "bench/view/view_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "bench/measure/clock.h"
+#include "bench/run/frame_runner.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr std::array<Half, 2> bothHalves{Half::a, Half::b};
+
+ParameterValues worldValues(const ViewState& state) {
+    ParameterValues values(worldParameters());
+    for (const auto& [name, text] : state.world) values.set(name, text);
+    return values;
+}
+
+bool hasHalf(const ViewState& state, Half which) {
+    return which == Half::a || state.b.has_value();
+}
+
+/// Without what can be changed in a world that goes on: halves, camera, size and frame.
+ViewState worldAlone(ViewState state) {
+    state.a = {};
+    state.b.reset();
+    state.cameraPath.clear();
+    state.world.erase("camera");
+    state.size = {};
+    state.frame = 0;
+    return state;
+}
+
+void aim(World& world, const ViewState& state) {
+    if (state.cameraPath.empty())
+        world.look(worldValues(state).choice("camera", cameraKinds));
+    else
+        world.followPath(state.cameraPath);
+}
+
+double millisecondsSince(std::int64_t startNs) {
+    return static_cast<double>(steadyNow() - startNs) / 1e6;
+}
+
+}  // namespace
+
+ViewSession::ViewSession(const ViewState& state, gpu::Device& device) : device_(device) {
+    begin(normalised(state));
+}
+
+ViewState ViewSession::state() const {
+    ViewState now = state_;
+    now.frame = std::max(state_.frame, frame());
+    return now;
+}
+
+void ViewSession::set(const ViewState& wanted) {
+    const ViewState state = normalised(wanted);
+    if (!state.cameraPath.empty()) (void)CameraPath::read(state.cameraPath);
+    if (worldAlone(state) != worldAlone(state_) || state.frame < frame()) return begin(state);
+    replaceHalves(state);
+    aim(*world_, state);
+    state_ = state;
+}
+
+void ViewSession::restart() {
+    ViewState state = state_;
+    state.frame = 0;
+    begin(state);
+}
+
+void ViewSession::begin(const ViewState& state) {
+    auto input = std::make_shared<DrivingInput>();
+    std::unique_ptr<World> world = makeWorld(state, input);
+    Halves halves;
+    for (const Half which : bothHalves)
+        if (hasHalf(state, which)) halves[indexOf(which)] = makeHalf(state, which, *world);
+    // Hosts refer to their world, so they go first.
+    halves_ = std::move(halves);
+    world_ = std::move(world);
+    input_ = std::move(input);
+    state_ = state;
+    if (state_.drive == keyboardDrive) state_.frame = 0;
+    recording_ = {};
+    next_ = -stepsBeforeWarmup(*world_) - state_.warmup;
+}
+
+std::unique_ptr<World> ViewSession::makeWorld(const ViewState& state, std::shared_ptr<DrivingInput> input) const {
+    const ParameterValues values = worldValues(state);
+    auto world = state.drive == keyboardDrive
+                     ? std::make_unique<World>(state.scene, std::make_unique<KeyboardControls>(std::move(input)),
+                                               values, state.seed)
+                     : std::make_unique<World>(state.scene, state.drive, values, state.seed);
+    aim(*world, state);
+    return world;
+}
+
+ViewSession::ShownHalf ViewSession::makeHalf(const ViewState& state, Half which, const World& world) const {
+    const MethodInfo& method = findMethod(half(state, which).method);
+    if (const std::string reason = method.cannotTake ? method.cannotTake(world.scene()) : ""; !reason.empty())
+        throw InputError(fmt::format("method {} cannot take scene '{}': {}", method.id, state.scene, reason));
+    ParameterValues values(method.parameters);
+    for (const auto& [name, text] : half(state, which).parameters) values.set(name, text);
+    ShownHalf shown;
+    shown.host = std::make_unique<MethodHost>(world, device_, method, values, state.size.width, state.size.height);
+    return shown;
+}
+
+void ViewSession::replaceHalves(const ViewState& state) {
+    std::array<std::optional<ShownHalf>, 2> joining;
+    for (const Half which : bothHalves) {
+        if (!hasHalf(state, which)) continue;
+        const bool same = has(which) && state.size == state_.size && half(state, which) == half(state_, which);
+        if (!same) joining[indexOf(which)] = makeHalf(state, which, *world_);
+    }
+    for (const Half which : bothHalves) {
+        ShownHalf& shown = halves_[indexOf(which)];
+        if (!hasHalf(state, which)) shown = {};
+        if (!joining[indexOf(which)]) continue;
+        shown = std::move(*joining[indexOf(which)]);
+        shown.sinceStart = frame() < -state.warmup - stepsBeforeWarmup(*world_);
+        if (!shown.sinceStart) updateHalf(shown);
+    }
+}
+
+void ViewSession::updateHalf(ShownHalf& shown) {
+    const StageClock untimed;
+    const std::int64_t start = steadyNow();
+    shown.host->update(shown.host->see(frame(), untimed));
+    device_.finish();
+    shown.cost.updateMs = millisecondsSince(start);
+}
+
+void ViewSession::step() {
+    const bool isOfDrive = world_->state().timeSeconds > -0.5 * stepSeconds;
+    world_->step();
+    ++next_;
+    if (state_.drive == keyboardDrive && isOfDrive) recording_.add(world_->controls());
+    // As replay.h: a method is updated from the last step of the preroll on, or all the time if it wants that.
+    for (ShownHalf& shown : halves_)
+        if (shown.host && (frame() >= -state_.warmup - 1 || shown.host->method().wantsPreroll())) updateHalf(shown);
+}
+
+void ViewSession::draw() {
+    const StageClock untimed;
+    for (ShownHalf& shown : halves_) {
+        if (!shown.host) continue;
+        const std::int64_t start = steadyNow();
+        shown.host->draw(shown.host->see(frame(), untimed));
+        device_.finish();
+        shown.cost.drawMs = millisecondsSince(start);
+    }
+}
+
+ViewState ViewSession::replayOf(const std::string& file) const {
+    if (state_.drive != keyboardDrive || recording_.steps() == 0)
+        throw std::logic_error("ViewSession: nothing has been driven by keyboard");
+    ViewState replay = state();
+    replay.drive = file;
+    replay.world.erase("speed");  // a drive by pedals has no target speeds to replace
+    return replay;
+}
+
+}  // namespace dustbench::bench

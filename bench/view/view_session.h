@@ -1,0 +1,92 @@
+// One world stepped once a frame, shown by up to two methods side by side.
+//
+// Each method has the host of a run, with its own targets and its own ledger, and gets the updates that a run gives it.
+// Owns: world and hosts. Threads: the device's, inside the oneTBB arena to be used; `ViewState::threads` is the
+// caller's business.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bench/run/method_host.h"
+#include "bench/scene/control_recording.h"
+#include "bench/scene/keyboard_controls.h"
+#include "bench/scene/world.h"
+#include "bench/view/view_state.h"
+#include "methods/kit/gpu/device.h"
+
+namespace dustbench::bench {
+
+/// Time of one half's last step and last picture, the GPU's work included.
+struct HalfCost {
+    double updateMs = 0, drawMs = 0;
+};
+
+class ViewSession {
+ public:
+    /// At the beginning of the preroll. Throws InputError for a state that cannot be shown. `device` must outlive it.
+    ViewSession(const ViewState& state, gpu::Device& device);
+
+    /// With the frame that is shown, or the later one that is on its way.
+    [[nodiscard]] ViewState state() const;
+    /// Does as little as possible: a new half joins the world as it is, another camera looks at it, anything else of
+    /// the world begins anew. Throws InputError and changes nothing if the state cannot be shown.
+    void set(const ViewState& state);
+    /// From the beginning of the preroll to frame 0.
+    void restart();
+
+    /// One step of the world, and the update of every half that a run would give it.
+    void step();
+    /// Of the last step, as in a run: the warm-up and the preroll before it are below 0.
+    [[nodiscard]] std::int64_t frame() const { return next_ - 1; }
+    /// Steps to go until the frame of the state that was set.
+    [[nodiscard]] std::int64_t stepsToGo() const { return std::max<std::int64_t>(state_.frame - frame(), 0); }
+
+    /// Draws every half; its picture is valid until the next call or set().
+    void draw();
+    [[nodiscard]] const gpu::Texture& picture(Half half) const { return host(half).display(); }
+
+    [[nodiscard]] const World& world() const { return *world_; }
+    [[nodiscard]] bool has(Half half) const { return static_cast<bool>(halves_.at(indexOf(half)).host); }
+    [[nodiscard]] const MethodHost& host(Half half) const { return *halves_.at(indexOf(half)).host; }
+    [[nodiscard]] HalfCost cost(Half half) const { return halves_.at(indexOf(half)).cost; }
+    /// False for a half that joined later: if its method remembers earlier frames, a run shows another picture.
+    [[nodiscard]] bool isSinceStart(Half half) const { return halves_.at(indexOf(half)).sinceStart; }
+
+    /// What the driver holds; only read if the drive is keyboardDrive.
+    [[nodiscard]] DrivingInput& input() { return *input_; }
+    /// The drive so far as a drive file, and the state whose drive it is: `file` is its name. Throws std::logic_error
+    /// unless the drive is keyboardDrive and has begun.
+    [[nodiscard]] std::string recordedDrive() const { return recording_.csv(); }
+    [[nodiscard]] ViewState replayOf(const std::string& file) const;
+    [[nodiscard]] std::size_t recordedSteps() const { return recording_.steps(); }
+
+ private:
+    struct ShownHalf {
+        std::unique_ptr<MethodHost> host;
+        HalfCost cost;
+        bool sinceStart = true;
+    };
+    using Halves = std::array<ShownHalf, 2>;
+
+    static std::size_t indexOf(Half half) { return half == Half::a ? 0 : 1; }
+    void begin(const ViewState& state);
+    [[nodiscard]] std::unique_ptr<World> makeWorld(const ViewState& state, std::shared_ptr<DrivingInput> input) const;
+    [[nodiscard]] ShownHalf makeHalf(const ViewState& state, Half half, const World& world) const;
+    void replaceHalves(const ViewState& state);
+    void updateHalf(ShownHalf& shown);
+
+    gpu::Device& device_;
+    ViewState state_;
+    std::shared_ptr<DrivingInput> input_;
+    std::unique_ptr<World> world_;
+    Halves halves_;
+    ControlRecording recording_;
+    std::int64_t next_ = 0;
+};
+
+}  // namespace dustbench::bench

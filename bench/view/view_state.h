@@ -1,0 +1,66 @@
+// The whole state of the window as a value, and as text: a `dustbench run` line for each half, or TOML.
+//
+// A half shows the picture that its line's run saves for the last frame.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bench/results/run_spec.h"
+
+namespace dustbench::bench {
+
+enum class Half { a, b };
+
+/// A method and those of its parameters that are set; the others have their defaults.
+struct HalfState {
+    std::string method;
+    ParameterTexts parameters;
+
+    friend bool operator==(const HalfState&, const HalfState&) = default;
+};
+
+struct ViewState {
+    std::string scene = "plain";
+    std::string drive;       ///< a name, a file or keyboardDrive; empty: the scene's own
+    std::string cameraPath;  ///< file or rows (camera_path.h); empty: the camera of the world's parameters
+    ParameterTexts world;    ///< parameters of the world that are set
+    std::uint64_t seed = 1;
+    ImageSize size;
+    int threads = 0;          ///< 0: one per core
+    std::int64_t warmup = 0;  ///< frames before frame 0, as a run has them
+    std::int64_t frame = 0;
+    HalfState a;
+    std::optional<HalfState> b;
+
+    friend bool operator==(const ViewState&, const ViewState&) = default;
+};
+
+/// In place of a drive: the vehicle is driven live. A run cannot do that; save the recording and name its file.
+inline constexpr const char* keyboardDrive = "keyboard";
+
+[[nodiscard]] const HalfState& half(const ViewState& state, Half half);
+
+/// The run that ends with the half's picture. Throws InputError for an unknown name or an invalid value, and for
+/// keyboardDrive.
+[[nodiscard]] RunSpec runOf(const ViewState& state, Half half);
+
+/// Without what has its default anyway, presets considered, in canonical form: states that mean the same are equal.
+/// Throws InputError for an unknown name or an invalid value.
+[[nodiscard]] ViewState normalised(const ViewState& state);
+
+/// `dustbench run … --out OUT`, quoted for a shell. Throws InputError as runOf does, and for a value that the command
+/// line would take for several.
+[[nodiscard]] std::string commandLine(const ViewState& state, Half half, const std::string& out);
+
+/// The state that a `dustbench run` line stands for, without half B. Options that do not change the picture are read
+/// over. Throws InputError for anything that `run` would not accept, or that gives several runs.
+[[nodiscard]] ViewState stateOfCommandLine(std::string_view line);
+
+[[nodiscard]] std::string toToml(const ViewState& state);
+/// `name` is the file in messages. Throws InputError with file, line and what was expected.
+[[nodiscard]] ViewState stateOfToml(std::string_view text, const std::string& name);
+
+}  // namespace dustbench::bench

@@ -1,0 +1,235 @@
+#include "bench/view/viewer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/export/whole_file.h"
+#include "bench/measure/clock.h"
+#include "bench/results/shell_words.h"
+#include "bench/view/free_camera.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/draw/read_back.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr double turnPerHeight = 3;  ///< radians for a drag over the picture's height
+
+std::string nextCamera(const ViewState& state) {
+    const std::vector<std::string> words = cameraKinds.words();
+    if (!state.cameraPath.empty()) return words.front();
+    const auto given = state.world.find("camera");
+    const auto now = std::ranges::find(words, given == state.world.end() ? words.front() : given->second);
+    return now + 1 < words.end() ? *(now + 1) : words.front();
+}
+
+}  // namespace
+
+Viewer::Viewer(const ViewState& state, gpu::Device& device, std::filesystem::path folder)
+    : device_(device), folder_(std::move(folder)), session_(state, device), splitView_(device) {
+    if (!session_.has(Half::b)) split.shown = Shown::a;
+    makeImage();
+}
+
+void Viewer::makeImage() {
+    const ImageSize size = session_.state().size;
+    if (image_.width() == size.width && image_.height() == size.height) return;
+    image_ = gpu::Texture::make2D(device_, "view", gpu::Format::rgba8, size.width, size.height);
+    target_ = gpu::Framebuffer(device_, "view", &image_, nullptr);
+}
+
+void Viewer::press(Key key, bool control) {
+    held_.at(static_cast<std::size_t>(key)) = !control;
+    if (const auto action = actionOf(key, control)) act(*action);
+    drive();
+}
+
+void Viewer::release(Key key) {
+    held_.at(static_cast<std::size_t>(key)) = false;
+    drive();
+}
+
+void Viewer::drive() {
+    const auto holds = [this](Action action) {
+        return std::ranges::any_of(keyBindings(), [&](const KeyBinding& binding) {
+            return binding.action == action && held_.at(static_cast<std::size_t>(binding.key));
+        });
+    };
+    session_.input() = {holds(Action::throttle) ? 1.0 : 0.0, holds(Action::brake) ? 1.0 : 0.0,
+                        (holds(Action::steerLeft) ? 1.0 : 0.0) - (holds(Action::steerRight) ? 1.0 : 0.0)};
+}
+
+void Viewer::act(Action action) {
+    switch (action) {
+        case Action::throttle:
+        case Action::brake:
+        case Action::steerLeft:
+        case Action::steerRight:
+        case Action::flip:
+            break;  // for as long as they are held
+        case Action::pause:
+            paused = !paused;
+            break;
+        case Action::step:
+            if (paused) session_.step();
+            break;
+        case Action::restart:
+            session_.restart();
+            drive();
+            break;
+        case Action::nextCamera: {
+            ViewState state = session_.state();
+            state.world["camera"] = nextCamera(state);
+            state.cameraPath.clear();
+            apply(state);
+            break;
+        }
+        case Action::addCameraKey:
+            std::erase_if(cameraKeys_, [now = std::max(session_.world().state().timeSeconds, 0.0)](
+                                           const CameraKey& key) { return key.seconds >= now; });
+            cameraKeys_.push_back(keyOf(session_.world().view(1, 1).camera, session_.world().state().timeSeconds));
+            message_ = fmt::format("camera path: {} keys", cameraKeys_.size());
+            break;
+        case Action::saveCameraPath:
+            if (cameraKeys_.empty())
+                message_ = "camera path: no keys yet (K adds one)";
+            else
+                save("camera_path.csv", CameraPath(cameraKeys_).csv());
+            break;
+        case Action::difference:
+            if (session_.has(Half::b)) split.shown = split.shown == Shown::difference ? Shown::wipe : Shown::difference;
+            break;
+        case Action::panels:
+            showsPanels = !showsPanels;
+            break;
+        case Action::help:
+            showsHelp = !showsHelp;
+            break;
+        case Action::savePicture:
+            savePicture();
+            break;
+        case Action::saveState:
+            save("state.toml", toToml(session_.state()));
+            break;
+        case Action::saveDrive:
+            if (session_.recordedSteps() == 0)
+                message_ = "drive: nothing was driven by keyboard (set the drive to 'keyboard')";
+            else
+                save("drive.csv", session_.recordedDrive());
+            break;
+        case Action::copyLine:
+            copied_ = line(Half::a);
+            message_ = "copied: " + copied_;
+            break;
+        case Action::quit:
+            quit_ = true;
+            break;
+    }
+}
+
+void Viewer::apply(const ViewState& state) {
+    try {
+        session_.set(state);
+        message_.clear();
+        if (!session_.has(Half::b)) split.shown = Shown::a;
+        makeImage();
+    } catch (const InputError& error) {
+        message_ = error.what();
+    }
+}
+
+void Viewer::applyText(const std::string& text) {
+    try {
+        const std::vector<std::string> words = shellWords(text.substr(0, text.find('\n')));
+        const bool isLine = words.size() > 1 && (words[0] == "run" || words[1] == "run");
+        ViewState state = isLine ? stateOfCommandLine(text) : stateOfToml(text, "pasted text");
+        if (isLine) state.b = session_.state().b;
+        apply(state);
+    } catch (const InputError& error) {
+        message_ = error.what();
+    }
+}
+
+void Viewer::advance(double secondsForPreroll) {
+    const std::int64_t start = steadyNow();
+    const auto isEarly = [&] { return static_cast<double>(steadyNow() - start) < 1e9 * secondsForPreroll; };
+    if (session_.stepsToGo() > 0)
+        while (session_.stepsToGo() > 0 && isEarly()) session_.step();
+    else if (!paused)
+        session_.step();
+    session_.draw();
+    compose();
+}
+
+void Viewer::compose() {
+    SplitSettings settings = split;
+    const bool both = session_.has(Half::b);
+    if (!both) settings.shown = Shown::a;
+    for (const KeyBinding& binding : keyBindings())
+        if (both && binding.action == Action::flip && held_.at(static_cast<std::size_t>(binding.key)))
+            settings.shown = settings.shown == Shown::b ? Shown::a : Shown::b;
+    const ImageSize size = session_.state().size;
+    splitView_.draw(session_.picture(Half::a), session_.picture(both ? Half::b : Half::a), settings, target_,
+                    size.width, size.height);
+}
+
+template <typename Move>
+void Viewer::moveCamera(const Move& move) {
+    ViewState state = session_.state();
+    const CameraKey key = move(keyOf(session_.world().view(1, 1).camera, 0));
+    state.cameraPath = CameraPath({key}).rows();
+    apply(state);
+}
+
+void Viewer::turnCamera(double right, double up) {
+    moveCamera([&](const CameraKey& key) { return turned(key, -turnPerHeight * right, -turnPerHeight * up); });
+}
+
+void Viewer::shiftCamera(double right, double up) {
+    moveCamera([&](const CameraKey& key) {
+        // What lies at the target's distance follows the hand.
+        const double height =
+            2 * glm::distance(key.eye, key.target) * std::tan(glm::radians(key.fieldOfViewDegrees) / 2);
+        return shifted(key, -height * right, -height * up);
+    });
+}
+
+void Viewer::dollyCamera(double factor) {
+    moveCamera([&](const CameraKey& key) { return dollied(key, factor); });
+}
+
+std::string Viewer::line(Half half) const {
+    try {
+        return commandLine(session_.state(), half, (folder_ / "run").string());
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+void Viewer::save(const std::string& name, const std::string& text) {
+    try {
+        std::filesystem::create_directories(folder_);
+        writeWhole(folder_ / name, text);
+        message_ = "saved: " + (folder_ / name).string();
+    } catch (const std::exception& error) {
+        message_ = error.what();
+    }
+}
+
+void Viewer::savePicture() {
+    try {
+        std::filesystem::create_directories(folder_);
+        pictures::Image picture = draw::readBack(image_);
+        for (glm::vec4& pixel : picture.pixels)
+            for (int channel = 0; channel < 3; ++channel) pixel[channel] = pictures::decodeSrgb(pixel[channel]);
+        const auto file = folder_ / fmt::format("f{:06}.png", std::max<std::int64_t>(session_.frame(), 0));
+        pictures::writeImage(picture, file);
+        message_ = "saved: " + file.string();
+    } catch (const std::exception& error) {
+        message_ = error.what();
+    }
+}
+
+}  // namespace dustbench::bench

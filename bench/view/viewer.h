@@ -1,0 +1,77 @@
+// What the window does, without a window: a session, how its two pictures are put together, and what keys and panels
+// ask for.
+//
+// Errors of the user's input become a message; the last state stays. Owns: session and composed picture. Threads: the
+// device's.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/view/keys.h"
+#include "bench/view/split_view.h"
+#include "bench/view/view_session.h"
+
+namespace dustbench::bench {
+
+class Viewer {
+ public:
+    /// `folder` is where files are saved; made when the first is.
+    Viewer(const ViewState& state, gpu::Device& device, std::filesystem::path folder);
+
+    void press(Key key, bool control);
+    void release(Key key);
+    void act(Action action);
+
+    /// Sets the state or, if it cannot be shown, a message.
+    void apply(const ViewState& state);
+    /// `run` line or TOML, as pasted.
+    void applyText(const std::string& text);
+
+    /// A frame of the window: steps unless paused (the preroll for at most `secondsForPreroll`), draws and composes.
+    void advance(double secondsForPreroll = 0.05);
+    /// The composed picture of the last advance(), without panels, display-encoded.
+    [[nodiscard]] const gpu::Texture& image() const { return image_; }
+
+    /// Moves the camera by hand (free_camera.h), which then stands in the world. Shares of the picture's height.
+    void turnCamera(double right, double up);
+    void shiftCamera(double right, double up);
+    void dollyCamera(double factor);
+
+    [[nodiscard]] const ViewSession& session() const { return session_; }
+    [[nodiscard]] ViewState state() const { return session_.state(); }
+    /// The command that makes a half's picture; its error where there is none.
+    [[nodiscard]] std::string line(Half half) const;
+    /// A text for the clipboard, once.
+    [[nodiscard]] std::string takeCopied() { return std::exchange(copied_, {}); }
+    [[nodiscard]] const std::string& message() const { return message_; }
+    [[nodiscard]] bool wantsToQuit() const { return quit_; }
+
+    SplitSettings split;
+    bool paused = false, showsPanels = true, showsHelp = false;
+
+ private:
+    void drive();
+    void compose();
+    void makeImage();
+    void save(const std::string& name, const std::string& text);
+    void savePicture();
+    template <typename Move>
+    void moveCamera(const Move& move);
+
+    gpu::Device& device_;
+    std::filesystem::path folder_;
+    ViewSession session_;
+    SplitView splitView_;
+    gpu::Texture image_;
+    gpu::Framebuffer target_;
+    std::array<bool, keyCount> held_{};
+    std::vector<CameraKey> cameraKeys_;
+    std::string message_, copied_;
+    bool quit_ = false;
+};
+
+}  // namespace dustbench::bench

@@ -1,0 +1,170 @@
+#include "bench/view/viewer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include "methods/contract/registry.h"
+#include "methods/kit/draw/read_back.h"
+#include "methods/kit/testing/test_folder.h"
+
+namespace dustbench::bench {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Keys, EachHasOneMeaningAndEveryActionAKey) {
+    std::set<std::pair<Key, bool>> seen;
+    std::set<Action> actions;
+    for (const KeyBinding& binding : keyBindings()) {
+        EXPECT_TRUE(seen.emplace(binding.key, binding.control).second) << binding.name;
+        EXPECT_EQ(actionOf(binding.key, binding.control), binding.action);
+        actions.insert(binding.action);
+        EXPECT_EQ(binding.name.empty(), binding.help.empty());
+    }
+    EXPECT_EQ(actions.size(), static_cast<std::size_t>(Action::quit) + 1);
+    EXPECT_EQ(actionOf(Key::z, true), std::nullopt);
+}
+
+class ViewerTest : public testing::Test {
+ protected:
+    ViewState small() const {
+        ViewState state;
+        state.size = {64, 48};
+        state.world = {{"particles", "300"}, {"preroll", "0.2"}};
+        state.a.method = methods().front().id;
+        return state;
+    }
+    [[nodiscard]] std::filesystem::path saved() const { return folder_.path() / "saved"; }
+    static std::string contentOf(const std::filesystem::path& file) {
+        std::ifstream stream(file, std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+    gpu::Device device_;
+    TestFolder folder_;
+};
+
+TEST_F(ViewerTest, DrivesByHeldKeysAndSavesADriveThatIsTheSame) {
+    ViewState state = small();
+    state.drive = keyboardDrive;
+    Viewer viewer(state, device_, saved());
+    viewer.advance(1e9);
+    viewer.press(Key::up, false);
+    viewer.press(Key::a, false);
+    for (int n = 0; n < 60; ++n) viewer.advance();
+    const double heading = viewer.session().world().state().vehicle.heading;
+    EXPECT_GT(viewer.session().world().state().vehicle.speed, 2);
+    EXPECT_GT(heading, 0.01);
+    viewer.release(Key::a);
+    viewer.release(Key::up);
+    viewer.press(Key::down, false);
+    for (int n = 0; n < 60; ++n) viewer.advance();
+    EXPECT_LT(viewer.session().world().state().vehicle.speed, 0.1);
+    viewer.press(Key::r, false);
+    EXPECT_THAT(viewer.message(), HasSubstr("drive.csv"));
+
+    Viewer again(viewer.session().replayOf((saved() / "drive.csv").string()), device_, saved());
+    again.paused = true;
+    again.advance(1e9);
+    EXPECT_EQ(again.session().frame(), viewer.session().frame());
+    EXPECT_EQ(again.session().world().stateHash(), viewer.session().world().stateHash());
+}
+
+TEST_F(ViewerTest, PausesStepsAndBeginsAnew) {
+    Viewer viewer(small(), device_, saved());
+    viewer.advance(1e9);
+    EXPECT_EQ(viewer.session().frame(), 0);
+    viewer.advance();
+    EXPECT_EQ(viewer.session().frame(), 1);
+    viewer.press(Key::period, false);  // only while paused
+    EXPECT_EQ(viewer.session().frame(), 1);
+    viewer.press(Key::space, false);
+    viewer.advance();
+    EXPECT_EQ(viewer.session().frame(), 1);
+    viewer.press(Key::period, false);
+    EXPECT_EQ(viewer.session().frame(), 2);
+    viewer.press(Key::b, false);
+    viewer.advance(1e9);
+    EXPECT_EQ(viewer.session().frame(), 0);
+    EXPECT_FALSE(viewer.wantsToQuit());
+    viewer.press(Key::q, true);
+    EXPECT_TRUE(viewer.wantsToQuit());
+}
+
+TEST_F(ViewerTest, FlipsInPlaceWhileTheKeyIsHeld) {
+    ViewState state = small();
+    state.b = HalfState{methods().back().id, {}};
+    Viewer viewer(state, device_, saved());
+    viewer.paused = true;
+    viewer.split.shown = Shown::a;
+    viewer.advance(1e9);
+    const auto pictureOf = [&](Half half) { return draw::readBack(viewer.session().picture(half)).pixels; };
+    EXPECT_EQ(draw::readBack(viewer.image()).pixels, pictureOf(Half::a));
+    viewer.press(Key::f, false);
+    viewer.advance();
+    EXPECT_EQ(draw::readBack(viewer.image()).pixels, pictureOf(Half::b));
+    viewer.release(Key::f);
+    viewer.advance();
+    EXPECT_EQ(draw::readBack(viewer.image()).pixels, pictureOf(Half::a));
+    EXPECT_NE(pictureOf(Half::a), pictureOf(Half::b));
+}
+
+TEST_F(ViewerTest, ACameraPathOfKeysIsSavedAndFollowed) {
+    Viewer viewer(small(), device_, saved());
+    viewer.press(Key::k, true);
+    EXPECT_THAT(viewer.message(), HasSubstr("no keys yet"));
+    viewer.advance(1e9);
+    std::vector<glm::dvec3> eyes;
+    for (int key = 0; key < 3; ++key) {
+        viewer.turnCamera(0.2, 0.1);
+        eyes.push_back(viewer.session().world().view(4, 3).camera.eye);
+        viewer.press(Key::k, false);
+        for (int n = 0; n < 10; ++n) viewer.advance();
+    }
+    viewer.press(Key::k, true);
+    const CameraPath path = CameraPath::parseFile(saved() / "camera_path.csv");
+    ASSERT_EQ(path.keys().size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(glm::distance(path.keys()[i].eye, eyes[i]), 1e-9);
+    EXPECT_NEAR(path.keys()[2].seconds - path.keys()[1].seconds, 10 * stepSeconds, 1e-9);
+}
+
+TEST_F(ViewerTest, TakesLinesAndTomlAndSaysWhatIsWrong) {
+    Viewer viewer(small(), device_, saved());
+    viewer.advance(1e9);
+    viewer.press(Key::s, true);
+    const std::string toml = contentOf(saved() / "state.toml");
+    ViewState other = small();
+    other.seed = 9;
+    const std::string line = commandLine(other, Half::a, "o");
+    viewer.applyText(line);
+    EXPECT_EQ(viewer.message(), "");
+    EXPECT_EQ(viewer.state().seed, 9u);
+    viewer.applyText(toml);
+    EXPECT_EQ(viewer.message(), "");
+    EXPECT_EQ(viewer.state().seed, 1u);
+    viewer.applyText("nonsense");
+    EXPECT_THAT(viewer.message(), HasSubstr("pasted text:1: "));
+    viewer.applyText("dustbench run --methods x");
+    EXPECT_THAT(viewer.message(), HasSubstr("'--method'"));
+    viewer.press(Key::c, true);
+    EXPECT_EQ(viewer.takeCopied(), viewer.line(Half::a));
+    EXPECT_EQ(viewer.takeCopied(), "");
+}
+
+TEST_F(ViewerTest, SavesThePictureThatItShows) {
+    Viewer viewer(small(), device_, saved());
+    viewer.paused = true;
+    viewer.advance(1e9);
+    viewer.press(Key::p, false);
+    const pictures::Image file = pictures::readImage(saved() / "f000000.png");
+    const pictures::Image shown = draw::readBack(viewer.image());
+    for (std::size_t i = 0; i < shown.pixels.size(); ++i)
+        ASSERT_NEAR(pictures::encodeSrgb(file.pixels[i].g), shown.pixels[i].g, 0.5 / 255);
+}
+
+}  // namespace
+}  // namespace dustbench::bench
