@@ -1,0 +1,112 @@
+#include "bench/view/panels/panel_canvas.h"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <cfloat>
+#include <filesystem>
+
+#include "methods/contract/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr const char* fontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
+struct FieldKey {
+    ImGuiKey_ imgui;
+    Key key;
+};
+/// The keys by which ImGui edits text and walks through widgets.
+constexpr std::array fieldKeys{FieldKey{ImGuiKey_Tab, Key::tab},
+                               FieldKey{ImGuiKey_LeftArrow, Key::left},
+                               FieldKey{ImGuiKey_RightArrow, Key::right},
+                               FieldKey{ImGuiKey_UpArrow, Key::up},
+                               FieldKey{ImGuiKey_DownArrow, Key::down},
+                               FieldKey{ImGuiKey_Home, Key::home},
+                               FieldKey{ImGuiKey_End, Key::end},
+                               FieldKey{ImGuiKey_Delete, Key::erase},
+                               FieldKey{ImGuiKey_Backspace, Key::backspace},
+                               FieldKey{ImGuiKey_Enter, Key::enter},
+                               FieldKey{ImGuiKey_Escape, Key::escape},
+                               FieldKey{ImGuiKey_Space, Key::space},
+                               FieldKey{ImGuiKey_A, Key::a},
+                               FieldKey{ImGuiKey_C, Key::c},
+                               FieldKey{ImGuiKey_V, Key::v},
+                               FieldKey{ImGuiKey_X, Key::x},
+                               FieldKey{ImGuiKey_Y, Key::y},
+                               FieldKey{ImGuiKey_Z, Key::z}};
+
+void loadFont(float pixels) {
+    ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+    if (std::filesystem::exists(fontFile) && fonts.AddFontFromFileTTF(fontFile, pixels)) return;
+    ImFontConfig plain;
+    plain.SizePixels = pixels;
+    fonts.AddFontDefault(&plain);
+}
+
+void hand(const PanelInput& input, int width, int height) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
+    io.DeltaTime = static_cast<float>(input.seconds);
+    io.MousePos = input.mouse.x < 0 ? ImVec2(-FLT_MAX, -FLT_MAX) : ImVec2(input.mouse.x, input.mouse.y);
+    for (std::size_t i = 0; i < input.buttons.size(); ++i) io.MouseDown[i] = input.buttons[i];
+    io.MouseWheel = input.wheel;
+    for (std::size_t i = 0; i < keyCount; ++i) io.KeysDown[i] = input.keys[i];
+    io.KeyCtrl = input.control;
+    io.KeyShift = input.shift;
+    io.AddInputCharactersUTF8(input.text.c_str());
+}
+
+}  // namespace
+
+PanelCanvas::PanelCanvas(gpu::Device& device, float fontPixels) : device_(device) {
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.LogFilename = nullptr;
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    for (const FieldKey& each : fieldKeys) io.KeyMap[each.imgui] = static_cast<int>(each.key);
+    io.ClipboardUserData = &clipboard_;
+    io.GetClipboardTextFn = [](void* text) { return static_cast<std::string*>(text)->c_str(); };
+    io.SetClipboardTextFn = [](void* text, const char* copied) { *static_cast<std::string*>(text) = copied; };
+    loadFont(fontPixels);
+    ImGui::StyleColorsDark();
+    ImGui::GetStyle().ScaleAllSizes(fontPixels / 13);  // ImGui's own sizes are for text of 13 pixels
+    ImGui::GetStyle().WindowRounding = 0;
+    if (!ImGui_ImplOpenGL3_Init("#version 450 core")) {
+        ImGui::DestroyContext();
+        throw InputError("panels: OpenGL cannot be loaded; Debian's package libgl1 brings libGL.so.1");
+    }
+}
+
+PanelCanvas::~PanelCanvas() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void PanelCanvas::draw(const gpu::Framebuffer& target, int width, int height, const PanelInput& input,
+                       const std::function<void()>& show) {
+    hand(input, width, height);
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+    show();
+    ImGui::Render();
+    target.bind();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+bool PanelCanvas::takesMouse() const {
+    return ImGui::GetIO().WantCaptureMouse;
+}
+
+bool PanelCanvas::takesKeyboard() const {
+    return ImGui::GetIO().WantTextInput;
+}
+
+void WidgetMap::note(const std::string& name) {
+    const ImVec2 minimum = ImGui::GetItemRectMin(), maximum = ImGui::GetItemRectMax();
+    widgets_[name] = {{minimum.x, minimum.y}, {maximum.x, maximum.y}};
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,32 @@
+#include "bench/view/panels/panel_picture.h"
+
+#include <limits>
+
+#include "bench/view/panels/viewer_panels.h"
+#include "methods/kit/draw/read_back.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr float fontPixels = 15;
+/// ImGui knows the size of a table only from the frame before.
+constexpr int framesToSettle = 2;
+
+}  // namespace
+
+pictures::Image panelPicture(const ViewState& state, int width, int height) {
+    gpu::Device device;
+    Viewer viewer(state, device, "view");
+    viewer.paused = true;
+    viewer.advance(std::numeric_limits<double>::infinity());
+    ViewerPanels panels(device, fontPixels);
+    const gpu::Texture texture = gpu::Texture::make2D(device, "window", gpu::Format::rgba8, width, height);
+    const gpu::Framebuffer target(device, "window", &texture, nullptr);
+    for (int n = 0; n < framesToSettle; ++n) panels.draw(viewer, target, width, height, {});
+    pictures::Image picture = draw::readBack(texture);
+    for (glm::vec4& pixel : picture.pixels)
+        pixel = {pictures::decodeSrgb(pixel.r), pictures::decodeSrgb(pixel.g), pictures::decodeSrgb(pixel.b), 1};
+    return picture;
+}
+
+}  // namespace dustbench::bench

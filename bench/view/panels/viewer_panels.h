@@ -1,0 +1,48 @@
+// Everything that a frame of the window shows: the picture, and the panels over it.
+//
+// Owns: the canvas. Threads: the device's.
+#pragma once
+
+#include <optional>
+
+#include "bench/view/panels/panel_canvas.h"
+#include "bench/view/panels/parameter_panel.h"
+#include "bench/view/viewer.h"
+#include "methods/kit/pictures/image.h"
+
+namespace dustbench::bench {
+
+class ViewerPanels {
+ public:
+    ViewerPanels(gpu::Device& device, float fontPixels) : canvas_(device, fontPixels) {}
+
+    /// Fills the target, which is `width` × `height`, with the viewer's picture and the panels, and hands the input of
+    /// the panels and of the mouse over the picture to the viewer. Keys are the caller's business (takesKeyboard).
+    void draw(Viewer& viewer, const gpu::Framebuffer& target, int width, int height, const PanelInput& input);
+
+    [[nodiscard]] bool takesKeyboard() const { return canvas_.takesKeyboard(); }
+    [[nodiscard]] PanelCanvas& canvas() { return canvas_; }
+    /// Names of widgets are those of their labels; parameters are `a/NAME`, `b/NAME` and `world/NAME`.
+    [[nodiscard]] const WidgetMap& widgets() const { return widgets_; }
+
+ private:
+    void showPicture(const Viewer& viewer, int width, int height);
+    void useMouse(Viewer& viewer, const PanelInput& input);
+    void showPanel(Viewer& viewer, int height);
+    void showHalf(Viewer& viewer, Half half);
+    void showPictures(Viewer& viewer);
+    void showTime(Viewer& viewer);
+    void showCosts(const Viewer& viewer);
+    void showParameters(Viewer& viewer);
+    void showFiles(Viewer& viewer);
+    static void showMessage(const Viewer& viewer, int width, int height);
+    static void showHelp();
+
+    PanelCanvas canvas_;
+    WidgetMap widgets_;
+    ParameterPanel ofA_{"a"}, ofB_{"b"}, ofWorld_{"world"};
+    PanelRectangle picture_;
+    std::optional<PanelInput> before_;
+};
+
+}  // namespace dustbench::bench
