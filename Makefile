@@ -40,6 +40,10 @@ build/%/build.ninja: CMakePresets.json | packages
 build: build/release/build.ninja ## The program, build/release/dustbench
 	@cmake --build --preset release --parallel $(JOBS) --target dustbench
 
+.PHONY: view
+view: build ## Billboards beside an octree in a window (needs a display)
+	@$(PROGRAM) view --method billboard --with octree_search
+
 .PHONY: reproduce
 reproduce: build ## The paper's experiments in their quick size (PAPER=carr2006), results in reports/out/
 	@$(PROGRAM) reproduce --paper $(PAPER) --quick --out reports/out/$(PAPER)

@@ -18,6 +18,7 @@ namespace dustbench::cli {
 [[nodiscard]] Command reportCommand();
 [[nodiscard]] Command diffCommand();
 [[nodiscard]] Command compareCommand();
+[[nodiscard]] Command viewCommand();
 /// The tools of the folders of methods/: `shape`.
 [[nodiscard]] std::vector<Command> toolCommands();
 

@@ -52,8 +52,9 @@ CommonOptions commonOptions() {
 int run(const std::vector<std::string>& argv) {
     if (!argv.empty() && argv.front() == measureRunName) return measureRunCommand(argv);
     if (!argv.empty() && argv.front() == forecastRunName) return forecastRunCommand(argv);
-    std::vector<Command> commands{listCommand(),  envCommand(),       runCommand(),    compareCommand(), suiteCommand(),
-                                  mergeCommand(), reproduceCommand(), reportCommand(), exportCommand(),  diffCommand()};
+    std::vector<Command> commands{listCommand(),   envCommand(),   runCommand(),       compareCommand(),
+                                  suiteCommand(),  mergeCommand(), reproduceCommand(), reportCommand(),
+                                  exportCommand(), diffCommand(),  viewCommand()};
     std::ranges::move(toolCommands(), std::back_inserter(commands));
     return dispatch(commands, commonOptions(), "dustbench " + bench::buildFacts().version, argv);
 }

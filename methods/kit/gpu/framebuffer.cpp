@@ -44,4 +44,9 @@ void Framebuffer::clearDepth() const {
     glClearNamedFramebufferfv(name_.get(), GL_DEPTH, 0, &farthest);
 }
 
+void Framebuffer::copyToWindow() const {
+    glBlitNamedFramebuffer(name_.get(), 0, 0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+                           GL_NEAREST);
+}
+
 }  // namespace dustbench::gpu

@@ -22,6 +22,8 @@ class DUSTBENCH_API Framebuffer {
     void clearColour(float red, float green, float blue, float alpha) const;
     /// Clears to 0, the far end of the reversed depth range.
     void clearDepth() const;
+    /// Copies the colour to the lower left corner of the current context's window.
+    void copyToWindow() const;
 
  private:
     Name name_;

@@ -1,0 +1,135 @@
+// `dustbench view`: the interactive window, or one frame of it as a picture.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+
+#include "bench/cli/commands.h"
+#include "bench/cli/exit_codes.h"
+#include "bench/cli/shared_options.h"
+#include "bench/cli/world_options.h"
+#include "bench/run/thread_limit.h"
+#include "bench/view/keys.h"
+#include "bench/view/view_state.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
+#ifdef DUSTBENCH_PANELS
+#include "bench/view/panels/panel_picture.h"
+#endif
+#ifdef DUSTBENCH_WINDOW
+#include "bench/view/window/view_window.h"
+#endif
+
+namespace dustbench::cli {
+namespace {
+
+struct ViewOptions {
+    WorldOptions world;
+    std::string with, state, picture, windowSize = "1280x720", out = "view";
+    std::int64_t frame = 0;
+};
+
+[[maybe_unused]] InputError missing(const char* what) {
+    return InputError(
+        fmt::format("view: this program was built without {}; install the packages libglfw3-dev, "
+                    "libimgui-dev and libgl1 (.ci/install view), then `make build`",
+                    what));
+}
+
+bench::HalfState halfOf(const std::string& method, const bench::ParameterLists& given) {
+    bench::HalfState half{findMethod(method).id, {}};
+    for (const auto& [name, values] : given)
+        if (findMethod(method).parameters.find(name)) half.parameters[name] = values.front();
+    return half;
+}
+
+bench::ViewState ofOptions(const ViewOptions& options) {
+    WorldOptions world = options.world;
+    const bool byKeyboard = world.drive == bench::keyboardDrive;
+    if (byKeyboard) world.drive.clear();
+    const bench::RunSpec spec = world.toWorldSpec();
+    bench::ViewState state;
+    state.scene = spec.scene;
+    state.drive = byKeyboard ? bench::keyboardDrive : spec.drive;
+    state.cameraPath = spec.cameraPath;
+    state.seed = spec.seed;
+    state.size = spec.size;
+    state.threads = spec.threads;
+    state.warmup = spec.warmup;
+    state.frame = options.frame;
+    const bench::ParameterLists given = parseParameters(world.parameters);
+    state.a = halfOf(world.method, given);
+    if (!options.with.empty()) state.b = halfOf(options.with, given);
+    for (const auto& [name, values] : given) {
+        if (values.size() != 1)
+            throw InputError(fmt::format("-P: parameter {}: got {} values, expected one: a view shows one run", name,
+                                         values.size()));
+        const bool isOfHalf = state.a.parameters.contains(name) || (state.b && state.b->parameters.contains(name));
+        if (!isOfHalf) (void)bench::resolveParameters(findMethod(state.a.method), {{name, values.front()}});
+        if (!isOfHalf) state.world[name] = values.front();
+    }
+    return bench::normalised(state);
+}
+
+bench::ViewState ofFile(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw InputError("--state: '" + file + "' cannot be read, expected a TOML file");
+    return bench::stateOfToml(std::string(std::istreambuf_iterator<char>(stream), {}), file);
+}
+
+int view(const ViewOptions& options) {
+    const bench::ViewState state = options.state.empty() ? ofOptions(options) : ofFile(options.state);
+    if (!options.picture.empty()) {
+#ifdef DUSTBENCH_PANELS
+        const bench::ImageSize size = bench::parseSize(options.windowSize);
+        bench::withThreads(state.threads, [&] {
+            pictures::writeImage(bench::panelPicture(state, size.width, size.height), options.picture);
+        });
+        return exitOk;
+#else
+        throw missing("Dear ImGui");
+#endif
+    }
+#ifdef DUSTBENCH_WINDOW
+    bench::withThreads(state.threads, [&] { bench::showWindow(state, options.out); });
+    return exitOk;
+#else
+    throw missing("a window");
+#endif
+}
+
+std::string keysText() {
+    std::string text = "Keys:";
+    for (const bench::KeyBinding& binding : bench::keyBindings())
+        if (!binding.name.empty()) text += fmt::format("\n  {:<10} {}", binding.name, binding.help);
+    return text;
+}
+
+}  // namespace
+
+Command viewCommand() {
+    auto options = std::make_shared<ViewOptions>();
+    options->world.method = "billboard";
+    options->world.warmup = 0;
+    return {"view", "Show one method, or two at once, in a window",
+            "The vehicle is driven by hand with `--drive keyboard`. Nothing seen in the window is a measurement.\n" +
+                keysText(),
+            [options](Arguments& arguments) {
+                arguments.text("--method", "ID", "picture A: one of `dustbench list methods`", options->world.method);
+                arguments.text("--with", "ID", "picture B, beside it", options->with);
+                options->world.declareWorld(arguments);
+                arguments.integer("--frame", "go to this frame first", options->frame, 0, 10'000'000);
+                arguments.text("--state", "FILE", "settings that were saved, instead of the options above",
+                               options->state);
+                arguments.text("--picture", "FILE", "draw the window to a picture (.png, .exr) instead of opening it",
+                               options->picture);
+                arguments.text("--window", "WxH", "of that picture, pixels", options->windowSize);
+                arguments.text("--out", "DIR", "folder for what is saved; created when needed", options->out);
+            },
+            [options] { return view(*options); }};
+}
+
+}  // namespace dustbench::cli

@@ -1,0 +1,248 @@
+#include "bench/view/window/view_window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <fmt/format.h>
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bench/measure/clock.h"
+#include "bench/view/panels/viewer_panels.h"
+#include "methods/contract/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr float fontPixels = 15;  ///< on a display of 96 dots per inch
+constexpr int initialWidth = 1280, initialHeight = 720;
+
+std::string& lastProblem() {
+    static std::string problem;
+    return problem;
+}
+
+InputError cannotOpen() {
+    return InputError("view: cannot open a window: " + (lastProblem().empty() ? "no reason given" : lastProblem()) +
+                      "; --picture FILE draws one frame without a window");
+}
+
+/// GLFW's library, for as long as it is used.
+class Library {
+ public:
+    Library() {
+        glfwSetErrorCallback([](int, const char* text) { lastProblem() = text; });
+        if (glfwInit() != GLFW_TRUE) throw cannotOpen();
+    }
+    ~Library() { glfwTerminate(); }
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+};
+
+const std::map<int, Key>& keysOfGlfw() {
+    static const std::map<int, Key> keys{{GLFW_KEY_LEFT, Key::left},
+                                         {GLFW_KEY_RIGHT, Key::right},
+                                         {GLFW_KEY_UP, Key::up},
+                                         {GLFW_KEY_DOWN, Key::down},
+                                         {GLFW_KEY_TAB, Key::tab},
+                                         {GLFW_KEY_HOME, Key::home},
+                                         {GLFW_KEY_END, Key::end},
+                                         {GLFW_KEY_DELETE, Key::erase},
+                                         {GLFW_KEY_BACKSPACE, Key::backspace},
+                                         {GLFW_KEY_ENTER, Key::enter},
+                                         {GLFW_KEY_ESCAPE, Key::escape},
+                                         {GLFW_KEY_SPACE, Key::space},
+                                         {GLFW_KEY_PERIOD, Key::period},
+                                         {GLFW_KEY_F1, Key::f1},
+                                         {GLFW_KEY_A, Key::a},
+                                         {GLFW_KEY_B, Key::b},
+                                         {GLFW_KEY_C, Key::c},
+                                         {GLFW_KEY_D, Key::d},
+                                         {GLFW_KEY_F, Key::f},
+                                         {GLFW_KEY_G, Key::g},
+                                         {GLFW_KEY_H, Key::h},
+                                         {GLFW_KEY_K, Key::k},
+                                         {GLFW_KEY_P, Key::p},
+                                         {GLFW_KEY_Q, Key::q},
+                                         {GLFW_KEY_R, Key::r},
+                                         {GLFW_KEY_S, Key::s},
+                                         {GLFW_KEY_V, Key::v},
+                                         {GLFW_KEY_W, Key::w},
+                                         {GLFW_KEY_X, Key::x},
+                                         {GLFW_KEY_Y, Key::y},
+                                         {GLFW_KEY_Z, Key::z}};
+    return keys;
+}
+
+struct KeyEvent {
+    Key key;
+    bool pressed, control;
+};
+
+/// What GLFW has reported since the last frame.
+struct Reported {
+    PanelInput input;
+    std::vector<KeyEvent> keys;
+    std::vector<std::string> dropped;  ///< files
+    bool gotFocus = true;
+};
+
+Reported& reportedOf(GLFWwindow* window) {
+    return *static_cast<Reported*>(glfwGetWindowUserPointer(window));
+}
+
+void onKey(GLFWwindow* window, int code, int, int action, int modifiers) {
+    const auto key = keysOfGlfw().find(code);
+    Reported& reported = reportedOf(window);
+    reported.input.control = (modifiers & GLFW_MOD_CONTROL) != 0;
+    reported.input.shift = (modifiers & GLFW_MOD_SHIFT) != 0;
+    if (key == keysOfGlfw().end() || action == GLFW_REPEAT) return;
+    reported.input.keys.at(static_cast<std::size_t>(key->second)) = action == GLFW_PRESS;
+    reported.keys.push_back({key->second, action == GLFW_PRESS, reported.input.control});
+}
+
+/// UTF-8 of a code point.
+std::string utf8(unsigned int point) {
+    const auto tail = [point](int shift) { return static_cast<char>(0x80 | ((point >> shift) & 0x3f)); };
+    if (point < 0x80) return {static_cast<char>(point)};
+    if (point < 0x800) return {static_cast<char>(0xc0 | (point >> 6)), tail(0)};
+    if (point < 0x10000) return {static_cast<char>(0xe0 | (point >> 12)), tail(6), tail(0)};
+    return {static_cast<char>(0xf0 | (point >> 18)), tail(12), tail(6), tail(0)};
+}
+
+void listen(GLFWwindow* window) {
+    glfwSetKeyCallback(window, onKey);
+    glfwSetCharCallback(window, [](GLFWwindow* to, unsigned int point) { reportedOf(to).input.text += utf8(point); });
+    glfwSetScrollCallback(
+        window, [](GLFWwindow* to, double, double up) { reportedOf(to).input.wheel += static_cast<float>(up); });
+    glfwSetWindowFocusCallback(window, [](GLFWwindow* to, int has) { reportedOf(to).gotFocus |= has == GLFW_TRUE; });
+    glfwSetDropCallback(window, [](GLFWwindow* to, int count, const char** paths) {
+        reportedOf(to).dropped.insert(reportedOf(to).dropped.end(), paths, paths + count);
+    });
+}
+
+void readMouse(GLFWwindow* window, PanelInput& input) {
+    double x = 0, y = 0;
+    int width = 0, height = 0, pixels = 0, rows = 0;
+    glfwGetCursorPos(window, &x, &y);
+    glfwGetWindowSize(window, &width, &height);
+    glfwGetFramebufferSize(window, &pixels, &rows);
+    const bool isInside = x >= 0 && y >= 0 && x < width && y < height;
+    input.mouse = isInside ? glm::vec2(x * pixels / width, y * rows / height) : glm::vec2(-1);
+    for (int button = 0; button < 3; ++button)
+        input.buttons[static_cast<std::size_t>(button)] = glfwGetMouseButton(window, button) == GLFW_PRESS;
+}
+
+using WindowOwner = std::unique_ptr<GLFWwindow, decltype(&glfwDestroyWindow)>;
+
+WindowOwner openWindow() {
+    glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    WindowOwner window(glfwCreateWindow(initialWidth, initialHeight, "dustbench view", nullptr, nullptr),
+                       &glfwDestroyWindow);
+    if (!window) throw cannotOpen();
+    glfwMakeContextCurrent(window.get());
+    glfwSwapInterval(1);
+    return window;
+}
+
+std::string contentOf(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The window's frames.
+class Loop {
+ public:
+    Loop(GLFWwindow* window, const ViewState& state, const std::filesystem::path& folder)
+        : window_(window),
+          device_(gpu::Device::adoptCurrent()),
+          viewer_(state, device_, folder),
+          panels_(device_, fontPixels * contentScale()) {
+        glfwSetWindowUserPointer(window, &reported_);
+        listen(window);
+    }
+
+    void run() {
+        while (glfwWindowShouldClose(window_) == GLFW_FALSE && !viewer_.wantsToQuit()) {
+            glfwPollEvents();
+            useInput();
+            if (makeTarget())
+                frame();
+            else
+                glfwWaitEventsTimeout(0.1);  // minimised
+        }
+    }
+
+ private:
+    [[nodiscard]] float contentScale() const {
+        float x = 1, y = 1;
+        glfwGetWindowContentScale(window_, &x, &y);
+        return y;
+    }
+    void useInput() {
+        for (const KeyEvent& event : std::exchange(reported_.keys, {})) {
+            if (!event.pressed)
+                viewer_.release(event.key);
+            else if (!panels_.takesKeyboard())
+                viewer_.press(event.key, event.control);
+        }
+        for (const std::string& file : std::exchange(reported_.dropped, {})) viewer_.applyText(contentOf(file));
+        if (std::exchange(reported_.gotFocus, false))
+            if (const char* text = glfwGetClipboardString(window_)) panels_.canvas().setClipboard(text);
+        readMouse(window_, reported_.input);
+    }
+    /// False if the window has no area.
+    bool makeTarget() {
+        int width = 0, height = 0;
+        glfwGetFramebufferSize(window_, &width, &height);
+        if (width == 0 || height == 0) return false;
+        if (width != texture_.width() || height != texture_.height()) {
+            texture_ = gpu::Texture::make2D(device_, "window", gpu::Format::rgba8, width, height);
+            target_ = gpu::Framebuffer(device_, "window", &texture_, nullptr);
+        }
+        return true;
+    }
+    void frame() {
+        const std::int64_t now = steadyNow();
+        reported_.input.seconds = before_ == 0 ? 1.0 / 60 : std::max(1e-6, static_cast<double>(now - before_) / 1e9);
+        before_ = now;
+        viewer_.advance();
+        const std::string clipboard = panels_.canvas().clipboard();
+        panels_.draw(viewer_, target_, texture_.width(), texture_.height(), reported_.input);
+        if (panels_.canvas().clipboard() != clipboard)
+            glfwSetClipboardString(window_, panels_.canvas().clipboard().c_str());
+        reported_.input.text.clear();
+        reported_.input.wheel = 0;
+        target_.copyToWindow();
+        glfwSwapBuffers(window_);
+    }
+
+    GLFWwindow* window_;
+    gpu::Device device_;
+    Viewer viewer_;
+    ViewerPanels panels_;
+    gpu::Texture texture_;
+    gpu::Framebuffer target_;
+    Reported reported_;
+    std::int64_t before_ = 0;
+};
+
+}  // namespace
+
+void showWindow(const ViewState& state, const std::filesystem::path& folder) {
+    const Library library;
+    const WindowOwner window = openWindow();
+    Loop(window.get(), state, folder).run();
+}
+
+}  // namespace dustbench::bench
