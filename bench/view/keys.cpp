@@ -24,6 +24,7 @@ constexpr std::array bindings{
     KeyBinding{Key::f, false, Action::flip, "F", "while held: B in place of A"},
     KeyBinding{Key::x, false, Action::difference, "X", "difference of A and B, and back"},
     KeyBinding{Key::h, false, Action::panels, "H", "hide the panel, and back"},
+    KeyBinding{Key::tab, false, Action::walk, "Tab", "walk through the panel with the arrow keys, and back to driving"},
     KeyBinding{Key::p, false, Action::savePicture, "P", "save the picture, without the panel"},
     KeyBinding{Key::s, true, Action::saveState, "Ctrl+S", "save all settings as TOML"},
     KeyBinding{Key::r, false, Action::saveDrive, "R", "save what was driven as a drive"},

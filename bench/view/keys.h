@@ -57,6 +57,7 @@ enum class Action {
     flip,
     difference,
     panels,
+    walk,
     help,
     savePicture,
     saveState,

@@ -104,6 +104,10 @@ void Viewer::act(Action action) {
         case Action::panels:
             showsPanels = !showsPanels;
             break;
+        case Action::walk:
+            walksPanel = !walksPanel;
+            held_ = {};
+            break;
         case Action::help:
             showsHelp = !showsHelp;
             break;

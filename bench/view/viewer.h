@@ -52,6 +52,7 @@ class Viewer {
 
     SplitSettings split;
     bool paused = false, showsPanels = true, showsHelp = false;
+    bool walksPanel = false;  ///< the arrow keys belong to the panel
 
  private:
     void drive();

@@ -69,7 +69,11 @@ void ViewerPanels::draw(Viewer& viewer, const gpu::Framebuffer& target, int widt
     widgets_.clear();
     target.clearColour(0.08f, 0.08f, 0.09f, 1);
     if (const std::string copied = viewer.takeCopied(); !copied.empty()) canvas_.setClipboard(copied);
-    canvas_.draw(target, width, height, input, [&] {
+    walks_ = viewer.walksPanel;
+    PanelInput ofPanels = input;
+    if (!takesKeyboard()) ofPanels.keys = {};
+    ofPanels.keys[static_cast<std::size_t>(Key::tab)] = false;
+    canvas_.draw(target, width, height, ofPanels, [&] {
         showPicture(viewer, width, height);
         if (viewer.showsPanels) showPanel(viewer, height);
         if (viewer.showsHelp) showHelp();
@@ -259,7 +263,9 @@ void ViewerPanels::showMessage(const Viewer& viewer, int width, int height) {
 }
 
 void ViewerPanels::showHelp() {
-    ImGui::Begin("Keys", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::SetNextWindowPos(ImVec2(panelWidth() + ImGui::GetFontSize(), ImGui::GetFontSize()), ImGuiCond_Appearing);
+    ImGui::SetNextWindowBgAlpha(1);
+    ImGui::Begin("Keys", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
     if (ImGui::BeginTable("keys", 2)) {
         for (const KeyBinding& binding : keyBindings()) {
             if (binding.name.empty()) continue;

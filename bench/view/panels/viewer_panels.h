@@ -17,10 +17,12 @@ class ViewerPanels {
     ViewerPanels(gpu::Device& device, float fontPixels) : canvas_(device, fontPixels) {}
 
     /// Fills the target, which is `width` × `height`, with the viewer's picture and the panels, and hands the input of
-    /// the panels and of the mouse over the picture to the viewer. Keys are the caller's business (takesKeyboard).
+    /// the panels and of the mouse over the picture to the viewer. Its keys reach the panels while a text is typed or
+    /// the viewer walks through the panel.
     void draw(Viewer& viewer, const gpu::Framebuffer& target, int width, int height, const PanelInput& input);
 
-    [[nodiscard]] bool takesKeyboard() const { return canvas_.takesKeyboard(); }
+    /// The panels use the keys, Tab excepted, so the viewer should not get them.
+    [[nodiscard]] bool takesKeyboard() const { return canvas_.takesKeyboard() || walks_; }
     [[nodiscard]] PanelCanvas& canvas() { return canvas_; }
     /// Names of widgets are those of their labels; parameters are `a/NAME`, `b/NAME` and `world/NAME`.
     [[nodiscard]] const WidgetMap& widgets() const { return widgets_; }
@@ -42,6 +44,7 @@ class ViewerPanels {
     WidgetMap widgets_;
     ParameterPanel ofA_{"a"}, ofB_{"b"}, ofWorld_{"world"};
     PanelRectangle picture_;
+    bool walks_ = false;
     std::optional<PanelInput> before_;
 };
 

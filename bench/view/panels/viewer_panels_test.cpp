@@ -181,6 +181,27 @@ TEST_F(Panels, ButtonsDoWhatTheySay) {
     EXPECT_FALSE(std::filesystem::is_empty(folder_.path() / "saved"));
 }
 
+TEST_F(Panels, KeysWalkThroughThePanelOnlyWhenAsked) {
+    open(methods().front().id, "");
+    const auto tap = [&](Key key) {
+        for (const bool down : {true, false}) {
+            input_.keys[static_cast<std::size_t>(key)] = down;
+            frames(2);
+        }
+    };
+    clickAt({450, 600});
+    const pictures::Image before = picture();
+    for (const Key key : {Key::down, Key::down, Key::up}) tap(key);
+    EXPECT_EQ(picture().pixels, before.pixels);
+    EXPECT_FALSE(panels_->takesKeyboard());
+    viewer_->press(Key::tab, false);
+    click("Go on");
+    click("Pause");
+    for (const Key key : {Key::down, Key::down, Key::up}) tap(key);
+    EXPECT_NE(picture().pixels, before.pixels);
+    EXPECT_TRUE(panels_->takesKeyboard());
+}
+
 TEST_F(Panels, APastedLineIsTheState) {
     open(methods().front().id, "");
     panels_->canvas().setClipboard("dustbench run --method " + methods().back().id +

@@ -193,7 +193,7 @@ class Loop {
         for (const KeyEvent& event : std::exchange(reported_.keys, {})) {
             if (!event.pressed)
                 viewer_.release(event.key);
-            else if (!panels_.takesKeyboard())
+            else if (event.key == Key::tab || !panels_.takesKeyboard())
                 viewer_.press(event.key, event.control);
         }
         for (const std::string& file : std::exchange(reported_.dropped, {})) viewer_.applyText(contentOf(file));
