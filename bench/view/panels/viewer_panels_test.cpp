@@ -155,6 +155,25 @@ TEST_F(Panels, EverySliderAndSwitchOfAMethodChangesItsParameter) {
     EXPECT_GT(tried, 10);
 }
 
+TEST_F(Panels, ParametersOfBAndOfTheWorldAreTheirOwn) {
+    if (!hasMethod("billboard") || !hasMethod("octree_search")) GTEST_SKIP() << "one of the methods is missing";
+    open("billboard", "octree_search");
+    click("Parameters of A");  // closed, so that the others come into view
+    EXPECT_FALSE(panels_->widgets().all().contains("a/soft"));
+    const ViewState before = viewer_->state();
+    slide("b/levels", 0.5f);
+    EXPECT_EQ(viewer_->state().b->parameters.count("levels"), 1u) << viewer_->message();
+    EXPECT_EQ(viewer_->state().a, before.a);
+    EXPECT_EQ(viewer_->state().world, before.world);
+    click("Parameters of B");
+    slide("world/speed", 0.5f);
+    ASSERT_EQ(viewer_->state().world.count("speed"), 1u) << viewer_->message();
+    EXPECT_NEAR(std::stod(viewer_->state().world.at("speed")), 30, 2);
+    EXPECT_EQ(viewer_->state().a, before.a);
+    click("world/speed/reset");
+    EXPECT_EQ(viewer_->state().world, before.world);
+}
+
 TEST_F(Panels, ButtonsDoWhatTheySay) {
     open(methods().front().id, methods().front().id);
     click("Go on");
@@ -189,14 +208,13 @@ TEST_F(Panels, KeysWalkThroughThePanelOnlyWhenAsked) {
             frames(2);
         }
     };
-    clickAt({450, 600});
+    click("Go on");
+    click("Pause");  // the panel has the focus
     const pictures::Image before = picture();
     for (const Key key : {Key::down, Key::down, Key::up}) tap(key);
     EXPECT_EQ(picture().pixels, before.pixels);
     EXPECT_FALSE(panels_->takesKeyboard());
     viewer_->press(Key::tab, false);
-    click("Go on");
-    click("Pause");
     for (const Key key : {Key::down, Key::down, Key::up}) tap(key);
     EXPECT_NE(picture().pixels, before.pixels);
     EXPECT_TRUE(panels_->takesKeyboard());
