@@ -157,14 +157,23 @@ void Viewer::applyText(const std::string& text) {
 }
 
 void Viewer::advance(double secondsForPreroll) {
+    try {
+        goOn(secondsForPreroll);
+    } catch (const SimulationError& error) {
+        message_ = error.what();
+        paused = true;
+    }
+    session_.draw();
+    compose();
+}
+
+void Viewer::goOn(double secondsForPreroll) {
     const std::int64_t start = steadyNow();
     const auto isEarly = [&] { return static_cast<double>(steadyNow() - start) < 1e9 * secondsForPreroll; };
     if (session_.stepsToGo() > 0)
         while (session_.stepsToGo() > 0 && isEarly()) session_.step();
     else if (!paused)
         session_.step();
-    session_.draw();
-    compose();
 }
 
 void Viewer::compose() {

@@ -1,8 +1,8 @@
 // What the window does, without a window: a session, how its two pictures are put together, and what keys and panels
 // ask for.
 //
-// Errors of the user's input become a message; the last state stays. Owns: session and composed picture. Threads: the
-// device's.
+// Errors of the user's input become a message; the last state stays. A simulation that breaks down is paused. Owns:
+// session and composed picture. Threads: the device's.
 #pragma once
 
 #include <array>
@@ -56,6 +56,7 @@ class Viewer {
 
  private:
     void drive();
+    void goOn(double secondsForPreroll);
     void compose();
     void makeImage();
     void save(const std::string& name, const std::string& text);

@@ -4,8 +4,10 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
+#include "bench/measure/statistics.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/data_folder.h"
 
@@ -13,6 +15,8 @@ namespace dustbench::bench {
 namespace {
 
 constexpr const char* none = "(none)";
+/// Frames of which the times are shown.
+constexpr std::size_t shownFrames = 120;
 
 /// Width of the panel for the text's size.
 float panelWidth() {
@@ -210,16 +214,30 @@ void ViewerPanels::showTime(Viewer& viewer) {
 void ViewerPanels::showCosts(const Viewer& viewer) {
     const ViewSession& session = viewer.session();
     for (const Half half : {Half::a, Half::b}) {
-        if (!session.has(half)) continue;
-        const HalfCost cost = session.cost(half);
+        const std::size_t index = half == Half::a ? 0 : 1;
+        if (!session.has(half)) {
+            history_[index].clear();
+            continue;
+        }
         const MethodHost& host = session.host(half);
-        text(fmt::format("{}: update {:.1f} ms, draw {:.1f} ms", half == Half::a ? "A" : "B", cost.updateMs,
-                         cost.drawMs));
+        showHistory(index, session.cost(half));
         text(fmt::format("     CPU {}, GPU {}, {} primitives", inMegabytes(host.cpuBytes()),
                          inMegabytes(host.gpuBytes()), host.method().primitives()));
         if (!session.isSinceStart(half)) ImGui::TextDisabled("     joined later; Restart shows what a run does");
     }
     ImGui::TextDisabled("of this window, not a measurement");
+}
+
+void ViewerPanels::showHistory(std::size_t half, HalfCost cost) {
+    std::vector<double>& history = history_[half];
+    if (history.size() == shownFrames) history.erase(history.begin());
+    history.push_back(cost.updateMs + cost.drawMs);
+    text(fmt::format("{}: median {:.1f} ms, 95 % within {:.1f} ms", half == 0 ? "A" : "B", median(history),
+                     quantile(history, 0.95)));
+    const std::vector<float> values(history.begin(), history.end());
+    ImGui::PlotLines(half == 0 ? "##history of A" : "##history of B", values.data(), static_cast<int>(values.size()), 0,
+                     nullptr, 0, FLT_MAX, ImVec2(ImGui::GetContentRegionAvail().x, 1.8f * ImGui::GetFontSize()));
+    text(fmt::format("     now: update {:.1f} ms, draw {:.1f} ms", cost.updateMs, cost.drawMs));
 }
 
 void ViewerPanels::showParameters(Viewer& viewer) {

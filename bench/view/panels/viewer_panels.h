@@ -3,7 +3,9 @@
 // Owns: the canvas. Threads: the device's.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "bench/view/panels/panel_canvas.h"
 #include "bench/view/panels/parameter_panel.h"
@@ -35,6 +37,7 @@ class ViewerPanels {
     void showPictures(Viewer& viewer);
     void showTime(Viewer& viewer);
     void showCosts(const Viewer& viewer);
+    void showHistory(std::size_t half, HalfCost cost);
     void showParameters(Viewer& viewer);
     void showFiles(Viewer& viewer);
     static void showMessage(const Viewer& viewer, int width, int height);
@@ -44,6 +47,7 @@ class ViewerPanels {
     WidgetMap widgets_;
     ParameterPanel ofA_{"a"}, ofB_{"b"}, ofWorld_{"world"};
     PanelRectangle picture_;
+    std::array<std::vector<double>, 2> history_;  ///< milliseconds of the last frames of A and B
     bool walks_ = false;
     std::optional<PanelInput> before_;
 };
