@@ -13,8 +13,8 @@ namespace dustbench::bench {
 /// Files of data that a method's parameters name: a fluid, a shape. Throws InputError where one is missing.
 [[nodiscard]] std::vector<std::filesystem::path> dataFilesOf(const ParameterValues& parameters);
 
-/// The world's files, those of the method, and all that were read besides: files name others. Throws InputError where
-/// one is missing.
+/// The world's files, those of the method, and all others that were read, because files name other files. Throws
+/// InputError if one is missing.
 [[nodiscard]] std::vector<std::filesystem::path> inputFilesOf(const World& world, const ParameterValues& ofMethod,
                                                               const files::InputLog& read);
 

@@ -34,7 +34,7 @@ void requireRoom(const ResultsFolder& results, std::uint64_t bytes) {
 /// Begins the reason of runs that their suite leaves out; later suites may run them.
 constexpr std::string_view leftOut = "left out by the suite: ";
 
-/// The suite ran it not, and does now.
+/// The suite left it out when it was stored, and runs it now.
 bool isWantedAgain(const PlannedRun& run, const StoredRun& stored) {
     return run.skip.empty() && stored.status == RunStatus::skipped && stored.reason.starts_with(leftOut);
 }

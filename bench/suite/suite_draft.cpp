@@ -70,7 +70,7 @@ void readSeeds(files::TomlReader& table, std::vector<std::uint64_t>& seeds) {
             throw InputError(table.where("seed") + "key 'seed': got " + text +
                              ", expected an integer of 0 or more, or an array of them");
         if (std::ranges::find(seeds, seed) != seeds.end())
-            throw InputError(table.where("seed") + "key 'seed': " + text + " stands twice");
+            throw InputError(table.where("seed") + "key 'seed': " + text + " is given twice");
         seeds.push_back(seed);
     }
     if (seeds.empty()) throw InputError(table.where("seed") + "key 'seed': got an empty array, expected integers");

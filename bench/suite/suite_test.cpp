@@ -76,7 +76,7 @@ TEST(Suite, OfSeveralSeedsHasAWorldForEach) {
         EXPECT_THAT(cell.label, HasSubstr("seed=" + std::to_string(cell.spec.seed)));
     }
     EXPECT_EQ(seeds, (std::set<std::uint64_t>{1, 5, 9}));
-    EXPECT_THAT(messageOf("seed = [1, 1]"), HasSubstr("1 stands twice"));
+    EXPECT_THAT(messageOf("seed = [1, 1]"), HasSubstr("1 is given twice"));
     EXPECT_THAT(messageOf("seed = []"), HasSubstr("empty array"));
     EXPECT_THAT(messageOf("seed = -1"), HasSubstr("got -1, expected an integer of 0 or more"));
     EXPECT_THAT(messageOf("seed = 1.5"), HasSubstr("got 1.5"));

@@ -53,7 +53,7 @@ std::int64_t integer(const std::string& option, const std::string& text, std::in
     return value;
 }
 
-/// One line as it is read: options that the state needs, and those that are read over.
+/// Parses one line: options that the state needs, and those that it ignores.
 class LineReader {
  public:
     LineReader() {

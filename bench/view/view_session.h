@@ -33,8 +33,8 @@ class ViewSession {
 
     /// With the frame that is shown, or the later one that is on its way.
     [[nodiscard]] ViewState state() const;
-    /// Does as little as possible: a new half joins the world as it is, another camera looks at it, anything else of
-    /// the world begins anew. Throws InputError and changes nothing if the state cannot be shown.
+    /// Does as little as possible: a new half joins the running world, a new camera only looks at it, and any other
+    /// change of the world restarts it. Throws InputError and changes nothing if the state cannot be shown.
     void set(const ViewState& state);
     /// From the beginning of the preroll to frame 0.
     void restart();

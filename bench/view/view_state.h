@@ -55,8 +55,8 @@ inline constexpr const char* keyboardDrive = "keyboard";
 /// line would take for several.
 [[nodiscard]] std::string commandLine(const ViewState& state, Half half, const std::string& out);
 
-/// The state that a `dustbench run` line stands for, without half B. Options that do not change the picture are read
-/// over. Throws InputError for anything that `run` would not accept, or that gives several runs.
+/// The state that a `dustbench run` line stands for, without half B. Options that do not change the picture are
+/// ignored. Throws InputError for anything that `run` would not accept, or that gives several runs.
 [[nodiscard]] ViewState stateOfCommandLine(std::string_view line);
 
 [[nodiscard]] std::string toToml(const ViewState& state);

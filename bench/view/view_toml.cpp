@@ -9,27 +9,14 @@
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/toml_reader.h"
+#include "methods/kit/files/toml_text.h"
 
 namespace dustbench::bench {
 namespace {
 
-using files::TomlReader;
+using files::TomlReader, files::tomlText;
 
 constexpr std::int64_t maximumInteger = std::numeric_limits<std::int64_t>::max();
-
-/// A TOML basic string.
-std::string tomlText(std::string_view text) {
-    std::string result = "\"";
-    for (const char letter : text) {
-        if (letter == '"' || letter == '\\')
-            result += {'\\', letter};
-        else if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f)
-            result += fmt::format("\\u{:04X}", static_cast<unsigned char>(letter));
-        else
-            result += letter;
-    }
-    return result + "\"";
-}
 
 std::string tableOf(const std::string& name, const ParameterTexts& parameters) {
     if (parameters.empty()) return {};

@@ -61,7 +61,22 @@ void Viewer::drive() {
                         (holds(Action::steerLeft) ? 1.0 : 0.0) - (holds(Action::steerRight) ? 1.0 : 0.0)};
 }
 
+void Viewer::attempt(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const SimulationError& error) {
+        message_ = error.what();
+        paused = true;
+    } catch (const std::exception& error) {
+        message_ = error.what();
+    }
+}
+
 void Viewer::act(Action action) {
+    attempt([&] { perform(action); });
+}
+
+void Viewer::perform(Action action) {
     switch (action) {
         case Action::throttle:
         case Action::brake:
@@ -134,35 +149,26 @@ void Viewer::act(Action action) {
 }
 
 void Viewer::apply(const ViewState& state) {
-    try {
+    attempt([&] {
         session_.set(state);
         message_.clear();
         if (!session_.has(Half::b)) split.shown = Shown::a;
         makeImage();
-    } catch (const InputError& error) {
-        message_ = error.what();
-    }
+    });
 }
 
 void Viewer::applyText(const std::string& text) {
-    try {
+    attempt([&] {
         const std::vector<std::string> words = shellWords(text.substr(0, text.find('\n')));
         const bool isLine = words.size() > 1 && (words[0] == "run" || words[1] == "run");
         ViewState state = isLine ? stateOfCommandLine(text) : stateOfToml(text, "pasted text");
         if (isLine) state.b = session_.state().b;
         apply(state);
-    } catch (const InputError& error) {
-        message_ = error.what();
-    }
+    });
 }
 
 void Viewer::advance(double secondsForPreroll) {
-    try {
-        goOn(secondsForPreroll);
-    } catch (const SimulationError& error) {
-        message_ = error.what();
-        paused = true;
-    }
+    attempt([&] { goOn(secondsForPreroll); });
     session_.draw();
     compose();
 }
@@ -222,27 +228,16 @@ std::string Viewer::line(Half half) const {
 }
 
 void Viewer::save(const std::string& name, const std::string& text) {
-    try {
-        std::filesystem::create_directories(folder_);
-        writeWhole(folder_ / name, text);
-        message_ = "saved: " + (folder_ / name).string();
-    } catch (const std::exception& error) {
-        message_ = error.what();
-    }
+    std::filesystem::create_directories(folder_);
+    writeWhole(folder_ / name, text);
+    message_ = "saved: " + (folder_ / name).string();
 }
 
 void Viewer::savePicture() {
-    try {
-        std::filesystem::create_directories(folder_);
-        pictures::Image picture = draw::readBack(image_);
-        for (glm::vec4& pixel : picture.pixels)
-            for (int channel = 0; channel < 3; ++channel) pixel[channel] = pictures::decodeSrgb(pixel[channel]);
-        const auto file = folder_ / fmt::format("f{:06}.png", std::max<std::int64_t>(session_.frame(), 0));
-        pictures::writeImage(picture, file);
-        message_ = "saved: " + file.string();
-    } catch (const std::exception& error) {
-        message_ = error.what();
-    }
+    std::filesystem::create_directories(folder_);
+    const auto file = folder_ / fmt::format("f{:06}.png", std::max<std::int64_t>(session_.frame(), 0));
+    pictures::writeImage(pictures::decoded(draw::readBack(image_)), file);
+    message_ = "saved: " + file.string();
 }
 
 }  // namespace dustbench::bench

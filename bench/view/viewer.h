@@ -7,6 +7,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -55,6 +56,9 @@ class Viewer {
     bool walksPanel = false;  ///< the arrow keys belong to the panel
 
  private:
+    /// Turns errors into the message; a simulation that breaks down is paused.
+    void attempt(const std::function<void()>& work);
+    void perform(Action action);
     void drive();
     void goOn(double secondsForPreroll);
     void compose();

@@ -9,6 +9,7 @@
 
 #include "methods/contract/registry.h"
 #include "methods/kit/draw/read_back.h"
+#include "methods/kit/files/data_folder.h"
 #include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
@@ -93,6 +94,23 @@ TEST_F(ViewerTest, PausesStepsAndBeginsAnew) {
     EXPECT_FALSE(viewer.wantsToQuit());
     viewer.press(Key::q, true);
     EXPECT_TRUE(viewer.wantsToQuit());
+}
+
+TEST_F(ViewerTest, AFileThatBreaksMeanwhileIsAMessage) {
+    const auto scene = folder_.path() / "mine.toml";
+    std::filesystem::copy_file(files::dataPath("scenes/wind_tunnel.toml"), scene);
+    ViewState state = small();
+    state.scene = scene.string();
+    Viewer viewer(state, device_, saved());
+    viewer.advance();
+    folder_.write("mine.toml", "gravity = nothing\n");
+    viewer.press(Key::b, false);
+    EXPECT_THAT(viewer.message(), HasSubstr("mine.toml"));
+    folder_.write("saved", "not a folder");
+    viewer.press(Key::s, true);
+    EXPECT_THAT(viewer.message(), HasSubstr("saved"));
+    viewer.advance();
+    EXPECT_EQ(viewer.state().scene, scene.string());
 }
 
 TEST_F(ViewerTest, FlipsInPlaceWhileTheKeyIsHeld) {

@@ -34,7 +34,7 @@ class Choices {
         for (std::size_t i = 0; i < count_; ++i)
             for (std::size_t k = 0; k < i; ++k)
                 if (choices_[i].word == choices_[k].word || choices_[i].value == choices_[k].value)
-                    throw std::logic_error("a word or an enumerator stands twice");
+                    throw std::logic_error("a word or an enumerator occurs twice");
     }
 
     /// In table order.

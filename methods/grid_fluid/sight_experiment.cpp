@@ -66,7 +66,7 @@ std::vector<float> depthsOf(const Sight& sight, const scene::View& view) {
     return depths;
 }
 
-/// `seen`: what the ray caster is told of; the exact picture is always that of `sight`.
+/// `seen`: what the ray caster gets; the exact picture is always that of `sight`.
 double maximumError(gpu::Device& device, const raycast::RaycastSettings& settings, const Sight& sight,
                     const Sight& seen) {
     const scene::View view = viewOf(sight);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "methods/kit/draw/read_back.h"
+#include "methods/kit/experiments/findings.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/particles/part_table.h"
 #include "methods/kit/particles/particle_store.h"
@@ -91,15 +92,6 @@ double contrastOnWhite(const pictures::Image& layer) {
     return static_cast<double>(largest);
 }
 
-Finding meanOf(const char* quantity, const std::vector<double>& values) {
-    const auto n = static_cast<double>(values.size());
-    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-    double squares = 0;
-    for (const double value : values) squares += (value - mean) * (value - mean);
-    const double half = 1.96 * std::sqrt(squares / (n - 1) / n);
-    return {quantity, mean, mean - half, mean + half, static_cast<std::int64_t>(values.size())};
-}
-
 Finding lightAtFourTimes(const char* quantity, const char* part, gpu::Device& device, std::uint64_t seed) {
     Canvas canvas(device);
     canvas.store.resize(1);
@@ -115,7 +107,7 @@ Finding lightAtFourTimes(const char* quantity, const char* part, gpu::Device& de
         };
         ratios.push_back(lightAt(40) / lightAt(10));
     }
-    return meanOf(quantity, ratios);
+    return experiments::meanOf(quantity, ratios);
 }
 
 /// Places the same points, in reversed order if `reversed`.

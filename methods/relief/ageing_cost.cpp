@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/kit/experiments/timing.h"
 #include "methods/kit/maths/philox.h"
-#include "methods/kit/particles/timing.h"
 
 namespace dustbench::relief::ageing {
 namespace {
@@ -33,7 +33,7 @@ std::vector<Impact> randomImpacts(const CostSweep& sweep, int side, int hits, in
 double secondsToAge(WornSurface& surface, Search search, const std::vector<Impact>& impacts) {
     double shortest = std::numeric_limits<double>::infinity(), total = 0;
     while (total < enoughSeconds) {
-        const double took = particles::secondsOf(
+        const double took = experiments::secondsOf(
             [&] { search == Search::gather ? surface.gather(impacts) : surface.scatter(impacts); });
         surface.takeOff();
         shortest = std::min(shortest, took);
@@ -51,7 +51,7 @@ std::vector<CostCell> measureCost(const CostSweep& sweep) {
         WornSurface surface(flatRelief(side), ledger);
         for (const int hits : sweep.hits) {
             CostCell& cell = cells.emplace_back(CostCell{side, hits, {}});
-            if (sweep.search == Search::gather && cell.tests() > mostTests) continue;
+            if (sweep.search == Search::gather && cell.tests() > maximumTests) continue;
             for (int round = 0; round < sweep.rounds; ++round)
                 cell.seconds.push_back(secondsToAge(surface, sweep.search, randomImpacts(sweep, side, hits, round)));
         }

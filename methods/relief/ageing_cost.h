@@ -1,7 +1,7 @@
 // What it costs to age a surface, over the numbers of hits and of texels, by both searches (claim R25).
 //
 // Each cell is a surface of side × side texels under random hits of one texel each, as in the paper. `gather` makes a
-// test for each hit and each texel; a cell of more than `mostTests` of them is skipped.
+// test for each hit and each texel; a cell of more than `maximumTests` of them is skipped.
 //
 // Units: s, of the thread's CPU time. Threads: one. Source: Bergeron, 3.4 and 5.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace dustbench::relief::ageing {
 
-constexpr double mostTests = 1e11;
+constexpr double maximumTests = 1e11;
 
 struct CostSweep {
     Search search = Search::gather;

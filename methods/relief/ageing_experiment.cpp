@@ -8,12 +8,14 @@
 #include <memory>
 #include <utility>
 
+#include "methods/kit/experiments/findings.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/relief/ageing_cost.h"
-#include "methods/relief/mean_finding.h"
 
 namespace dustbench::relief::ageing {
 namespace {
+
+using experiments::meanOf;
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
@@ -38,7 +40,7 @@ void addTimes(const char* search, const std::vector<CostCell>& cells, std::vecto
         }
         findings.push_back({cellName(search, cell), missing, missing, missing, 0,
                             fmt::format("skipped: {} hits on {}² texels are {:.3g} tests, more than {:.0e}", cell.hits,
-                                        cell.side, cell.tests(), mostTests)});
+                                        cell.side, cell.tests(), maximumTests)});
     }
 }
 
@@ -56,7 +58,7 @@ void addExponents(const std::string& search, const std::vector<CostCell>& cells,
         findings.push_back(meanOf(search + name, values));
         if (skipped > 0)
             findings.back().note =
-                fmt::format("{} of {} cells were skipped: more than {:.0e} tests", skipped, cells.size(), mostTests);
+                fmt::format("{} of {} cells were skipped: more than {:.0e} tests", skipped, cells.size(), maximumTests);
     }
 }
 

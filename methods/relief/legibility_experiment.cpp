@@ -5,20 +5,22 @@
 #include <cmath>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/experiments/findings.h"
 #include "methods/kit/maths/philox.h"
-#include "methods/relief/mean_finding.h"
 #include "methods/relief/particles/relief_particles.h"
 #include "methods/relief/relief_studio.h"
 
 namespace dustbench::relief::legibility {
 namespace {
 
+using experiments::meanOf;
+
 constexpr int width = 400, height = 200;
 constexpr int seeds = 5;
 constexpr double threshold = 0.5;
 constexpr double takenShare = 0.05;
 constexpr double kilograms = 0.002, metresPerSecond = 5, hardness = 1e4;
-constexpr std::int64_t fewest = 10, most = 2'000'000;  // particles in a lot and in all
+constexpr std::int64_t lotSize = 10, maximumParticles = 2'000'000;  // in the smallest lot and in all
 constexpr int windowRadius = 5;
 
 std::array<double, 2 * windowRadius + 1> gaussian() {
@@ -135,7 +137,7 @@ double particlesUntil(double limit, gpu::Device& device, const scene::Scene& sce
     const pictures::Image fresh = studio.picture();
     std::int64_t count = 0;
     double before = 1;
-    for (std::int64_t lot = fewest; count < most; lot = std::max(fewest, count / 20)) {
+    for (std::int64_t lot = lotSize; count < maximumParticles; lot = std::max(lotSize, count / 20)) {
         hit(studio.surface(), panel, ageing, seed, count, lot);
         studio.draw();
         const double now = similarity(fresh, studio.picture());
@@ -156,13 +158,13 @@ double particlesUntilTaken(double share, const scene::Panel& panel, const Ageing
     WornSurface surface(*panel.relief, ledger);
     const double wanted = share * static_cast<double>(surface.initialVolume());
     double before = 0;
-    for (std::int64_t count = 0; count < most; count += fewest) {
-        hit(surface, panel, ageing, seed, count, fewest);
+    for (std::int64_t count = 0; count < maximumParticles; count += lotSize) {
+        hit(surface, panel, ageing, seed, count, lotSize);
         const auto taken = static_cast<double>(surface.takenOffVolume());
-        if (taken >= wanted) return static_cast<double>(count) + fewest * (wanted - before) / (taken - before);
+        if (taken >= wanted) return static_cast<double>(count) + lotSize * (wanted - before) / (taken - before);
         before = taken;
     }
-    return static_cast<double>(most);
+    return static_cast<double>(maximumParticles);
 }
 
 ExperimentInfo describe() {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "methods/kit/experiments/findings.h"
 #include "methods/kit/maths/philox.h"
-#include "methods/relief/mean_finding.h"
 #include "methods/relief/particles/relief_motion.h"
 
 namespace dustbench::relief::motion {
@@ -53,7 +53,7 @@ double medianDistance(Law law, int steps, std::uint64_t seed) {
 Finding distanceOf(std::string quantity, Law law, int steps, std::uint64_t seed) {
     std::vector<double> medians;
     for (std::uint64_t k = 0; k < seeds; ++k) medians.push_back(medianDistance(law, steps, seed + k));
-    return meanOf(std::move(quantity), medians);
+    return experiments::meanOf(std::move(quantity), medians);
 }
 
 std::vector<Finding> measured(ExperimentContext& context) {

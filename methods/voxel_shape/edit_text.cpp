@@ -11,6 +11,7 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/toml_text.h"
 #include "methods/voxel_shape/shape_file.h"
 
 namespace dustbench::voxel_shape {
@@ -97,14 +98,8 @@ std::string tomlArray(const std::vector<double>& numbers, std::size_t first, std
                                          numbers.begin() + static_cast<std::ptrdiff_t>(first + count), ", "));
 }
 
-std::string tomlText(std::string_view text) {
-    std::string out = "\"";
-    for (const char c : text) out.append(c == '"' || c == '\\' ? "\\" : "").push_back(c);
-    return out + "\"";
-}
-
 std::string valueOf(const std::string& where, const Word& word) {
-    if (word.key == "kind") return tomlText(word.value);
+    if (word.key == "kind") return files::tomlText(word.value);
     const std::vector<double> numbers = numbersOf(where, word, 0);
     return numbers.size() == 1 ? fmt::format("{}", numbers.front()) : tomlArray(numbers, 0, numbers.size());
 }
@@ -123,7 +118,7 @@ std::string regionLines(const std::string& where, const Word& word, const fs::pa
         const std::vector<double> n = numbersOf(where, word, 6);
         return fmt::format("min = {}\nmax = {}\n", tomlArray(n, 0, 3), tomlArray(n, 3, 3));
     }
-    if (word.key == "mesh") return fmt::format("mesh = {}\n", tomlText(pathFrom(folder, word.value)));
+    if (word.key == "mesh") return fmt::format("mesh = {}\n", files::tomlText(pathFrom(folder, word.value)));
     return fmt::format("{} = {}\n", word.key, valueOf(where, word));
 }
 
@@ -189,7 +184,7 @@ std::string withEdits(std::string_view text, const fs::path& from, const fs::pat
     for (std::sregex_iterator at(own.begin(), own.end(), path), end; at != end; ++at) {
         const std::string file = (*at)[2].matched ? (*at)[2].str() : (*at)[3].str();
         out.append(last, (*at)[0].first).append((*at)[1].str());
-        out += tomlText(renamed(file, from, folder));
+        out += files::tomlText(renamed(file, from, folder));
         last = (*at)[0].second;
     }
     out.append(last, own.cend());

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <numeric>
 
+#include "methods/kit/experiments/findings.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/voxel_shape/shape_builder.h"
 #include "methods/voxel_shape/shape_file.h"
@@ -72,16 +72,12 @@ double overlapAt(const Shape& shape, const scene::Scene& scene, const Frame& fra
     return sum / static_cast<double>(sidesDegrees.size());
 }
 
-/// Returns the mean with Student's 95 % interval, widened by `resolved`, the resolution of the values.
+/// The mean, its interval widened by `resolved`, the resolution of the values.
 Finding meanOf(const std::string& quantity, const std::vector<double>& values, double resolved) {
-    const auto count = static_cast<double>(values.size());
-    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-    double squares = 0;
-    for (const double value : values) squares += (value - mean) * (value - mean);
-    constexpr double student = 2.776;  // four degrees of freedom
-    static_assert(seeds == 5);
-    const double half = student * std::sqrt(squares / (count - 1) / count) + resolved;
-    return {quantity, mean, mean - half, mean + half, static_cast<std::int64_t>(values.size())};
+    Finding finding = experiments::meanOf(quantity, values);
+    finding.low -= resolved;
+    finding.high += resolved;
+    return finding;
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ class PanelCanvas {
     void draw(const gpu::Framebuffer& target, int width, int height, const PanelInput& input,
               const std::function<void()>& show);
 
-    /// Of the last frame: the panels use the mouse or the keyboard, so nobody else should.
+    /// In the last frame the panels used the mouse or the keyboard; others must ignore it.
     [[nodiscard]] bool takesMouse() const;
     [[nodiscard]] bool takesKeyboard() const;
 

@@ -23,9 +23,8 @@ pictures::Image panelPicture(const ViewState& state, int width, int height) {
     const gpu::Texture texture = gpu::Texture::make2D(device, "window", gpu::Format::rgba8, width, height);
     const gpu::Framebuffer target(device, "window", &texture, nullptr);
     for (int n = 0; n < framesToSettle; ++n) panels.draw(viewer, target, width, height, {});
-    pictures::Image picture = draw::readBack(texture);
-    for (glm::vec4& pixel : picture.pixels)
-        pixel = {pictures::decodeSrgb(pixel.r), pictures::decodeSrgb(pixel.g), pictures::decodeSrgb(pixel.b), 1};
+    pictures::Image picture = pictures::decoded(draw::readBack(texture));
+    for (glm::vec4& pixel : picture.pixels) pixel.a = 1;
     return picture;
 }
 

@@ -254,7 +254,7 @@ void ViewerPanels::showParameters(Viewer& viewer) {
     };
     section("Parameters of A", ofA_, findMethod(state.a.method).parameters, state.a.parameters);
     if (state.b) section("Parameters of B", ofB_, findMethod(state.b->method).parameters, state.b->parameters);
-    section("World (begins anew)", ofWorld_, worldParameters(), state.world);
+    section("World (a change restarts it)", ofWorld_, worldParameters(), state.world);
 }
 
 void ViewerPanels::showFiles(Viewer& viewer) {

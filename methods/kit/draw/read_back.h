@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "methods/kit/draw/read_back.h"
 #include "methods/kit/pictures/image.h"
 
 namespace dustbench::gpu {

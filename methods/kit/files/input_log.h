@@ -1,7 +1,7 @@
 // Notes which files are read as data, those that other files name included: the inputs of a run.
 //
-// Whoever reads a file of data (TOML, CSV, meshes, voxels, pictures) calls `noteInput`; it costs a branch while nobody
-// keeps a log. Threads: `noteInput` is safe from any.
+// Code that reads a data file (TOML, CSV, meshes, voxels, pictures) calls `noteInput`, which costs a branch if there is
+// no log. Threads: `noteInput` is safe from any.
 #pragma once
 
 #include <filesystem>

@@ -47,6 +47,13 @@ TEST(TomlReader, NamesTheLineOfASyntaxError) {
                 HasSubstr("t.toml:2: not valid"));
 }
 
+TEST(TomlText, IsReadBackAsItWas) {
+    for (const std::string text : {"", "plain", "C:\\dust \"x\"", "line\nbreak\ttab\x7f", "ß…"}) {
+        auto reader = TomlReader::parseText("a = " + tomlText(text) + "\n", "t");
+        EXPECT_EQ(reader.text("a"), text);
+    }
+}
+
 TEST(TomlReader, ReadsArraysOfTablesInOrder) {
     auto reader = TomlReader::parseText("[[p]]\nn = 'b'\n[[p]]\nn = 'a'\n", "t");
     std::vector<std::string> names;

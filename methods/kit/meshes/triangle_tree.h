@@ -23,9 +23,9 @@ class DUSTBENCH_API TriangleTree {
     TriangleTree(TriangleTree&&) noexcept;
     TriangleTree& operator=(TriangleTree&&) noexcept;
 
-    /// To be followed by `build` once all are there.
+    /// Call `build` after the last one.
     void add(const scene::Mesh& mesh, const glm::mat4& toWorld);
-    /// Throws InputError where Embree cannot.
+    /// Throws InputError if Embree fails.
     void build();
 
     struct Hit {

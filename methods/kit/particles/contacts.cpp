@@ -55,7 +55,7 @@ float meetNext(const Way& way, const MetSurfaces& surfaces, std::uint8_t* by) {
     return share;
 }
 
-/// To the contact at `share`, from where the way begins anew; it ends there.
+/// Moves to the contact at `share` of the way. The rest of the way begins there.
 Touch goTo(Way& way, float share, const Surface& surface) {
     const Touch touch = surface.touchAt({way.from, way.to, way.seconds, share});
     way.from = touch.point + clearance(way.from, way.to, surface.extentMetres()) * touch.normal;

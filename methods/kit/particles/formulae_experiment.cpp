@@ -1,18 +1,17 @@
 #include "methods/kit/particles/formulae_experiment.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <span>
 
+#include "methods/kit/experiments/findings.h"
 #include "methods/kit/maths/bezier.h"
 #include "methods/kit/maths/philox.h"
 
 namespace dustbench::particles::formulae {
 namespace {
 
-constexpr double z95 = 1.959964;
 enum Stream : std::uint32_t { controlStream = 1, timeStream, forceStream };
 
 using Controls = std::array<float, 4>;
@@ -62,15 +61,10 @@ double momentumOverImpulse(double mass, double force, const std::function<double
 }
 
 Finding meanOf(const char* quantity, std::int64_t draws, const std::function<double(std::int64_t)>& value) {
-    double sum = 0, squares = 0;
-    for (std::int64_t i = 0; i < draws; ++i) {
-        const double each = value(i);
-        sum += each, squares += each * each;
-    }
-    const auto n = static_cast<double>(draws);
-    const double mean = sum / n, variance = std::max(0.0, squares / n - mean * mean) * n / (n - 1);
-    const double half = z95 * std::sqrt(variance / n);
-    return {quantity, mean, mean - half, mean + half, draws};
+    std::vector<double> values;
+    values.reserve(static_cast<std::size_t>(draws));
+    for (std::int64_t i = 0; i < draws; ++i) values.push_back(value(i));
+    return experiments::meanOf(quantity, values);
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ namespace dustbench::particles::formulae {
 ///     bezier_end_printed_2           the same as printed for two control values, N = 1
 ///     bezier_equal_printed, _mended  value of a curve of four control values that are all 1, mean over t
 ///     acceleration_2kg_…             of a body of 2 kg under a force of 1 N: by the printed m·ΣF, and by ΣF/m
-///     momentum_2kg_…                 m·v over the force's impulse F·t after a second of steps: 1 by Newton's second
-///     law momentum_1kg_printed           the same for the thesis's mass of 1
+///     momentum_2kg_…                 m·v over the force's impulse F·t after a second: by Newton's second law 1
+///     momentum_1kg_printed           the same for the thesis's mass of 1
 [[nodiscard]] DUSTBENCH_API ExperimentInfo describe();
 /// Its findings for this seed, each the mean of `draws` curves or bodies.
 [[nodiscard]] std::vector<Finding> measureFormulae(std::uint64_t seed, std::int64_t draws);

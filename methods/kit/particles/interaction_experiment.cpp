@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/kit/experiments/findings.h"
+#include "methods/kit/experiments/timing.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/sampling.h"
 #include "methods/kit/particles/attraction.h"
-#include "methods/kit/particles/timing.h"
 
 namespace dustbench::particles::interaction {
 namespace {
+
+using experiments::exponentOf, experiments::medianOf, experiments::secondsOf;
 
 constexpr Attraction attraction{AttractionLaw::inverseSquare, 1, 0.1f};
 constexpr float onePercentAngle = 0.65f;

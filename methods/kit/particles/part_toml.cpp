@@ -145,7 +145,7 @@ std::string joined(const std::vector<const Parameter*>& parameters, const TextOf
 std::string partToToml(const Part& part, const std::string& prefix) {
     const std::string table = prefix + std::string(kindName(part.kind()));
     std::string toml = isList(part.kind()) ? "[[" + table + "]]\n" : "[" + table + "]\n";
-    toml += "part = \"" + part.name() + "\"\n";
+    toml += "part = " + files::tomlText(part.name()) + "\n";
     for (const std::string& key : keysOf(part.values().declared())) {
         const auto textOf = [&](const Parameter& parameter) {
             return valueToToml(parameter, part.values().canonical().find(parameter.name)->second);
@@ -190,7 +190,7 @@ std::string systemsToToml(std::span<const NamedPartsView> systems) {
     std::string toml;
     for (const NamedPartsView& system : systems)
         toml.append(toml.empty() ? "" : "\n")
-            .append("[[system]]\nname = \"" + system.name + "\"\n\n")
+            .append("[[system]]\nname = " + files::tomlText(system.name) + "\n\n")
             .append(partsToToml(system.parts, "system."));
     return toml;
 }
@@ -208,7 +208,7 @@ std::vector<Parameter> tableKeys(const ParameterSet& declared) {
 }
 
 std::string valueToToml(const Parameter& parameter, const std::string& canonical) {
-    if (parameter.type == ParameterType::choice) return std::string("\"").append(canonical).append("\"");
+    if (parameter.type == ParameterType::choice) return files::tomlText(canonical);
     if (parameter.type == ParameterType::boolean) return canonical == "on" ? "true" : "false";
     return canonical;
 }

@@ -13,4 +13,10 @@ Image over(const Image& layer, const Image& scene) {
     return result;
 }
 
+Image decoded(Image image) {
+    for (glm::vec4& pixel : image.pixels)
+        pixel = {decodeSrgb(pixel.r), decodeSrgb(pixel.g), decodeSrgb(pixel.b), pixel.a};
+    return image;
+}
+
 }  // namespace dustbench::pictures

@@ -26,6 +26,9 @@ using maths::encodeSrgb;
 /// sizes.
 [[nodiscard]] DUSTBENCH_API Image over(const Image& layer, const Image& scene);
 
+/// A display-encoded (sRGB) image in linear light; alpha as it is.
+[[nodiscard]] DUSTBENCH_API Image decoded(Image image);
+
 /// Selects the format by extension: .png (8 bit, sRGB encoded) or .exr (float, linear). Writes a temporary file and
 /// renames it, so that no partial file remains. Alpha is premultiplied here and in .exr, straight in .png, and omitted
 /// from .png if the whole image is opaque. Throws InputError if the file cannot be written.

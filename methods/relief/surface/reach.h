@@ -46,9 +46,9 @@ namespace dustbench::relief {
 /// The reaches of some hits, for a gathering texel to compare many at a time.
 class Reaches {
  public:
-    static constexpr std::size_t most = 1024, compared = 64;
+    static constexpr std::size_t capacity = 1024, compared = 64;
 
-    /// Of at most `most` hits.
+    /// Of at most `capacity` hits.
     Reaches(std::span<const Impact> impacts, const DepthMap& map) {
         for (std::size_t k = 0; k < impacts.size(); ++k) {
             const TexelRectangle reach = reachOf(impacts[k], map);
@@ -69,7 +69,7 @@ class Reaches {
     }
 
  private:
-    std::array<int, most> firstColumn_{}, endColumn_{}, firstRow_{}, endRow_{};  // the rest reach nothing
+    std::array<int, capacity> firstColumn_{}, endColumn_{}, firstRow_{}, endRow_{};  // the rest reach nothing
 };
 
 }  // namespace dustbench::relief

@@ -60,8 +60,8 @@ void WornSurface::addPending(std::size_t texel, std::uint32_t change) {
 }
 
 void WornSurface::gather(std::span<const Impact> impacts) {
-    for (std::size_t first = 0; first < impacts.size(); first += Reaches::most) {
-        const auto held = impacts.subspan(first, std::min(Reaches::most, impacts.size() - first));
+    for (std::size_t first = 0; first < impacts.size(); first += Reaches::capacity) {
+        const auto held = impacts.subspan(first, std::min(Reaches::capacity, impacts.size() - first));
         const Reaches reaches(held, depths_);
         for (int row = 0; row < depths_.rows(); ++row)
             for (int column = 0; column < depths_.columns(); ++column)
