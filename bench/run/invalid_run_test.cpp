@@ -66,5 +66,27 @@ TEST_F(InvalidRun, HasFewerParticlesThanWereAskedFor) {
     }
 }
 
+TEST_F(InvalidRun, HasFewerParticlesOfItsOwnThanWereAskedFor) {
+    if (!hasMethod("plugin_particles")) GTEST_SKIP() << "no particle systems here";
+    ParameterTexts few{{"particles", "500"}, {"preroll", "1"}};
+    EXPECT_THAT(measured("plugin_particles", few).validity, testing::ElementsAre(HasSubstr("alive_deviation is ")));
+    few["preroll"] = "6";
+    EXPECT_THAT(measured("plugin_particles", few).validity, IsEmpty());
+}
+
+TEST_F(InvalidRun, HasAPressureThatRanOutOfCycles) {
+    if (!hasMethod("grid_fluid")) GTEST_SKIP() << "no fluid here";
+    ParameterTexts fluid{{"fluid", "plume"}, {"grid", "16x8x8"}, {"preroll", "0.1"}};
+    const RunRecord solved = measured("grid_fluid", fluid);
+    EXPECT_THAT(solved.validity, IsEmpty());
+    EXPECT_EQ(cellOf(solved, "pressure_unsolved"), Value(std::int64_t{0}));
+    fluid["tolerance"] = "1e-7";  // finer than floats
+    EXPECT_THAT(measured("grid_fluid", fluid).validity, testing::ElementsAre(HasSubstr("pressure_unsolved is ")));
+    fluid["pressure"] = "jacobi";
+    const RunRecord swept = measured("grid_fluid", fluid);
+    EXPECT_THAT(swept.validity, IsEmpty());
+    EXPECT_EQ(cellOf(swept, "pressure_unsolved"), Value());
+}
+
 }  // namespace
 }  // namespace dustbench::bench

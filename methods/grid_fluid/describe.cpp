@@ -135,7 +135,13 @@ MethodInfo describe() {
         {"flow_cells_per_step_max", "cells", FactOver::lastFrame,
          "distance that the flow covers in a step (the Courant number): maximum since the beginning"},
         {"flow_divergence_max", "share", FactOver::lastFrame,
-         "share of its volume that a cell gains in a step, as the pressure leaves it: maximum since the beginning"}};
+         "share of its volume that a cell gains in a step, as the pressure leaves it: maximum since the beginning"},
+        {"pressure_unsolved",
+         "steps",
+         FactOver::lastFrame,
+         "steps in which the pressure solver ran out of cycles before its tolerance: number since the beginning; empty "
+         "for a fixed number of sweeps",
+         {0, 0}}};
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<GridFluid>(settingsOf(values));
     };

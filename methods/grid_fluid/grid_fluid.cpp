@@ -118,6 +118,8 @@ void GridFluid::simulate(const Frame& frame) {
     extremes_.speedMetresPerSecond =
         std::max(extremes_.speedMetresPerSecond, cells * settings_.solver.box.spacingMetres / secondsDue_);
     extremes_.divergencePerStep = std::max(extremes_.divergencePerStep, static_cast<double>(report.divergencePerStep));
+    const bool isSolved = report.divergencePerStep <= 1.001f * settings_.solver.divergencePerStep;  // rounded
+    if (solvesPressure() && !isSolved) ++extremes_.unsolvedSteps;
     if (report.cellsPerStep > maximumCellsPerStep) {
         std::ostringstream text;
         text << "fluid: got a flow that goes " << report.cellsPerStep << " cells in step " << solver_->steps()
@@ -194,6 +196,7 @@ void GridFluid::report(const Frame& frame, Facts& facts) const {
     facts.tell("flow_speed_max", extremes_.speedMetresPerSecond);
     facts.tell("flow_cells_per_step_max", extremes_.cellsPerStep);
     facts.tell("flow_divergence_max", extremes_.divergencePerStep);
+    if (solvesPressure()) facts.tell("pressure_unsolved", extremes_.unsolvedSteps);
     if (!facts.wants("mass_kept")) return;
     if (const auto kept = massKept(frame.dust)) facts.tell("mass_kept", *kept);
 }

@@ -27,11 +27,12 @@ struct GridFluidSettings {
     raycast::RaycastSettings picture;
 };
 
-/// Maxima over all steps so far.
+/// Over all steps so far.
 struct FlowExtremes {
     double speedMetresPerSecond = 0;
-    double cellsPerStep = 0;       ///< the Courant number
-    double divergencePerStep = 0;  ///< maximum relative volume gain of a cell in a step
+    double cellsPerStep = 0;         ///< the Courant number
+    double divergencePerStep = 0;    ///< maximum relative volume gain of a cell in a step
+    std::int64_t unsolvedSteps = 0;  ///< in which the pressure solver ran out of cycles
 };
 
 class GridFluid final : public Method {
@@ -53,6 +54,8 @@ class GridFluid final : public Method {
 
  private:
     void simulate(const Frame& frame);
+    /// True if the pressure is solved until its tolerance, false if by a fixed number of sweeps.
+    [[nodiscard]] bool solvesPressure() const { return settings_.solver.pressure == flow::PressureMethod::multigrid; }
     /// Optical mass of the fluid relative to that of the shared dust; empty if the box does not follow the vehicle.
     [[nodiscard]] std::optional<double> massKept(const Puffs& dust) const;
     void placeSolids(const scene::SceneState& state);

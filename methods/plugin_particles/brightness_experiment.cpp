@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "methods/kit/draw/read_back.h"
-#include "methods/kit/experiments/findings.h"
+#include "methods/kit/findings/findings.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/particles/part_table.h"
 #include "methods/kit/particles/particle_store.h"
@@ -107,7 +107,7 @@ Finding lightAtFourTimes(const char* quantity, const char* part, gpu::Device& de
         };
         ratios.push_back(lightAt(40) / lightAt(10));
     }
-    return experiments::meanOf(quantity, ratios);
+    return findings::meanOf(quantity, ratios);
 }
 
 /// Places the same points, in reversed order if `reversed`.

@@ -1,6 +1,7 @@
 #include "methods/plugin_particles/plugin_particles.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
@@ -93,6 +94,7 @@ PluginParticles::PluginParticles(std::vector<particles::NamedParts> systems, std
 void PluginParticles::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) {
     scene_ = &scene;
     device_ = &device;
+    askedFor_ = setup.particles;
     const std::size_t count = parts_.size();
     if (setup.particles > 0 && setup.particles < static_cast<std::int64_t>(count))
         throw InputError("parameter particles: got " + std::to_string(setup.particles) + ", allowed: 0, or at least " +
@@ -175,6 +177,8 @@ void PluginParticles::report(const Frame&, Facts& facts) const {
         all += alive;
     }
     facts.tell("alive_max", all);
+    if (askedFor_ > 0)
+        facts.tell("alive_deviation", static_cast<double>(all - askedFor_) / std::sqrt(static_cast<double>(askedFor_)));
     facts.tell("systems", static_cast<std::int64_t>(systems_.size()));
 }
 
@@ -224,6 +228,12 @@ MethodInfo describe() {
                                   " of the file after the last frame; empty if there are fewer systems"});
     info.facts.push_back({"alive_max", "particles", FactOver::maximumOfFrames,
                           "particles alive in all systems of the file: maximum of the recorded frames"});
+    info.facts.push_back({"alive_deviation",
+                          "1",
+                          FactOver::lastFrame,
+                          "particles alive in all systems of the file after the last frame less the number asked for, "
+                          "over its square root; empty if none was asked for",
+                          {-5, 5}});
     info.facts.push_back({"systems", "systems", FactOver::lastFrame, "particle systems that the file holds"});
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<PluginParticles>(systemsOf(values), values.changes("at"));

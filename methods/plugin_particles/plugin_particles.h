@@ -54,6 +54,7 @@ class PluginParticles final : public Method {
     void findLights();
 
     std::vector<particles::NamedParts> parts_;  ///< until `prepare`
+    std::int64_t askedFor_ = 0;                 ///< particles; 0: as many as the file says
     std::vector<Change> changes_;
     std::size_t applied_ = 0;  ///< number of changes applied
     std::vector<System> systems_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/kit/experiments/timing.h"
+#include "methods/kit/findings/timing.h"
 #include "methods/kit/maths/philox.h"
 
 namespace dustbench::relief::ageing {
@@ -33,7 +33,7 @@ std::vector<Impact> randomImpacts(const CostSweep& sweep, int side, int hits, in
 double secondsToAge(WornSurface& surface, Search search, const std::vector<Impact>& impacts) {
     double shortest = std::numeric_limits<double>::infinity(), total = 0;
     while (total < enoughSeconds) {
-        const double took = experiments::secondsOf(
+        const double took = findings::secondsOf(
             [&] { search == Search::gather ? surface.gather(impacts) : surface.scatter(impacts); });
         surface.takeOff();
         shortest = std::min(shortest, took);

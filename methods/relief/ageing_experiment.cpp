@@ -8,14 +8,14 @@
 #include <memory>
 #include <utility>
 
-#include "methods/kit/experiments/findings.h"
+#include "methods/kit/findings/findings.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/relief/ageing_cost.h"
 
 namespace dustbench::relief::ageing {
 namespace {
 
-using experiments::meanOf;
+using findings::meanOf;
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 

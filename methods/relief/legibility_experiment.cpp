@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "methods/contract/errors.h"
-#include "methods/kit/experiments/findings.h"
+#include "methods/kit/findings/findings.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/relief/particles/relief_particles.h"
 #include "methods/relief/relief_studio.h"
@@ -13,7 +13,7 @@
 namespace dustbench::relief::legibility {
 namespace {
 
-using experiments::meanOf;
+using findings::meanOf;
 
 constexpr int width = 400, height = 200;
 constexpr int seeds = 5;

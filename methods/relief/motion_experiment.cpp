@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "methods/kit/experiments/findings.h"
+#include "methods/kit/findings/findings.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/relief/particles/relief_motion.h"
 
@@ -53,7 +53,7 @@ double medianDistance(Law law, int steps, std::uint64_t seed) {
 Finding distanceOf(std::string quantity, Law law, int steps, std::uint64_t seed) {
     std::vector<double> medians;
     for (std::uint64_t k = 0; k < seeds; ++k) medians.push_back(medianDistance(law, steps, seed + k));
-    return experiments::meanOf(std::move(quantity), medians);
+    return findings::meanOf(std::move(quantity), medians);
 }
 
 std::vector<Finding> measured(ExperimentContext& context) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "methods/kit/experiments/findings.h"
+#include "methods/kit/findings/findings.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/voxel_shape/shape_builder.h"
 #include "methods/voxel_shape/shape_file.h"
@@ -74,7 +74,7 @@ double overlapAt(const Shape& shape, const scene::Scene& scene, const Frame& fra
 
 /// The mean, its interval widened by `resolved`, the resolution of the values.
 Finding meanOf(const std::string& quantity, const std::vector<double>& values, double resolved) {
-    Finding finding = experiments::meanOf(quantity, values);
+    Finding finding = findings::meanOf(quantity, values);
     finding.low -= resolved;
     finding.high += resolved;
     return finding;

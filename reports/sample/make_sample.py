@@ -12,6 +12,7 @@ import shutil
 import statistics
 import subprocess
 import sys
+import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -21,6 +22,7 @@ PAPERS = sorted(folder.parent.name for folder in (ROOT / "data" / "papers").glob
 PAPER, SUITE = "carr2006", "carr2006-compare-quick"  # what README shows
 BEGIN, END = "<!-- sample: `make sample` writes what follows -->\n", "<!-- end of sample -->\n"
 MACHINE = ("cpu", "cores", "gl_renderer", "git_commit", "started_utc")
+DURATIONS = ("quick_seconds", "controls_seconds")  # of the second the experiments are a part: they run again
 
 
 def is_of_suite(row):
@@ -28,10 +30,17 @@ def is_of_suite(row):
     return row["status"] == "done" and row["frames"] == "40" and row["method"] != "null_method"
 
 
+def seconds_of(command):
+    begin = time.monotonic()
+    subprocess.run(command, check=True)
+    return round(time.monotonic() - begin)
+
+
 def measure(program, paper):
     out, kept = OUT / paper, HERE / paper
     shutil.rmtree(out, ignore_errors=True)
-    subprocess.run([program, "reproduce", "--paper", paper, "--quick", "--controls", "--out", out], check=True)
+    quick = [program, "reproduce", "--paper", paper, "--quick", "--out", out]
+    durations = [seconds_of(quick), seconds_of(quick + ["--controls"])]
     subprocess.run([program, "report", out, "--pictures", "1"], check=True)
     kept.mkdir(exist_ok=True)
     for name in ("index.html", "summary.csv", "claims.csv", "experiments.csv"):
@@ -44,8 +53,8 @@ def measure(program, paper):
     provenance = json.loads(next((out / "runs").glob("*/run.json")).read_text())["provenance"]
     with open(kept / "machine.csv", "w", encoding="utf-8", newline="") as stream:
         table = csv.writer(stream, lineterminator="\n")
-        table.writerow(MACHINE)
-        table.writerow([provenance[name] for name in MACHINE])
+        table.writerow(MACHINE + DURATIONS)
+        table.writerow([provenance[name] for name in MACHINE] + durations)
 
 
 def rows(name):

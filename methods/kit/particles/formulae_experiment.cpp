@@ -5,7 +5,7 @@
 #include <functional>
 #include <span>
 
-#include "methods/kit/experiments/findings.h"
+#include "methods/kit/findings/findings.h"
 #include "methods/kit/maths/bezier.h"
 #include "methods/kit/maths/philox.h"
 
@@ -64,7 +64,7 @@ Finding meanOf(const char* quantity, std::int64_t draws, const std::function<dou
     std::vector<double> values;
     values.reserve(static_cast<std::size_t>(draws));
     for (std::int64_t i = 0; i < draws; ++i) values.push_back(value(i));
-    return experiments::meanOf(quantity, values);
+    return findings::meanOf(quantity, values);
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/kit/experiments/findings.h"
-#include "methods/kit/experiments/timing.h"
+#include "methods/kit/findings/findings.h"
+#include "methods/kit/findings/timing.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/maths/sampling.h"
 #include "methods/kit/particles/attraction.h"
@@ -15,7 +15,7 @@
 namespace dustbench::particles::interaction {
 namespace {
 
-using experiments::exponentOf, experiments::medianOf, experiments::secondsOf;
+using findings::exponentOf, findings::medianOf, findings::secondsOf;
 
 constexpr Attraction attraction{AttractionLaw::inverseSquare, 1, 0.1f};
 constexpr float onePercentAngle = 0.65f;

@@ -5,6 +5,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_reader.h"
+#include "methods/kit/files/toml_text.h"
 #include "methods/kit/particles/part_table.h"
 
 namespace dustbench::particles {

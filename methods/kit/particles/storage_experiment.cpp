@@ -2,15 +2,15 @@
 
 #include <map>
 
-#include "methods/kit/experiments/findings.h"
-#include "methods/kit/experiments/timing.h"
+#include "methods/kit/findings/findings.h"
+#include "methods/kit/findings/timing.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/particles/storage_variants.h"
 
 namespace dustbench::particles::storage {
 namespace {
 
-using experiments::medianOf, experiments::secondsOf;
+using findings::medianOf, findings::secondsOf;
 
 constexpr float seconds = 1.0f / 60, meanLifetime = 200 * seconds;
 constexpr int warmUpSteps = 400, timedSteps = 20;

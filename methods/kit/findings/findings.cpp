@@ -1,4 +1,4 @@
-#include "methods/kit/experiments/findings.h"
+#include "methods/kit/findings/findings.h"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-namespace dustbench::experiments {
+namespace dustbench::findings {
 namespace {
 
 double meanOf(const std::vector<double>& values) {
@@ -74,4 +74,4 @@ Finding exponentOf(std::string quantity, const std::vector<double>& x, const std
     return {std::move(quantity), slope, slope - half, slope + half, static_cast<std::int64_t>(x.size())};
 }
 
-}  // namespace dustbench::experiments
+}  // namespace dustbench::findings

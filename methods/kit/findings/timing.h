@@ -5,7 +5,7 @@
 
 #include <time.h>
 
-namespace dustbench::experiments {
+namespace dustbench::findings {
 
 /// Returns the calling thread's CPU time for `work`: other programs disturb it less than the wall clock.
 template <typename Work>
@@ -20,4 +20,4 @@ template <typename Work>
     return now() - begin;
 }
 
-}  // namespace dustbench::experiments
+}  // namespace dustbench::findings

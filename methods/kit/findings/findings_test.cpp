@@ -1,11 +1,11 @@
-#include "methods/kit/experiments/findings.h"
+#include "methods/kit/findings/findings.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-namespace dustbench::experiments {
+namespace dustbench::findings {
 namespace {
 
 TEST(Findings, MeanHasStudentsInterval) {
@@ -42,4 +42,4 @@ TEST(Findings, MedianHasTheIntervalOfTheSignTest) {
 }
 
 }  // namespace
-}  // namespace dustbench::experiments
+}  // namespace dustbench::findings

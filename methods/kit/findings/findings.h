@@ -8,7 +8,7 @@
 
 #include "methods/contract/experiment.h"
 
-namespace dustbench::experiments {
+namespace dustbench::findings {
 
 /// The mean of two or more values, with Student's interval.
 [[nodiscard]] DUSTBENCH_API Finding meanOf(std::string quantity, const std::vector<double>& values);
@@ -21,4 +21,4 @@ namespace dustbench::experiments {
 [[nodiscard]] DUSTBENCH_API Finding exponentOf(std::string quantity, const std::vector<double>& x,
                                                const std::vector<double>& y);
 
-}  // namespace dustbench::experiments
+}  // namespace dustbench::findings
