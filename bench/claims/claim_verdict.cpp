@@ -163,6 +163,7 @@ void judgeSamples(const Rule& rule, const ClaimSamples& samples, ClaimResult& re
     for (std::size_t i = 0; i < samplesOfCell.size(); ++i) {
         const std::vector<ClaimSample>& list = samplesOfCell[i];
         std::vector<double> values;
+        values.reserve(list.size());
         for (const ClaimSample& sample : list) values.push_back(scale.to(sample.value));
         const bool isNearZero = std::ranges::any_of(values, [](double value) { return std::isnan(value); });
         result.cells.push_back(isNearZero ? judgeRatioNearZero(rule, list, samplesOfCell.size())

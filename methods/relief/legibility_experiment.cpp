@@ -43,6 +43,31 @@ std::vector<double> lumaOf(const pictures::Image& image) {
     return luma;
 }
 
+/// Weighted sums along rows, or along columns, of the values within the window's radius; those at the rim are left out.
+std::vector<double> weighted(const std::vector<double>& values, int columns, int rows, bool alongRows) {
+    static const auto weights = gaussian();
+    const std::size_t reach = alongRows ? 1 : static_cast<std::size_t>(columns);
+    const int across = alongRows ? columns - 2 * windowRadius : columns;
+    const int down = alongRows ? rows : rows - 2 * windowRadius;
+    std::vector<double> sums;
+    if (across <= 0 || down <= 0) return sums;
+    sums.reserve(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+    for (int y = 0; y < down; ++y)
+        for (int x = 0; x < across; ++x) {
+            const double* value = &values[static_cast<std::size_t>(y * columns + x)];
+            double sum = 0;
+            for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] * value[k * reach];
+            sums.push_back(sum);
+        }
+    return sums;
+}
+
+/// Weighted sums over the windows that lie within the picture whole.
+std::vector<double> windowSums(const std::vector<double>& values, int columns) {
+    const int rows = static_cast<int>(values.size()) / columns;
+    return weighted(weighted(values, columns, rows, true), columns - 2 * windowRadius, rows, false);
+}
+
 /// Weighted sums over one window.
 struct Moments {
     double r = 0, i = 0, rr = 0, ii = 0, ri = 0;
@@ -107,24 +132,17 @@ std::vector<Finding> measured(ExperimentContext& context) {
 
 double similarity(const pictures::Image& reference, const pictures::Image& picture) {
     const std::vector<double> r = lumaOf(reference), i = lumaOf(picture);
-    const auto weights = gaussian();
-    const auto columns = static_cast<std::size_t>(reference.width);
+    std::array<std::vector<double>, 5> products{r, i, r, i, r};
+    for (std::size_t pixel = 0; pixel < r.size(); ++pixel) {
+        products[2][pixel] *= r[pixel];
+        products[3][pixel] *= i[pixel];
+        products[4][pixel] *= i[pixel];
+    }
+    for (std::vector<double>& plane : products) plane = windowSums(plane, reference.width);
     double sum = 0;
-    std::int64_t windows = 0;
-    for (int y = windowRadius; y < reference.height - windowRadius; ++y)
-        for (int x = windowRadius; x < reference.width - windowRadius; ++x) {
-            Moments moments;
-            for (std::size_t v = 0; v < weights.size(); ++v)
-                for (std::size_t u = 0; u < weights.size(); ++u) {
-                    const std::size_t pixel = (static_cast<std::size_t>(y - windowRadius) + v) * columns +
-                                              static_cast<std::size_t>(x - windowRadius) + u;
-                    const double weight = weights[u] * weights[v], a = r[pixel], b = i[pixel];
-                    moments.r += weight * a, moments.i += weight * b;
-                    moments.rr += weight * a * a, moments.ii += weight * b * b, moments.ri += weight * a * b;
-                }
-            sum += moments.similarity();
-            ++windows;
-        }
+    const std::size_t windows = products[0].size();
+    for (std::size_t k = 0; k < windows; ++k)
+        sum += Moments{products[0][k], products[1][k], products[2][k], products[3][k], products[4][k]}.similarity();
     return windows > 0 ? sum / static_cast<double>(windows) : 1;
 }
 

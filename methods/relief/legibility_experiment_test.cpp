@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <random>
+#include <vector>
 
 #include "methods/kit/draw/test_canvas.h"
+#include "methods/kit/maths/srgb.h"
 #include "methods/relief/view_angle_experiment.h"
 
 namespace dustbench::relief {
@@ -20,6 +23,35 @@ pictures::Image noise(unsigned seed, float amplitude, const pictures::Image* ove
         image.pixels.emplace_back(glm::mix(base, glm::vec3(any(random)), amplitude), 1.0f);
     }
     return image;
+}
+
+/// Wang2004, (13), of one window of 11×11 pixels around (x, y): the plain way.
+double similarityAt(const std::vector<double>& r, const std::vector<double>& i, int width, int x, int y) {
+    double total = 0, mr = 0, mi = 0, rr = 0, ii = 0, ri = 0;
+    for (int v = -5; v <= 5; ++v)
+        for (int u = -5; u <= 5; ++u) {
+            const auto pixel = static_cast<std::size_t>((y + v) * width + x + u);
+            const double w = std::exp(-(u * u + v * v) / (2 * 1.5 * 1.5));
+            total += w, mr += w * r[pixel], mi += w * i[pixel];
+            rr += w * r[pixel] * r[pixel], ii += w * i[pixel] * i[pixel], ri += w * r[pixel] * i[pixel];
+        }
+    for (double* sum : {&mr, &mi, &rr, &ii, &ri}) *sum /= total;
+    return (2 * mr * mi + 1e-4) * (2 * (ri - mr * mi) + 9e-4) /
+           ((mr * mr + mi * mi + 1e-4) * (rr - mr * mr + ii - mi * mi + 9e-4));
+}
+
+TEST(Legibility, SimilarityIsThatOfThePlainFormula) {
+    const auto grey = [](const pictures::Image& image) {
+        std::vector<double> values;
+        for (const glm::vec4& pixel : image.pixels) values.push_back(static_cast<double>(maths::encodeSrgb(pixel.r)));
+        return values;
+    };
+    const pictures::Image a = noise(3, 1), b = noise(4, 0.4f, &a);
+    const std::vector<double> r = grey(a), i = grey(b);
+    double sum = 0;
+    for (int y = 5; y < a.height - 5; ++y)
+        for (int x = 5; x < a.width - 5; ++x) sum += similarityAt(r, i, a.width, x, y);
+    EXPECT_NEAR(legibility::similarity(a, b), sum / ((a.width - 10) * (a.height - 10)), 1e-6);  // floats
 }
 
 TEST(Legibility, SimilarityIsOneOfEqualPicturesAndFallsWithNoise) {

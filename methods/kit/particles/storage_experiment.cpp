@@ -124,7 +124,7 @@ ExperimentInfo describe() {
     info.summary =
         "Measures the cost of a linked list, arrays and a pool of the dead when particles are scanned and replaced.";
     info.source = "Thesis";
-    info.run = [](ExperimentContext& context) { return measureStorage(context.seed(), 100'000, 15); };
+    info.run = [](ExperimentContext& context) { return measureStorage(context.seed(), 100'000, 25); };
     return info;
 }
 
