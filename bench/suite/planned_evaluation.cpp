@@ -66,6 +66,14 @@ std::vector<std::string> comparableColumns() {
     return columns;
 }
 
+std::vector<std::string> chartColumns() {
+    std::vector<std::string> columns = columnsAfterParameters();
+    std::erase_if(columns, [](const std::string& name) {
+        return name.starts_with("FILE_") || name == "metric_reference" || name == "invalid";
+    });
+    return columns;
+}
+
 std::vector<PlannedComparison> readComparisons(files::TomlReader& suite, const std::vector<std::string>& methods) {
     std::vector<PlannedComparison> comparisons;
     for (files::TomlReader& table : suite.tables("compare")) {

@@ -39,6 +39,8 @@ struct PlannedFit {
 
 /// The columns of summary.csv that can be compared: times, and rates as the time per frame.
 [[nodiscard]] std::vector<std::string> comparableColumns();
+/// The columns of summary.csv that hold numbers to draw.
+[[nodiscard]] std::vector<std::string> chartColumns();
 /// Whether the column is a rate, which is the inverse of a time.
 [[nodiscard]] bool isRate(std::string_view column);
 

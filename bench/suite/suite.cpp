@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "bench/suite/baselines.h"
 #include "bench/suite/cell_groups.h"
@@ -55,6 +56,17 @@ std::size_t leaveOut(const Exception& exception, std::vector<PlannedRun>& cells)
     return count;
 }
 
+/// Throws InputError if no run of the suite has the load that its chart opens on.
+void requireLoad(const Suite& suite, const std::string& where) {
+    const std::string& name = suite.chart.against;
+    std::set<std::string> known{"drive", "scene", "seed", "size"};
+    for (const PlannedRun& cell : suite.cells)
+        for (const auto& [parameter, value] : cell.spec.parameters) known.insert(parameter);
+    if (name.empty() || known.contains(name)) return;
+    const std::vector<std::string> names(known.begin(), known.end());
+    throw InputError(where + unknownName("load of the chart", name, names).what());
+}
+
 /// `wholeFile`: an exception that excludes nothing is an error; in `[quick]`, which has fewer cells, it is not.
 Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     requireFramesWithinRun(draft.base);
@@ -96,6 +108,7 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
         throw InputError("suite: nothing is left of it by its exceptions");
     for (const PlannedComparison& comparison : suite.comparisons) (void)matchCells(suite, comparison);
     for (const PlannedFit& fit : suite.fits) (void)cellsByLoad(suite, fit);
+    requireLoad(suite, draft.chartWhere);
     return suite;
 }
 

@@ -27,10 +27,18 @@ struct PlannedRun {
 enum class Order { interleaved, batch };
 inline constexpr Choices<Order> orders{{"interleaved", Order::interleaved}, {"batch", Order::batch}};
 
+/// What a suite's chart opens on. Empty: the frame rate, against what varies most.
+struct ChartView {
+    std::string column;  ///< of summary.csv
+    std::string
+        against;  ///< a parameter that the suite sets, or `size`, `scene`, `drive`, `seed`; empty: as the chart likes
+};
+
 struct Suite {
     std::string id;
     std::string title;
     std::string summary;
+    ChartView chart;
     std::vector<PlannedRun> cells;  ///< one repetition each
     int repetitions = 1;
     Order order = Order::interleaved;

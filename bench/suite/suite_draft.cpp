@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <sstream>
 
 #include "bench/suite/value_list.h"
 #include "methods/contract/errors.h"
@@ -216,6 +217,22 @@ void readExceptions(files::TomlReader& suite, SuiteDraft& draft) {
     }
 }
 
+/// `gaps`, or `gaps against speed`. Whether the suite has such a load is known once it is read whole.
+ChartView readChart(files::TomlReader& table) {
+    std::istringstream words(table.text("chart"));
+    ChartView chart;
+    std::string against, rest;
+    words >> chart.column >> against >> chart.against >> rest;
+    if (chart.column.empty() || (!against.empty() && against != "against") ||
+        against.empty() != chart.against.empty() || !rest.empty())
+        throw InputError(fmt::format("{}key 'chart': got '{}', expected COLUMN or COLUMN against NAME",
+                                     table.where("chart"), table.text("chart")));
+    const std::vector<std::string> known = chartColumns();
+    if (std::ranges::find(known, chart.column) == known.end())
+        throw at(table.where("chart"), unknownName("column for a chart", chart.column, known));
+    return chart;
+}
+
 }  // namespace
 
 void SuiteDraft::read(files::TomlReader& table) {
@@ -238,6 +255,10 @@ void SuiteDraft::read(files::TomlReader& table) {
 
     suite.title = table.text("title", suite.title);
     suite.summary = table.text("summary", suite.summary);
+    if (table.has("chart")) {
+        suite.chart = readChart(table);
+        chartWhere = table.where("chart");
+    }
     suite.repetitions = static_cast<int>(table.integer("repetitions", 1, maximumRepetitions, suite.repetitions));
     suite.timeoutSeconds = table.number("timeout_s", 1, 1e6, suite.timeoutSeconds);
     suite.cooldownSeconds = table.number("cooldown_s", 0, 3600, suite.cooldownSeconds);

@@ -35,6 +35,7 @@ struct SuiteDraft {
     std::vector<std::pair<std::string, ParameterLists>> methodParameters;
     std::map<std::string, ParameterTexts> finerSettings;  ///< by method: the settings of its reference
     std::vector<Exception> exceptions;
+    std::string chartWhere;        ///< `file:line: ` of `chart`, for messages
     std::optional<bool> baseline;  ///< empty: where times are compared, fitted or repeated
 
     /// Reads a table on top of the present values: a whole file, or its `[quick]`. Throws InputError with file and

@@ -248,6 +248,31 @@ TEST(Suite, EverySuiteOfTheProjectCanBePlanned) {
         }
 }
 
+TEST(Suite, SaysWhatItsChartOpensOn) {
+    const std::string text = "methods = [\"billboard\"]\n[parameters]\nspeed = [10, 40]\n";
+    const Suite plain = parseSuite(text, "s.toml", false);
+    EXPECT_EQ(plain.chart.column, "");
+    const Suite gaps = parseSuite("chart = \"gaps against speed\"\n" + text, "s.toml", false);
+    EXPECT_EQ(gaps.chart.column, "gaps");
+    EXPECT_EQ(gaps.chart.against, "speed");
+    const Suite quick =
+        parseSuite("chart = \"gaps\"\n" + text + "[quick]\nchart = \"flip against size\"\n", "s.toml", true);
+    EXPECT_EQ(quick.chart.column, "flip");
+    EXPECT_EQ(quick.chart.against, "size");
+}
+
+TEST(Suite, SaysWhereItsChartIsNamedWrongly) {
+    const std::string text = "methods = [\"billboard\"]\n[parameters]\nspeed = [10, 40]\n";
+    const auto of = [&text](const std::string& chart) { return messageOf("chart = \"" + chart + "\"\n" + text); };
+    EXPECT_THAT(of("gap"), AllOf(HasSubstr("s.toml:1: "), HasSubstr("column for a chart 'gap'"), HasSubstr("gaps")));
+    EXPECT_THAT(of("gaps against sped"),
+                AllOf(HasSubstr("s.toml:1: "), HasSubstr("load of the chart 'sped'"), HasSubstr("speed")));
+    EXPECT_THAT(of("FILE_image"), HasSubstr("column for a chart 'FILE_image'"));
+    for (const char* wrong : {"", "gaps speed", "gaps against", "gaps over speed", "gaps against speed size"})
+        EXPECT_THAT(of(wrong), HasSubstr("expected COLUMN or COLUMN against NAME")) << wrong;
+    EXPECT_THAT(messageOf("chart = 3\n" + text), HasSubstr("s.toml:1: "));
+}
+
 TEST(Suite, AsksForVolumesOfEveryRun) {
     const char* text = R"(
 methods = ["billboard"]
