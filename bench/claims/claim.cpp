@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <sstream>
 
 #include "bench/claims/experiments.h"
@@ -17,11 +18,6 @@
 namespace dustbench::bench {
 namespace {
 
-constexpr Choices<Quantity> quantities{{"none", Quantity::none},       {"ratio", Quantity::ratio},
-                                       {"matched", Quantity::matched}, {"share", Quantity::share},
-                                       {"growth", Quantity::growth},   {"trend", Quantity::trend},
-                                       {"slopes", Quantity::slopes},   {"exponent", Quantity::exponent},
-                                       {"value", Quantity::value},     {"finding", Quantity::finding}};
 constexpr Choices<Chance> chances{
     {"repetitions", Chance::repetitions}, {"seeds", Chance::seeds}, {"none", Chance::none}};
 constexpr Choices<ControlOutcome> outcomes{{"refuted", ControlOutcome::refuted},
@@ -97,7 +93,7 @@ Claim readClaim(files::TomlReader& table) {
     claim.where = table.where();
     claim.id = table.text("id");
     claim.text = table.text("text");
-    claim.rule.quantity = table.choice("quantity", quantities);
+    claim.rule.quantity = table.choice("quantity", quantityWords);
     if (claim.rule.quantity == Quantity::none) {
         claim.missing = table.text("missing");
         table.finish();
@@ -174,27 +170,37 @@ std::string Rule::expected() const {
     return maximum ? fmt::format("{:g} or less", *maximum) : "";
 }
 
+std::string Rule::textOf(double value) const {
+    if (!std::isfinite(value)) return "";
+    if (quantity == Quantity::value && per.empty() && column.ends_with("_bytes"))
+        return fmt::format("{:.4g} MB", value / 1e6);
+    // A power of ten is harder to read than a few digits more.
+    return std::abs(value) >= 1e4 && std::abs(value) < 1e9 ? fmt::format("{:.0f}", value)
+                                                           : fmt::format("{:.4g}", value);
+}
+
 std::string Rule::inWords() const {
     const std::string what = per.empty() ? column : column + " per " + nameOf(per);
     switch (quantity) {
         case Quantity::ratio:
-            return fmt::format("{} of {} over that of {}", what, textOf(of), textOf(with));
+            return fmt::format("{} of {} over that of {}", what, bench::textOf(of), bench::textOf(with));
         case Quantity::matched:
-            return fmt::format("{} of {} over that of {} with the same {}", what, textOf(of), textOf(with), match);
+            return fmt::format("{} of {} over that of {} with the same {}", what, bench::textOf(of),
+                               bench::textOf(with), match);
         case Quantity::share:
-            return fmt::format("({}) over {} of {}", fmt::join(parts, " + "), what, textOf(of));
+            return fmt::format("({}) over {} of {}", fmt::join(parts, " + "), what, bench::textOf(of));
         case Quantity::growth:
-            return fmt::format("{} of {} at the maximum of {} over that at the minimum", what, textOf(of),
+            return fmt::format("{} of {} at the maximum of {} over that at the minimum", what, bench::textOf(of),
                                nameOf(against));
         case Quantity::trend:
-            return fmt::format("rank correlation of {} with {}, {}", what, nameOf(against), textOf(of));
+            return fmt::format("rank correlation of {} with {}, {}", what, nameOf(against), bench::textOf(of));
         case Quantity::slopes:
             return fmt::format("slope of {} over {} in the upper half of the loads, over that in the lower half, {}",
-                               what, nameOf(against), textOf(of));
+                               what, nameOf(against), bench::textOf(of));
         case Quantity::exponent:
-            return fmt::format("k of {} = a + b {}^k, {}", what, nameOf(against), textOf(of));
+            return fmt::format("k of {} = a + b {}^k, {}", what, nameOf(against), bench::textOf(of));
         case Quantity::value:
-            return fmt::format("{} of {}", what, textOf(of));
+            return fmt::format("{} of {}", what, bench::textOf(of));
         case Quantity::finding:
             return fmt::format("{} of the experiment {}", column, experiment);
         case Quantity::none:

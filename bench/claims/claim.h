@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "methods/contract/choices.h"
+
 namespace dustbench::bench {
 
 enum class Quantity {
@@ -26,6 +28,12 @@ enum class Quantity {
     value,     ///< of a column
     finding    ///< an experiment's result, with its own interval
 };
+
+inline constexpr Choices<Quantity> quantityWords{{"none", Quantity::none},       {"ratio", Quantity::ratio},
+                                                 {"matched", Quantity::matched}, {"share", Quantity::share},
+                                                 {"growth", Quantity::growth},   {"trend", Quantity::trend},
+                                                 {"slopes", Quantity::slopes},   {"exponent", Quantity::exponent},
+                                                 {"value", Quantity::value},     {"finding", Quantity::finding}};
 
 /// What a quantity is measured over again, and thus where its interval comes from.
 enum class Chance {
@@ -71,6 +79,8 @@ struct Rule {
     }
     /// `0.9 to 1.1`, `3 or more`.
     [[nodiscard]] std::string expected() const;
+    /// A value of the quantity in four digits, for reading: bytes as `2.175 MB`; empty for NaN.
+    [[nodiscard]] std::string textOf(double value) const;
     /// What is computed: `build_ms_median: octree_recursive over octree_search`.
     [[nodiscard]] std::string inWords() const;
 };

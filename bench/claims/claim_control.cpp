@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace dustbench::bench {
 namespace {
 
@@ -16,9 +18,10 @@ void append(std::string& text, const std::string& more) {
 /// `refuted, as known (1.31: 40 times the particles)`.
 std::string outcomeText(const ControlRule& control, const ClaimResult& found) {
     const bool asKnown = found.verdict == verdictOf(control.gives);
-    return fmt::format("{}{} ({:.4g}: {})", verdictName(found.verdict),
+    return fmt::format("{}{} ({}: {})", verdictName(found.verdict),
                        asKnown ? ", as known" : fmt::format(", known: {}", verdictName(verdictOf(control.gives))),
-                       found.measured, control.why);
+                       std::isfinite(found.measured) ? control.rule.textOf(found.measured) : "nothing measured",
+                       control.why);
 }
 
 /// True if a verdict can be checked: another one is possible, and a control shows it.

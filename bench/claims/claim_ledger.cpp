@@ -92,9 +92,12 @@ TextRows tabulate(const std::vector<JudgedClaim>& claims) {
         std::string text = claim.text;
         for (const std::string& more : {result.condition, result.note})
             if (!more.empty()) text += " (" + more + ")";
+        const Rule& rule = claim.rule;
+        const std::string range =
+            std::isfinite(result.low) ? fmt::format("[{}, {}]", rule.textOf(result.low), rule.textOf(result.high)) : "";
         table.rows.push_back({claim.id, std::string(verdictName(result.verdict)),
-                              std::string(controlName(result.control)), rounded(result.measured),
-                              interval(result.low, result.high), claim.rule.expected(), text});
+                              std::string(controlName(result.control)), rule.textOf(result.measured), range,
+                              rule.expected(), text});
     }
     return table;
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -24,6 +25,21 @@ constexpr int repetitions = 6;
 Claim claimOf(const std::string& rule) {
     return parseClaims("[[claim]]\nid = \"X\"\ntext = \"t\"\nsuite = \"s\"\nreason = \"r\"\n" + rule, "claims.toml")
         .at(0);
+}
+
+TEST(Claims, ValuesAreWrittenToBeRead) {
+    Rule bytes, ratio;
+    bytes.quantity = Quantity::value;
+    bytes.column = "cpu_bytes";
+    ratio.quantity = Quantity::ratio;
+    ratio.column = "cpu_bytes";
+    EXPECT_EQ(bytes.textOf(2'175'000), "2.175 MB");
+    EXPECT_EQ(ratio.textOf(2'175'000), "2175000");
+    EXPECT_EQ(ratio.textOf(-12345.6), "-12346");
+    EXPECT_EQ(ratio.textOf(1.28746), "1.287");
+    EXPECT_EQ(ratio.textOf(std::nan("")), "");
+    bytes.per = "primitives_median";
+    EXPECT_EQ(bytes.textOf(28), "28") << "bytes of each are few";
 }
 
 TEST(Claims, MistakesNameTheirLine) {
