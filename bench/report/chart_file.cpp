@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <map>
+#include <set>
 #include <sstream>
+#include <tuple>
 
 #include "bench/export/whole_file.h"
 #include "bench/report/report_files.h"
@@ -55,6 +58,17 @@ std::string resolved(const ReportData& data, const std::string& wanted) {
     throw unknownName("chart", wanted, ids);
 }
 
+/// The page shows the seeds of a cell as one.
+std::size_t countWithoutSeeds(const RunGroup& group) {
+    std::set<std::tuple<std::string, std::map<std::string, std::string, std::less<>>, std::size_t>> cells;
+    for (const ReportCell& cell : group.cells) {
+        auto settings = cell.settings;
+        settings.erase("seed");
+        cells.emplace(cell.method, std::move(settings), cell.machine);
+    }
+    return cells.size();
+}
+
 }  // namespace
 
 std::vector<std::string> chartIds(const ReportData& data) {
@@ -65,9 +79,7 @@ std::vector<std::string> chartIds(const ReportData& data) {
                                        [column](const ReportCell& cell) { return cell.values.contains(column); });
         };
         if (!has("frame_ms_median")) continue;
-        if (std::ranges::any_of(group.axes,
-                                [](const ReportAxis& axis) { return axis.name != "seed" && axis.name != "frames"; }))
-            ids.push_back(group.id);
+        if (countWithoutSeeds(group) > 1) ids.push_back(group.id);
         ids.push_back(group.id + "-stages");
         if (has("flip")) ids.push_back(group.id + "-quality");
     }

@@ -8,6 +8,9 @@
 
 namespace dustbench::bench {
 
+/// `David N. Carr, Jim Geyer (2006): Variants of …`
+[[nodiscard]] std::string citationOf(const Paper& paper);
+
 [[nodiscard]] std::string pageOf(const ReportData& data);
 
 /// Writes `folder`/index.html, and claims.csv if there are claims, and returns the page's path. Throws InputError if

@@ -9,6 +9,7 @@
 #include "bench/report/run_groups.h"
 #include "bench/report/small_picture.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 namespace {
@@ -39,6 +40,23 @@ std::map<int, FramePictures> framesIn(const fs::path& images) {
     return frames;
 }
 
+using MetricsByFrame = std::map<int, PictureNumbers>;
+
+/// What metrics.csv says of each judged frame; empty if the run was not judged, or the file is damaged.
+MetricsByFrame metricsOf(const fs::path& run) {
+    MetricsByFrame byFrame;
+    if (!fs::exists(run / "metrics.csv")) return byFrame;
+    try {
+        const auto table = files::CsvTable::parseFile(run / "metrics.csv");
+        for (std::size_t row = 0; row < table.rows(); ++row)
+            for (const char* column : {"psnr_db", "ssim", "flip"})
+                if (!table.cell(row, column).empty())
+                    byFrame[static_cast<int>(table.number(row, "frame"))][column] = table.number(row, column);
+    } catch (const InputError&) {  // the pictures are shown without numbers
+    }
+    return byFrame;
+}
+
 class Collector {
  public:
     Collector(const fs::path& folder, std::int64_t maximumBytes, ReportData& data)
@@ -54,17 +72,20 @@ class Collector {
         if (wasPictured && frames.empty() && missing_++ == 0) firstMissing_ = relative;
         const auto reference = run.cells.find("metric_reference");
         const bool isExact = reference == run.cells.end() || reference->second == "exact";
+        const auto numbers = frames.empty() ? MetricsByFrame() : metricsOf(folder_ / "runs" / run.runId);
         for (const auto& [frame, has] : frames) {
+            const auto found = numbers.find(frame);
+            const PictureNumbers here = found == numbers.end() ? PictureNumbers() : found->second;
             PictureSet& set = setOf(group.id, worldLabel(group, cell), frame);
             const std::string start = fmt::format("{}f{:06}", relative, frame);
             if (has.reference) {
                 // The exact picture is common to all methods; a finer setting is specific to its method.
                 const std::string name = isExact ? "exact" : "reference of " + label;
                 if (std::ranges::find(set.pictures, name, &ReportPicture::label) == set.pictures.end())
-                    place(set, {name, isExact ? "" : cell.method, false, start + "_reference.png"});
+                    place(set, {name, isExact ? "" : cell.method, false, start + "_reference.png", {}});
             }
-            place(set, {label, cell.method, false, start + ".png"});
-            if (has.difference) place(set, {label, cell.method, true, start + "_difference.png"});
+            place(set, {label, cell.method, false, start + ".png", here});
+            if (has.difference) place(set, {label, cell.method, true, start + "_difference.png", here});
         }
     }
 

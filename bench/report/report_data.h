@@ -12,6 +12,7 @@
 #include "bench/report/median_interval.h"
 #include "bench/results/stored_run.h"
 #include "bench/suite/paper.h"
+#include "bench/suite/suite_verdicts.h"
 
 namespace dustbench::bench {
 
@@ -55,6 +56,11 @@ struct PublishedPoint {
 struct RunGroup {
     std::string id;  ///< id of its suite, with `-quick` for the short form; or `other`
     std::string suite, title, summary, paper;
+    std::string suiteText;  ///< the suite's file
+    ChartView chart;        ///< what its chart opens on
+    /// Settings of the world that all runs share: `size`, `frames`, `speed`.
+    std::map<std::string, std::string, std::less<>> common;
+    std::vector<ComparisonResult> comparisons;
     std::vector<ReportAxis> axes;
     std::vector<ReportCell> cells;
     std::vector<ReportFit> fits;
@@ -71,12 +77,16 @@ struct FrameTimes {
     std::vector<std::pair<std::size_t, double>> trace;
 };
 
+/// Metrics of a picture by column of metrics.csv: `psnr_db`, `ssim`, `flip`.
+using PictureNumbers = std::map<std::string, double, std::less<>>;
+
 /// One picture of a run, as shown on the page.
 struct ReportPicture {
     std::string label;   ///< `billboard soft=on`, `exact`
     std::string method;  ///< empty for the exact one
     bool difference = false;
     std::string source;  ///< data URL, or path relative to the page
+    PictureNumbers numbers;
 };
 
 /// All pictures of one world at one frame.
@@ -106,6 +116,7 @@ struct ReportData {
     /// Provenance fields of each machine involved.
     std::vector<std::map<std::string, std::string, std::less<>>> machines;
     std::vector<Paper> papers;
+    std::vector<std::string> files;  ///< raw files in the folder, relative to it
     std::vector<RunGroup> groups;
     std::vector<JudgedClaim> claims;
     std::vector<FrameTimes> frameTimes;

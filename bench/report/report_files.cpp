@@ -45,26 +45,27 @@ fs::path reportsFolder() {
     return files::shippedFolder("reports", "share/dustbench/reports");
 }
 
-std::string textOf(const fs::path& file) {
+}  // namespace
+
+std::string fileText(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw InputError(fmt::format("'{}': cannot be read", file.string()));
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-}  // namespace
-
 std::string reportFile(std::string_view name) {
-    return textOf(reportsFolder() / "report" / name);
+    return fileText(reportsFolder() / "report" / name);
 }
 
-std::string schemaText() {
-    return textOf(reportsFolder() / "SCHEMA.md");
+std::string documentText(std::string_view name) {
+    return fileText(reportsFolder() / name);
 }
 
 std::string vegaLicence() {
     const fs::path file = "/usr/share/doc/libjs-vega/copyright";
     // A system without installed documentation gets at least the licence's name.
-    return fs::exists(file) ? textOf(file) : "Vega: copyright 2015-2021 UW Interactive Data Lab, BSD-3-Clause licence.";
+    return fs::exists(file) ? fileText(file)
+                            : "Vega: copyright 2015-2021 UW Interactive Data Lab, BSD-3-Clause licence.";
 }
 
 std::string chartSpecifications() {
@@ -74,16 +75,24 @@ std::string chartSpecifications() {
     std::ranges::sort(specifications);
     std::string all;
     for (const fs::path& file : specifications)
-        all += fmt::format("{}\"{}\":{}", all.empty() ? "{" : ",", file.stem().string(), textOf(file));
+        all += fmt::format("{}\"{}\":{}", all.empty() ? "{" : ",", file.stem().string(), fileText(file));
     return all + "}";
 }
 
 std::string chartScript() {
-    return reportFile("chart_style.js") + reportFile("chart_data.js") + reportFile("charts.js");
+    std::string script;
+    for (const std::string_view name : {"chart_style.js", "chart_data.js", "chart_parts.js", "cost_chart.js",
+                                        "stage_chart.js", "quality_chart.js", "charts.js", "words.js"})
+        script += reportFile(name);
+    return script;
 }
 
 std::string pageScript() {
-    return reportFile("elements.js") + reportFile("pictures.js") + reportFile("claims.js") + reportFile("page.js");
+    std::string script;
+    for (const std::string_view name : {"elements.js", "markdown.js", "pictures.js", "claims.js", "overview.js",
+                                        "page_state.js", "chart_card.js", "head.js", "page.js"})
+        script += reportFile(name);
+    return script;
 }
 
 std::string vegaScript() {
@@ -93,8 +102,8 @@ std::string vegaScript() {
         if (!fs::exists(path))
             throw InputError(
                 fmt::format("'{}' is missing, expected from the Debian package libjs-vega", path.string()));
-        script +=
-            fmt::format("vegaParts['vega-{}'] = function (exports, require, module) {{\n{}\n}};\n", name, textOf(path));
+        script += fmt::format("vegaParts['vega-{}'] = function (exports, require, module) {{\n{}\n}};\n", name,
+                              fileText(path));
     }
     return script + reportFile("vega.js");
 }

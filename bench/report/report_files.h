@@ -10,8 +10,11 @@ namespace dustbench::bench {
 /// The content of `reports/report/<name>`. Throws InputError.
 [[nodiscard]] std::string reportFile(std::string_view name);
 
-/// The content of reports/SCHEMA.md.
-[[nodiscard]] std::string schemaText();
+/// The content of a file. Throws InputError.
+[[nodiscard]] std::string fileText(const std::filesystem::path& file);
+
+/// The content of `reports/<name>`: `SCHEMA.md`, `METRICS.md`. Throws InputError.
+[[nodiscard]] std::string documentText(std::string_view name);
 
 /// The licence under which Vega may be redistributed with a page, from the package.
 [[nodiscard]] std::string vegaLicence();

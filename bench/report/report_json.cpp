@@ -5,9 +5,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/measure/image/heat_map.h"
 #include "bench/measure/provenance.h"
 #include "bench/report/run_groups.h"
+#include "bench/results/method_facts.h"
 #include "bench/suite/catalogue.h"
+#include "methods/kit/maths/srgb.h"
 
 namespace dustbench::bench {
 namespace {
@@ -82,29 +85,59 @@ json publishedJson(const PublishedPoint& point) {
             {"min", number(point.minimum)}, {"max", number(point.maximum)}, {"what", point.what}};
 }
 
+json verdictJson(const CellVerdict& cell) {
+    return {{"at", cell.at},
+            {"ratio", number(cell.result.ratio)},
+            {"low", number(cell.result.low)},
+            {"high", number(cell.result.high)},
+            {"pairs", cell.result.pairs},
+            {"verdict", verdictName(cell.result.verdict)}};
+}
+
+json comparisonJson(const ComparisonResult& comparison) {
+    return {{"of", comparison.of},
+            {"with", comparison.with},
+            {"axes", comparison.axes},
+            {"columns", each(comparison.columns, [](const ColumnVerdict& column) {
+                 return json{{"column", column.column},
+                             {"cells", each(column.cells, verdictJson)},
+                             {"overall", verdictJson(column.overall)}};
+             })}};
+}
+
 json groupJson(const RunGroup& group, const RunIndex& index) {
-    json axes = json::array(), cells = json::array(), fits = json::array(), published = json::array();
-    for (const ReportAxis& axis : group.axes) axes.push_back(axisJson(axis));
-    for (const ReportCell& cell : group.cells) cells.push_back(cellJson(group, cell, index));
-    for (const ReportFit& fit : group.fits) fits.push_back(fitJson(fit));
-    for (const PublishedPoint& point : group.published) published.push_back(publishedJson(point));
     return {{"id", group.id},
             {"suite", group.suite},
             {"title", group.title},
             {"summary", group.summary},
             {"paper", group.paper},
-            {"axes", std::move(axes)},
-            {"cells", std::move(cells)},
-            {"fits", std::move(fits)},
-            {"published", std::move(published)}};
+            {"toml", group.suiteText},
+            {"chart", {{"column", group.chart.column}, {"against", group.chart.against}}},
+            {"common", group.common},
+            {"axes", each(group.axes, axisJson)},
+            {"cells", each(group.cells, [&](const ReportCell& cell) { return cellJson(group, cell, index); })},
+            {"fits", each(group.fits, fitJson)},
+            {"published", each(group.published, publishedJson)},
+            {"comparisons", each(group.comparisons, comparisonJson)}};
 }
 
 json claimCellJson(const ClaimCell& cell) {
-    return {{"text", textOf(cell.cell)},
-            {"measured", number(cell.measured)},
-            {"low", number(cell.low)},
-            {"high", number(cell.high)},
-            {"verdict", verdictName(cell.verdict)}};
+    return {{"text", textOf(cell.cell)}, {"measured", number(cell.measured)},
+            {"low", number(cell.low)},   {"high", number(cell.high)},
+            {"turns", cell.turns},       {"verdict", verdictName(cell.verdict)}};
+}
+
+/// The rule in parts, from which the page makes sentences with names and units.
+json ruleJson(const Rule& rule) {
+    return {{"quantity", quantityWords.wordOf(rule.quantity)},
+            {"experiment", rule.experiment},
+            {"column", rule.column},
+            {"per", rule.per},
+            {"parts", rule.parts},
+            {"match", rule.match},
+            {"of", textOf(rule.of)},
+            {"with", textOf(rule.with)},
+            {"against", nameOf(rule.against)}};
 }
 
 json claimJson(const JudgedClaim& judged, const RunIndex& index) {
@@ -114,8 +147,7 @@ json claimJson(const JudgedClaim& judged, const RunIndex& index) {
             {"paper", paper},
             {"text", claim.text},
             {"suite", rule.suite},
-            {"column", rule.quantity == Quantity::value ? rule.column : ""},
-            {"quantity", rule.inWords()},
+            {"rule", ruleJson(rule)},
             {"over", rule.over == Chance::seeds  ? "seeds"
                      : rule.over == Chance::none ? ""
                                                  : "repetitions"},
@@ -150,13 +182,29 @@ json frameTimesJson(const FrameTimes& times, const RunIndex& index) {
 
 json pictureSetJson(const PictureSet& set) {
     json pictures = json::array();
-    for (const ReportPicture& picture : set.pictures)
+    for (const ReportPicture& picture : set.pictures) {
+        json numbers = json::object();
+        for (const auto& [column, value] : picture.numbers) numbers[column] = number(value);
         pictures.push_back({{"label", picture.label},
                             {"method", picture.method},
                             {"difference", picture.difference},
-                            {"source", picture.source}});
+                            {"source", picture.source},
+                            {"numbers", std::move(numbers)}});
+    }
     return {{"experiment", set.group}, {"world", set.world},   {"frame", set.frame},
             {"width", set.width},      {"height", set.height}, {"pictures", std::move(pictures)}};
+}
+
+/// `#rrggbb`, from no difference to the largest: what the difference maps are drawn with.
+json heatColours() {
+    constexpr int steps = 16;
+    json colours = json::array();
+    for (int step = 0; step <= steps; ++step) {
+        const glm::vec3 linear = heatColour(static_cast<float>(step) / steps);
+        const auto byte = [](float value) { return std::lround(255 * maths::encodeSrgb(value)); };
+        colours.push_back(fmt::format("#{:02x}{:02x}{:02x}", byte(linear.r), byte(linear.g), byte(linear.b)));
+    }
+    return colours;
 }
 
 }  // namespace
@@ -173,6 +221,8 @@ std::string reportJson(const ReportData& data) {
               {"version", buildFacts().version},
               {"problems", data.problems},
               {"machines", data.machines},
+              {"files", data.files},
+              {"heat", heatColours()},
               {"runs", std::move(runs)},
               {"framesLeftOut", data.runsWithoutFrameTimes},
               {"linkedPictures", data.linkedPictures}};
@@ -180,12 +230,13 @@ std::string reportJson(const ReportData& data) {
     root["methods"] = each(catalogue("methods"), [](const CatalogueItem& item) {
         return json{{"id", item.id}, {"title", item.title}};
     });
+    root["facts"] = each(methodFacts(), [](const MethodFact& fact) {
+        return json{{"name", fact.info.name}, {"unit", fact.info.unit}, {"meaning", fact.info.meaning}};
+    });
     root["papers"] = each(data.papers, [](const Paper& paper) {
-        return json{{"id", paper.id},
-                    {"title", paper.title},
-                    {"authors", paper.authors},
-                    {"year", paper.year},
-                    {"venue", paper.venue}};
+        return json{
+            {"id", paper.id},       {"title", paper.title},     {"authors", paper.authors},  {"year", paper.year},
+            {"venue", paper.venue}, {"summary", paper.summary}, {"controls", paper.controls}};
     });
     root["experiments"] = each(data.groups, [&](const RunGroup& item) { return groupJson(item, index); });
     root["claims"] = each(data.claims, [&](const JudgedClaim& item) { return claimJson(item, index); });

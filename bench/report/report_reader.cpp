@@ -78,7 +78,9 @@ MachineOfRun findMachines(ReportData& data) {
 void noteBuilds(ReportData& data) {
     for (const std::string_view field : {"git_commit", "compiler", "gl_version"}) {
         std::set<std::string> values;
-        for (const auto& [id, run] : data.runs) values.insert(provenanceOf(run, field));
+        // Twelve letters tell commits apart.
+        for (const auto& [id, run] : data.runs)
+            values.insert(field == "git_commit" ? provenanceOf(run, field).substr(0, 12) : provenanceOf(run, field));
         if (values.size() > 1)
             data.problems.push_back(fmt::format("the runs differ in {}: {}", field, fmt::join(values, ", ")));
     }
@@ -137,6 +139,14 @@ std::set<std::string> controlsOf(const std::string& paper) {
     }
 }
 
+/// The tables beside the page, to which it links.
+void listFiles(const fs::path& folder, ReportData& data) {
+    for (const char* name : {"summary.csv", "claims.csv", "experiments.csv", "machine.csv", "cinema.cdb/data.csv"})
+        // The page writes claims.csv itself.
+        if (fs::exists(folder / name) || (name == std::string_view("claims.csv") && !data.claims.empty()))
+            data.files.emplace_back(name);
+}
+
 void readPapers(const fs::path& folder, ReportData& data) {
     const std::set<std::string> ids = papersOf(data.groups);
     if (ids.empty()) return;
@@ -191,6 +201,7 @@ ReportData readReport(const fs::path& folder, std::int64_t maximumPictureBytes) 
     data.groups = sortIntoGroups(data.runs, machineOf, data.problems);
     readPapers(folder, data);
     readFrameTimes(folder, data);
+    listFiles(folder, data);
     collectPictures(folder, maximumPictureBytes, data);
     return data;
 }

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <set>
 
+#include "bench/report/chart_file.h"
 #include "bench/report/frame_times.h"
 #include "bench/report/page.h"
 #include "bench/report/picture_sets.h"
@@ -239,6 +240,23 @@ TEST(ReportPictures, AreInThePageOrBesideItAsTheBudgetAllows) {
     }
 }
 
+TEST(ReportPictures, CarryTheMetricsOfTheirFrame) {
+    const Folder folder;
+    ReportData data = pictured(folder);
+    folder.write("runs/" + data.runs.begin()->first + "/metrics.csv",
+                 "frame,psnr_db,ssim,flip\n15,20,0.5,0.4\n30,41.5,0.99,\n31,,,\n");
+    collectPictures(folder.path(), 100'000, data);
+    const auto& pictures = data.pictureSets.at(0).pictures;
+    EXPECT_TRUE(pictures.at(0).numbers.empty()) << "the exact picture has no error";
+    EXPECT_EQ(pictures.at(1).numbers, (PictureNumbers{{"psnr_db", 41.5}, {"ssim", 0.99}}));
+    EXPECT_EQ(pictures.at(2).numbers, pictures.at(1).numbers);
+
+    folder.write("runs/" + data.runs.begin()->first + "/metrics.csv", "frame,psnr_db\n30,much\n");
+    data.pictureSets.clear();
+    collectPictures(folder.path(), 100'000, data);
+    EXPECT_TRUE(data.pictureSets.at(0).pictures.at(1).numbers.empty());
+}
+
 TEST(ReportPictures, AreMissedAndNamedWhereTheyAreDamaged) {
     const Folder folder;
     ReportData data = pictured(folder);
@@ -253,6 +271,31 @@ TEST(ReportPictures, AreMissedAndNamedWhereTheyAreDamaged) {
     fs::remove_all(folder.path() / "runs");
     collectPictures(folder.path(), 100'000, gone);
     EXPECT_NE(unreasonable(gone).find("the pictures of 1 run are missing"), std::string::npos);
+}
+
+TEST(Report, ChartsOfASettingNeedMoreThanItsSeeds) {
+    StoredRuns runs;
+    for (const int seed : {1, 2, 3, 4, 5})
+        for (const char* sort : {"none", "radix"}) {
+            StoredRun made = run("haze", 100, 1, 3 + seed, sort);
+            made.cells["seed"] = std::to_string(seed);
+            made.runId += fmt::format("-{}", seed);
+            runs.emplace(made.runId, made);
+        }
+    std::vector<const StoredRun*> all, alone;
+    for (const auto& [id, made] : runs) {
+        all.push_back(&made);
+        if (made.parameters.at("sort") == "none") alone.push_back(&made);
+    }
+    ReportData data;
+    data.groups.push_back(makeGroup(alone, {}));
+    EXPECT_TRUE(data.groups[0].fits.empty()) << "nothing grows with a seed";
+    EXPECT_EQ(data.groups[0].common.at("particles"), "100");
+    EXPECT_FALSE(data.groups[0].common.contains("seed"));
+    data.groups[0].id = "one";
+    data.groups.push_back(makeGroup(all, {}));
+    data.groups[1].id = "two";
+    EXPECT_EQ(chartIds(data), (std::vector<std::string>{"one-stages", "two", "two-stages"}));
 }
 
 TEST(Report, APaperWhoseRunsAreAnothersControlsIsNotJudged) {

@@ -8,12 +8,13 @@
 #include <optional>
 #include <set>
 
-#include "bench/results/summary.h"
+#include "bench/report/report_files.h"
 #include "bench/suite/baselines.h"
 #include "bench/suite/catalogue.h"
 #include "bench/suite/cell_results.h"
 #include "bench/suite/suite.h"
 #include "bench/suite/suite_axes.h"
+#include "bench/suite/suite_verdicts.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::bench {
@@ -98,10 +99,23 @@ std::vector<ReportAxis> axesOf(const std::vector<const StoredRun*>& runs) {
     return axes;
 }
 
+/// The cells of the world that are the same in all runs that have them.
+Settings commonOf(const std::vector<const StoredRun*>& runs) {
+    std::map<std::string, std::set<std::string>> values;
+    for (const StoredRun* run : runs)
+        if (run->status == RunStatus::done)
+            for (const auto& [name, value] : settingsOf(*run))
+                if (isWorld(name) && !value.empty()) values[name].insert(value);
+    Settings common;
+    for (const auto& [name, some] : values)
+        if (some.size() == 1) common.emplace(name, *some.begin());
+    return common;
+}
+
 void fitCurves(RunGroup& group) {
     constexpr std::size_t minimumLoads = 4;
     for (const ReportAxis& axis : group.axes) {
-        if (!axis.numeric || axis.values.size() < minimumLoads) continue;
+        if (!axis.numeric || axis.name == "seed" || axis.values.size() < minimumLoads) continue;
         std::map<std::tuple<std::string, Settings, std::size_t>, std::vector<const ReportCell*>> curves;
         for (const ReportCell& cell : group.cells) {
             Settings rest = cell.settings;
@@ -141,18 +155,17 @@ std::vector<const StoredRun*> runsOf(const Suite& suite, int repetitions, const 
     return found;
 }
 
-}  // namespace
-
-const std::vector<std::string>& numericColumns() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> list = columnsAfterParameters();
-        std::erase_if(list, [](const std::string& name) {
-            return name.starts_with("FILE_") || name == "metric_reference" || name == "invalid";
-        });
-        return list;
-    }();
-    return names;
+/// What the suite says of its runs, and its verdicts on them.
+void describeBy(Suite suite, int repetitions, const StoredRuns& runs, RunGroup& group) {
+    suite.repetitions = std::max(suite.repetitions, repetitions);
+    group.suite = suite.id;
+    group.title = suite.title.empty() ? suite.id : suite.title;
+    group.summary = suite.summary;
+    group.chart = suite.chart;
+    group.comparisons = suiteVerdicts(suite, runs);
 }
+
+}  // namespace
 
 std::string variantLabel(const RunGroup& group, const ReportCell& cell) {
     const std::string own = labelOf(group, cell, false);
@@ -164,8 +177,10 @@ std::string worldLabel(const RunGroup& group, const ReportCell& cell) {
 }
 
 RunGroup makeGroup(const std::vector<const StoredRun*>& runs, const MachineOfRun& machines) {
+    static const std::vector<std::string> columns = chartColumns();
     RunGroup group;
     group.axes = axesOf(runs);
+    group.common = commonOf(runs);
     std::map<std::tuple<std::string, Settings, std::size_t>, ReportCell> cells;
     for (const StoredRun* run : runs) {
         const Settings all = settingsOf(*run);
@@ -187,7 +202,7 @@ RunGroup makeGroup(const std::vector<const StoredRun*>& runs, const MachineOfRun
         std::ranges::sort(cell.done, {}, [](const StoredRun* run) {
             return std::pair(numberOf(cellOf(*run, "repetition")).value_or(0), run->runId);
         });
-        for (const std::string& column : numericColumns())
+        for (const std::string& column : columns)
             if (std::vector<double> values = numbersIn(cell.done, column); !values.empty())
                 cell.values[column] = medianInterval(std::move(values));
         group.cells.push_back(std::move(cell));
@@ -208,7 +223,7 @@ std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun&
     for (const SuiteFile& file : listSuites()) {
         for (const bool quick : {false, true}) {
             try {
-                const Suite suite = loadSuite(file.id, quick);
+                Suite suite = loadSuite(file.id, quick);
                 const std::vector<const StoredRun*> found = runsOf(suite, repetitions, runs);
                 // Runs common to both forms are shown once.
                 if (std::ranges::all_of(found, [&](const StoredRun* run) { return placed.contains(run); })) continue;
@@ -216,10 +231,9 @@ std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun&
                 placed.insert(all.begin(), all.end());
                 RunGroup group = makeGroup(found, machines);
                 group.id = quick ? file.id + "-quick" : file.id;
-                group.suite = file.id;
-                group.title = suite.title.empty() ? file.id : suite.title;
-                group.summary = suite.summary;
                 group.paper = file.paper;
+                describeBy(std::move(suite), repetitions, runs, group);
+                group.suiteText = fileText(file.file);
                 groups.push_back(std::move(group));
             } catch (const InputError& error) {
                 faults.push_back(fmt::format("suite '{}' cannot be read: {}", file.id, error.what()));

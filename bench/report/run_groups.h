@@ -17,9 +17,6 @@ using MachineOfRun = std::map<std::string, std::size_t, std::less<>>;
 /// Axes, cells and fits of these runs.
 [[nodiscard]] RunGroup makeGroup(const std::vector<const StoredRun*>& runs, const MachineOfRun& machines);
 
-/// The numeric columns of summary.csv that charts can show, in its order.
-[[nodiscard]] const std::vector<std::string>& numericColumns();
-
 /// `billboard soft=on`: the method and its settings that are axes, without the world's.
 [[nodiscard]] std::string variantLabel(const RunGroup& group, const ReportCell& cell);
 /// `speed=20 particles=500`: the world's settings.

@@ -1,9 +1,17 @@
-// What charts ask of the report's data: names, values and orders of cells. Pure, as charts.js is.
+// What charts and tables ask of the report's data: names, values and orders of cells. Pure, as charts.js is.
 const chartData = (() => {
-    // What is known of a column, of a cell.
-    const columnOf = (report, name) => report.columns[name] || { name, unit: '', better: '' };
-    const axisTitle = (name, unit) => name + (unit === 'bytes' ? ' [MB]' : unit ? ` [${unit}]` : '');
-    const shown = (value, unit) => (unit === 'bytes' ? value / 1e6 : value);
+    const distinct = list => [...new Set(list)];
+    const factOf = (report, name) => (report.data.facts || []).find(fact => fact.name === name);
+    /// Name and unit of a column of summary.csv, from columns.json or from the method that declares it.
+    const columnOf = (report, name) => {
+        if (report.columns[name]) return report.columns[name];
+        const fact = factOf(report, name);
+        return { name: name.replace(/_(median|bytes|ms)$/, '').replace(/_/g, ' '), unit: fact ? fact.unit.replace(/^1$/, '') : '', better: '' };
+    };
+    const axisTitle = (name, unit) => name + (unit === 'bytes' ? ' [MB]' : unit.startsWith('share') ? ` [%${unit.slice('share'.length)}]` : unit ? ` [${unit}]` : '');
+    const shown = (value, unit) => (unit === 'bytes' ? value / 1e6 : unit.startsWith('share') ? 100 * value : value);
+    const isWhole = unit => ['particles', 'hits', 'parts', 'primitives', 'steps', 'systems'].includes(unit);
+
     const valueOf = (cell, column) => {
         if (column === 'memory_bytes') {
             const [cpu, gpu] = [valueOf(cell, 'cpu_bytes'), valueOf(cell, 'gpu_bytes')];
@@ -37,19 +45,54 @@ const chartData = (() => {
         const method = (a, b) => (a.method < b.method ? -1 : a.method > b.method ? 1 : 0);
         return [...cells].sort((a, b) => world(a, b) || method(a, b) || own(a, b) || a.machine - b.machine);
     };
-    const distinct = list => [...new Set(list)];
 
+    // A seed is no load but a draw: its cells become one, with the median over the seeds and its interval.
 
-    // Loads that a cost can be drawn against; where nothing that varies is a number, whatever varies.
-    const loadsOf = experiment => {
-        const all = experiment.axes.filter(axis => !['seed', 'frames'].includes(axis.name));
-        const numbers = all.filter(axis => axis.numeric);
-        return (numbers.length ? numbers : all).sort(byUse);
+    /// Median, and the order statistics that contain the true one with 95 % probability; the range below 6 values
+    /// (bench/report/median_interval.h).
+    const medianInterval = values => {
+        const sorted = [...values].sort((a, b) => a - b);
+        const n = sorted.length;
+        let term = 2 ** -n, below = term, rank = 1;
+        for (let i = 1; 2 * (i + 1) <= n + 1; ++i) {
+            term *= (n - i + 1) / i;
+            if (1 - 2 * (below + term) < 0.95) break;
+            below += term;
+            rank = i + 1;
+        }
+        const middle = (sorted[Math.floor((n - 1) / 2)] + sorted[Math.floor(n / 2)]) / 2;
+        return { values: [middle, sorted[rank - 1], sorted[n - rank]], probability: 1 - 2 * below };
     };
-    const byUse = (a, b) => ((b.name === 'particles') - (a.name === 'particles') || b.world - a.world || b.values.length - a.values.length);
-    const costsOf = (report, experiment) => Object.keys(report.columns).filter(name => report.columns[name].cost &&
-        experiment.cells.some(cell => valueOf(cell, name)));
-    const metricsOf = (report, experiment) => Object.keys(report.columns).filter(name => report.columns[name].metric &&
-        experiment.cells.some(cell => valueOf(cell, 'flip')) && experiment.cells.some(cell => valueOf(cell, name)));
-    return { columnOf, axisTitle, shown, valueOf, settingText, variantOf, worldOf, inOrder, distinct, loadsOf, costsOf, metricsOf };
+    const mergedCell = cells => {
+        const { seed, ...settings } = cells[0].settings;
+        if (cells.length === 1) return { ...cells[0], settings, seeds: 1 };
+        const values = {};
+        for (const column of distinct(cells.flatMap(cell => Object.keys(cell.values))))
+            values[column] = medianInterval(cells.map(cell => valueOf(cell, column)).filter(Boolean).map(value => value[0])).values;
+        const probability = medianInterval(cells.map((cell, index) => index)).probability;
+        return { ...cells[0], settings, values, probability, seeds: cells.length, runs: cells.flatMap(cell => cell.runs), failed: cells.reduce((sum, cell) => sum + cell.failed, 0) };
+    };
+    const overSeeds = experiment => {
+        if (!experiment.axes.some(axis => axis.name === 'seed')) return experiment;
+        const axes = experiment.axes.filter(axis => axis.name !== 'seed');
+        const groups = new Map();
+        for (const cell of experiment.cells) {
+            const key = JSON.stringify([cell.method, cell.machine, ...axes.map(axis => cell.settings[axis.name])]);
+            groups.set(key, [...(groups.get(key) || []), cell]);
+        }
+        return { ...experiment, axes, cells: [...groups.values()].map(mergedCell), fits: [] };
+    };
+
+    // Loads: what varies and every cell has, numbers first. A setting that some methods lack is no common load.
+    const byUse = (a, b) => b.numeric - a.numeric || (b.name === 'particles') - (a.name === 'particles') || b.world - a.world || b.values.length - a.values.length;
+    const loadsOf = experiment => experiment.axes.filter(axis => !['seed', 'frames'].includes(axis.name) &&
+        experiment.cells.every(cell => cell.settings[axis.name] !== undefined || cell.method === chartStyle.baseline)).sort(byUse);
+    const has = (experiment, name) => experiment.cells.some(cell => valueOf(cell, name));
+    const known = (report, experiment, kind) => Object.keys(report.columns).filter(name => report.columns[name][kind] && has(experiment, name));
+    const costsOf = (report, experiment) => known(report, experiment, 'cost');
+    const metricsOf = (report, experiment) => (has(experiment, 'flip') ? known(report, experiment, 'metric') : []);
+    /// All that a chart can show: costs, metrics, and facts of methods.
+    const quantitiesOf = (report, experiment) => distinct([...costsOf(report, experiment), ...known(report, experiment, 'metric'),
+        ...(report.data.facts || []).map(fact => fact.name).filter(name => has(experiment, name))]);
+    return { columnOf, axisTitle, shown, isWhole, valueOf, settingText, variantOf, worldOf, inOrder, distinct, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf, factOf };
 })();

@@ -2,9 +2,14 @@
 const chartStyle = (() => {
     // Told apart by people who see few colours (after Okabe and Ito), and against either background by 3 : 1 or more.
     const methodColours = {
-        light: ['#0072b2', '#c44f00', '#007a5a', '#a3458b', '#8a6a00', '#5a5f66', '#1f4e9c', '#b3273a'],
-        dark: ['#58b0e8', '#ff8f52', '#3ecaa0', '#e394c9', '#e2bd35', '#b9bec5', '#8aa8ff', '#ff7f8d'],
+        light: ['#0072b2', '#c44f00', '#6a3fb5', '#b3273a', '#7a4a2b', '#1f4e9c', '#00737f', '#007a5a', '#5b6b00', '#8a6a00', '#a3458b'],
+        dark: ['#58b0e8', '#ff8f52', '#b79aff', '#ff7f8d', '#d0a07a', '#8aa8ff', '#4fc3d6', '#3ecaa0', '#bccb4f', '#e2bd35', '#e394c9'],
     };
+    const baselineColour = { light: '#5a5f66', dark: '#b9bec5' };
+    const baseline = 'null_method';
+    /// A method's place among the colours, from its name alone: the same in every report, whatever methods a build has.
+    /// The factor gives the delivered methods colours of their own.
+    const colourOf = name => [...name].reduce((sum, letter) => (sum * 1947 + letter.codePointAt(0)) % 65521, 0) % methodColours.light.length;
     const stages = ['input', 'simulate', 'build', 'sort', 'upload', 'scene', 'draw', 'wait'];
     const stageColours = {
         light: ['#5a5f66', '#56b4e9', '#007a5a', '#e2bd35', '#a3458b', '#b6bec7', '#d55e00', '#eda36f'],
@@ -33,17 +38,31 @@ const chartStyle = (() => {
         };
     };
 
-    // Texts of numbers.
-    const fourDigits = value => {
+    // Texts of numbers: three digits say all that a measurement holds.
+    const grouped = text => text.replace(/^(-?\d+)/, whole => whole.replace(/\B(?=(\d{3})+$)/g, ','));
+    const digits = (value, count = 3) => {
         if (value === null || value === undefined || !Number.isFinite(value)) return '–';
         const size = Math.abs(value);
-        if (size !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(2).replace('e+', 'e').replace('-', '−');
-        const digits = size >= 1000 ? 0 : size >= 100 ? 1 : size >= 10 ? 2 : 3;
-        return String(Number(value.toFixed(size < 1 ? 4 : digits))).replace('-', '−');
+        const isCount = Number.isInteger(value) && size < 1e4;
+        if (size !== 0 && (size < 1e-3 || size >= 1e9)) {
+            const [factor, power] = value.toExponential(count - 2).split('e');
+            const raised = [...power.replace('+', '')].map(letter => '⁰¹²³⁴⁵⁶⁷⁸⁹'[letter] || '⁻').join('');
+            return `${factor}·10${raised}`.replace('-', '−');
+        }
+        return grouped(String(isCount ? value : Number(value.toPrecision(count)))).replace('-', '−');
+    };
+    /// The unit of bytes that leaves one to three digits before the point.
+    const bytesText = value => {
+        const step = Math.min(Math.max(Math.floor(Math.log10(Math.abs(value) || 1) / 3), 0), 3);
+        return `${digits(value / 1000 ** step)} ${['bytes', 'kB', 'MB', 'GB'][step]}`;
     };
     const withUnit = (value, unit) => {
-        if (unit === 'bytes') return Number.isFinite(value) ? fourDigits(value / 1e6) + ' MB' : '–';
-        return fourDigits(value) + (unit ? ' ' + unit : '');
+        if (value === null || value === undefined || !Number.isFinite(value)) return '–';
+        if (unit === 'bytes') return bytesText(value);
+        if (unit === 'ms' && value !== 0 && Math.abs(value) < 0.1) return `${digits(value * 1000)} µs`;
+        if (unit.startsWith('share')) return `${digits(100 * value)} %${unit.slice('share'.length)}`;
+        if (unit === '×') return `${digits(value)}×`;
+        return digits(value) + (unit && unit !== '1' ? ' ' + unit : '');
     };
 
     const mixed = (from, to, share) => {
@@ -51,5 +70,5 @@ const chartStyle = (() => {
         return '#' + [1, 3, 5].map(at => Math.round(part(from, at) + share * (part(to, at) - part(from, at)))
             .toString(16).padStart(2, '0')).join('');
     };
-    return { methodColours, stages, stageColours, themes, shapes, dashes, configOf, fourDigits, withUnit, mixed };
+    return { methodColours, baselineColour, baseline, colourOf, stages, stageColours, themes, shapes, dashes, configOf, digits, withUnit, mixed };
 })();

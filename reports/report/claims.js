@@ -1,88 +1,105 @@
-// The rows of the table of claims.
-const claimTable = (() => {
-    const { element, put, plural } = pageKit;
+// The claims of a paper, each as a reviewer's paragraph: claimed, tested how, came out, control, what would change it.
+const claimList = (() => {
+    const { element, put, shape, plural } = pageKit;
+    const { digits, withUnit } = chartStyle;
+    const verdictMarks = { confirmed: '✓', refuted: '✗', depends: '±', unresolved: '?', untestable: '!', 'not-tested': '–' };
+    const controlTexts = { turned: 'control turned', 'not-turned': 'control did not turn', 'not-run': 'control not run' };
 
-    /// Where the measured interval lies to the values in which the claim is true, as a small picture.
-    const claimRange = claim => {
+    /// Numbers at which a scale has ticks: 1, 2 or 5 times powers of ten; on a logarithmic one of many decades, tens.
+    const ticksOf = (low, high, log) => {
+        if (log) {
+            const ticks = [];
+            for (let power = Math.floor(Math.log10(low)); power <= Math.ceil(Math.log10(high)); ++power)
+                for (const factor of Math.log10(high / low) > 2.5 ? [1] : [1, 2, 5]) ticks.push(factor * 10 ** power);
+            const within = ticks.filter(tick => tick >= low && tick <= high);
+            if (within.length > 1) return within.filter((tick, index) => index % Math.ceil(within.length / 4) === 0);
+        }
+        const raw = (high - low) / 3, power = 10 ** Math.floor(Math.log10(raw));
+        const step = [1, 2, 5, 10].find(factor => factor * power >= raw) * power;
+        const ticks = [];
+        for (let tick = Math.ceil(low / step) * step; tick <= high + step / 1e6; tick += step) ticks.push(Number(tick.toPrecision(6)));
+        return ticks;
+    };
+    /// Where the measured interval lies to the values for which the claim is true, on a scale.
+    const rangePicture = (claim, unit) => {
         if (claim.measured === null || (claim.min === null && claim.max === null)) return '';
+        const width = 260, edge = 18;
         const marks = [claim.measured, claim.low, claim.high, claim.min, claim.max].filter(value => value !== null);
         let [low, high] = [Math.min(...marks), Math.max(...marks)];
         const log = low > 0 && high / low > 4;
         const bend = value => (log ? Math.log(value) : value);
-        [low, high] = [bend(low), bend(high)];
-        const room = (high - low) * 0.12 || 1;
-        const at = value => 150 * (bend(value) - low + room) / (high - low + 2 * room);
-        const shape = (tag, attributes) => {
-            const made = document.createElementNS('http://www.w3.org/2000/svg', tag);
-            for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-            return made;
-        };
-        const svg = shape('svg', { viewBox: '0 0 150 22', class: 'claim-range', role: 'img' });
-        const [from, to] = [claim.min === null ? 0 : at(claim.min), claim.max === null ? 150 : at(claim.max)];
-        put(svg, shape('title', {}), shape('rect', { x: from, y: 2, width: Math.max(to - from, 1), height: 18, fill: 'var(--good)', 'fill-opacity': 0.2 }));
-        svg.firstChild.textContent = `green: ${claim.expected}; measured ${chartKit.fourDigits(claim.measured)}`;
+        const unbend = value => (log ? Math.exp(value) : value);
+        const room = (bend(high) - bend(low)) * 0.15 || Math.abs(bend(low)) * 0.2 || 1;
+        [low, high] = [bend(low) - room, bend(high) + room];
+        const at = value => edge + (width - 2 * edge) * (bend(value) - low) / (high - low);
+        const svg = shape('svg', { viewBox: `0 0 ${width} 40`, class: 'claim-range', role: 'img' });
+        const [from, to] = [claim.min === null ? edge : at(claim.min), claim.max === null ? width - edge : at(claim.max)];
+        const title = shape('title');
+        title.textContent = `true within the green: ${words.rangeOf(claim, unit)}; measured ${words.measuredText(claim, unit)}`;
+        put(svg, title, shape('rect', { x: from, y: 3, width: Math.max(to - from, 1), height: 16, fill: 'var(--good)', 'fill-opacity': 0.2 }));
         for (const bound of [claim.min, claim.max])
-            if (bound !== null) put(svg, shape('line', { x1: at(bound), x2: at(bound), y1: 2, y2: 20, stroke: 'var(--good)', 'stroke-width': 1.5 }));
-        if (claim.low !== null) put(svg, shape('line', { x1: at(claim.low), x2: at(claim.high), y1: 11, y2: 11, stroke: 'var(--ink)', 'stroke-width': 2 }));
-        put(svg, shape('circle', { cx: at(claim.measured), cy: 11, r: 4, fill: 'var(--ink)' }));
+            if (bound !== null) put(svg, shape('line', { x1: at(bound), x2: at(bound), y1: 3, y2: 19, stroke: 'var(--good)', 'stroke-width': 1.5 }));
+        if (words.hasInterval(claim)) put(svg, shape('line', { x1: at(claim.low), x2: at(claim.high), y1: 11, y2: 11, stroke: 'var(--ink)', 'stroke-width': 2 }));
+        put(svg, shape('circle', { cx: at(claim.measured), cy: 11, r: 4, fill: 'var(--ink)' }), shape('line', { x1: edge, x2: width - edge, y1: 22.5, y2: 22.5, stroke: 'var(--muted)', 'stroke-width': 1 }));
+        let end = -Infinity;
+        for (const tick of ticksOf(unbend(low), unbend(high), log)) {
+            const text = withUnit(tick, unit === 'share' || unit === '×' ? unit : ''), x = at(tick), half = text.length * 2.7 + 2;
+            put(svg, shape('line', { x1: x, x2: x, y1: 20, y2: 25, stroke: 'var(--muted)', 'stroke-width': 1 }));
+            if (x - half < end) continue;
+            end = x + half;
+            const label = shape('text', { x, y: 36, 'text-anchor': 'middle', 'font-size': 9.5, fill: 'var(--muted)' });
+            label.textContent = text;
+            put(svg, label);
+        }
         return svg;
     };
-    const expectedOf = ({ min, max, expected }, number) => {
-        if (min !== null && max !== null) return `${number(min)} to ${number(max)}`;
-        return min !== null ? `${number(min)} or more` : max !== null ? `${number(max)} or less` : expected;
-    };
-    const verdictMarks = { confirmed: '✓', refuted: '✗', depends: '±', unresolved: '?', untestable: '!', 'not-tested': '–' };
-    const controlTexts = { turned: 'control turned', 'not-turned': 'control did not turn', 'not-run': 'control not run' };
 
-    /// What another verdict would take.
-    const whatWouldChange = (claim, number) => {
-        const { min, max } = claim;
-        const outside = [min !== null && `below ${number(min)}`, max !== null && `above ${number(max)}`].filter(Boolean).join(' or ');
-        if (claim.verdict === 'confirmed') return `Values ${outside} would refute it.`;
-        if (claim.verdict === 'refuted') return `Values of ${expectedOf(claim, number)} would confirm it.`;
-        if (claim.verdict === 'unresolved' && claim.over) return `Narrower intervals, by more ${claim.over}, would decide it.`;
-        if (claim.verdict === 'depends') return 'It would hold, or not, if all cells agreed.';
-        return '';
-    };
-    /// How a claim was tested, with what controls, cell by cell.
-    const detailsOf = (claim, number) => {
-        const box = element('details', {}, [element('summary', { textContent: 'how it was tested' })]);
-        const lines = [
-            ['Measured', claim.quantity + (claim.over ? `, over ${claim.over}` : '')], ['Why these limits', claim.reason],
-            ['Control', claim.controls], ['What would change it', whatWouldChange(claim, number)],
-        ];
-        for (const [head, text] of lines)
-            if (text) put(box, element('div', {}, [element('b', { textContent: `${head}: ` }), text]));
-        if (claim.cells.length > 1)
-            put(box, element('ul', {}, claim.cells.map(cell => element('li', {
-                className: `verdict ${cell.verdict}`,
-                textContent: `${verdictMarks[cell.verdict]} ${cell.text}: ${number(cell.measured)}${cell.low === null ? '' : ` [${number(cell.low)}, ${number(cell.high)}]`}`,
-            }))));
-        return box;
+    const cellList = (claim, unit) => element('details', {}, [
+        element('summary', { textContent: `cell by cell: ${words.cellsOf(claim)}` }),
+        element('ul', { className: 'cells' }, claim.cells.map(cell => element('li', {}, [
+            element('span', { className: `verdict ${cell.verdict}`, textContent: verdictMarks[cell.verdict] }),
+            ` ${cell.text.replace(/p\./g, '').replace(/=/g, ' ').replace(/^finding (\w+)$/, (all, name) => name.replace(/_/g, ' '))}: ${words.measuredText(cell, unit)}`,
+        ]))),
+    ]);
+    /// The experiments of a suite may be there in both forms: the one whose runs were used.
+    const experimentOf = (report, claim) => {
+        if (!claim.suite) return undefined;
+        const used = new Set(claim.runs);
+        const own = report.data.experiments.filter(item => item.suite === claim.suite);
+        return own.find(item => item.cells.some(cell => cell.runs.some(run => used.has(run)))) || own[0];
     };
 
-    /// `runLinks`: makes links to runs by their indices.
-    const row = (report, claim, runLinks) => {
-        const experiment = report.data.experiments.find(item => item.suite === claim.suite);
-        const isBytes = claim.column && chartKit.columnOf(report, claim.column).unit === 'bytes';
-        const number = value => (isBytes ? chartKit.withUnit(value, 'bytes') : chartKit.fourDigits(value));
-        const interval = claim.low === null ? '' : ` [${number(claim.low)}, ${number(claim.high)}]`;
-        const text = element('div', {}, [claim.text]);
-        if (claim.condition) put(text, element('div', { textContent: claim.condition }));
-        if (claim.note) put(text, element('div', { className: 'muted', textContent: claim.note }));
-        if (claim.quantity) put(text, detailsOf(claim, number));
-        const links = element('div');
-        if (experiment) put(links, element('a', { href: `#experiment-${experiment.id}`, textContent: experiment.suite }));
-        if (claim.runs.length) put(links, runLinks(claim.runs, plural(claim.runs.length, 'run')));
-        return [
-            element('b', { textContent: claim.id }),
-            element('div', {}, [
+    /// `runLinks(indices, text)` makes links to runs.
+    const entry = (report, claim, runLinks) => {
+        const unit = claim.rule ? words.quantityOf(report, claim)[1] : '';
+        const experiment = experimentOf(report, claim);
+        const tested = element('dd');
+        if (experiment) put(tested, element('a', { href: `#experiment-${experiment.id}`, textContent: experiment.id }), '. ');
+        put(tested, words.upper(words.testedOf(claim, experiment)) || '–', claim.reason ? `. Limits: ${claim.reason}.` : '.');
+        const came = element('dd', { className: 'came-out' }, [words.resultOf(report, claim) || 'Not measured.']);
+        if (claim.condition) put(came, ` ${words.upper(claim.condition)}.`);
+        if (claim.note) put(came, element('span', { className: 'muted', textContent: ` ${words.upper(claim.note)}.` }));
+        const change = words.changeOf(report, claim);
+        const lines = [['came out', came]];
+        if (claim.measured !== null || claim.runs.length) lines.push(['tested', tested]);
+        if (claim.controls) lines.push(['control', element('dd', { textContent: `${words.upper(controlTexts[claim.control] || '')}: ${claim.controls}.` })]);
+        if (change) lines.push(['would change it', element('dd', { textContent: change })]);
+        const more = element('div', { className: 'more' });
+        if (claim.cells.length > 1) put(more, cellList(claim, unit));
+        if (claim.runs.length) put(more, runLinks(claim.runs, plural(claim.runs.length, 'run')));
+        return element('article', { className: 'claim', id: `claim-${claim.paper}-${claim.id}`, dataset: { claim: claim.id, verdict: claim.verdict } }, [
+            element('div', { className: 'claim-mark' }, [
+                element('b', { textContent: claim.id }),
                 element('span', { className: `verdict ${claim.verdict}`, textContent: `${verdictMarks[claim.verdict]} ${claim.verdict}` }),
-                element('div', { className: 'muted', textContent: controlTexts[claim.control] || '' }),
+                element('span', { className: 'muted control-state', textContent: controlTexts[claim.control] || '' }),
             ]),
-            text, claim.measured === null ? '' : `${number(claim.measured)}${interval}`, expectedOf(claim, number), claimRange(claim), links.children.length ? links : '',
-        ];
+            element('div', { className: 'claim-text' }, [
+                element('p', { className: 'claimed', textContent: words.upper(claim.text) + '.' }),
+                element('dl', {}, lines.flatMap(([head, text]) => [element('dt', { textContent: head }), text])),
+            ]),
+            element('div', { className: 'claim-picture' }, [rangePicture(claim, unit)]),
+            more,
+        ]);
     };
-    const heads = [['claim'], ['verdict'], ['what the paper says', 'wide'], ['measured [interval]', 'number', 'measured'], ['true if', '', 'true if'], [''], ['chart, runs']];
-    return { row, heads };
+    return { entry, verdictMarks, ticksOf, digits };
 })();

@@ -11,6 +11,12 @@ const pageKit = (() => {
         made.append(...children);
         return made;
     };
+    /// An element of an SVG.
+    const shape = (tag, attributes = {}) => {
+        const made = document.createElementNS('http://www.w3.org/2000/svg', tag);
+        for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+        return made;
+    };
     const put = (parent, ...children) => parent.append(...children);
     const paragraph = (text, className = '') => element('p', { textContent: text, className });
     const plural = (count, one, many) => `${count} ${count === 1 ? one : many || one + 's'}`;
@@ -23,5 +29,21 @@ const pageKit = (() => {
             return td;
         })))),
     ])]);
-    return { element, put, paragraph, plural, table };
+    const button = (text, action, properties = {}) => {
+        const made = element('button', { type: 'button', textContent: text, ...properties });
+        made.addEventListener('click', action);
+        return made;
+    };
+    /// Saves a text or a data URL as a file.
+    const download = (name, content, type) => {
+        const url = type ? URL.createObjectURL(new Blob([content], { type })) : content;
+        element('a', { href: url, download: name }).click();
+        if (type) setTimeout(() => URL.revokeObjectURL(url), 10000);
+    };
+    /// RFC 4180.
+    const csv = rows => rows.map(row => row.map(cell => {
+        const text = cell === null || cell === undefined ? '' : String(cell);
+        return /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
+    }).join(',')).join('\n') + '\n';
+    return { element, shape, put, paragraph, plural, table, button, download, csv };
 })();

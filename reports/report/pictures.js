@@ -1,18 +1,34 @@
 // The viewer of pictures: any two of a world at a frame, by a slider, in turns, or side by side.
 const pictureViewer = (() => {
-    const make = (tag, properties = {}, children = []) => {
-        const element = Object.assign(document.createElement(tag), properties);
-        element.append(...children);
-        return element;
-    };
+    const { element: make } = pageKit;
+    const { digits } = chartStyle;
     const nameOf = picture => (picture.difference ? `difference: ${picture.label}` : picture.label);
     const secondsPerTurn = 0.7;
+    const isReference = picture => picture.label === 'exact' || picture.label.startsWith('reference of ');
+    const isEmbedded = picture => picture.source.startsWith('data:');
 
-    const build = (report, titleOf) => {
+    /// `PSNR 44.4 dB, SSIM 0.998, FLIP 0.00332`
+    const numbersOf = ({ numbers = {} }) => [['psnr_db', 'PSNR', ' dB'], ['ssim', 'SSIM', ''], ['flip', 'FLIP', '']]
+        .filter(([key]) => numbers[key] !== undefined).map(([key, name, unit]) => `${name} ${digits(numbers[key])}${unit}`).join(', ');
+    /// The judged picture with the largest error; those in this file first.
+    const worstOf = sets => {
+        const judged = sets.flatMap(set => set.pictures.filter(picture => !picture.difference && picture.numbers?.flip !== undefined).map(picture => ({ set, picture })));
+        return judged.sort((a, b) => isEmbedded(b.picture) - isEmbedded(a.picture) || b.picture.numbers.flip - a.picture.numbers.flip)[0];
+    };
+    /// The colours of a difference map, from no error to the largest that there is.
+    const colourBar = heat => make('div', { className: 'colour-bar', hidden: true }, [
+        make('span', { textContent: '0' }), make('i', { style: `background: linear-gradient(to right, ${heat.join(', ')})` }), make('span', { textContent: '1' }), make('span', { textContent: 'FLIP of a pixel' }),
+    ]);
+
+    /// `isMain`: whether an experiment is one that the viewer may open on.
+    const build = (report, titleOf, isMain = () => true) => {
         // Worlds with an exact picture first: they say most.
         const isJudged = set => set.pictures.some(picture => picture.label === 'exact');
         const sets = [...report.data.pictures].sort((a, b) => isJudged(b) - isJudged(a));
-        const worlds = [...new Map(sets.map(set => [`${set.experiment}\n${set.world}`, set])).values()];
+        const worlds = [...new Map(sets.map(set => [`${set.experiment}\n${set.world}`, set])).values()]
+            .map(set => ({ set, text: [titleOf(set.experiment), set.world].filter(Boolean).join(' · ') }))
+            .sort((a, b) => isJudged(b.set) - isJudged(a.set) || a.text.localeCompare(b.text, 'en', { numeric: true }));
+        const worst = worstOf(sets.filter(set => isMain(set.experiment))) || worstOf(sets);
         const choice = (label, className) => {
             const select = make('select', { className });
             return [select, make('label', { className: 'control' }, [make('span', { textContent: label }), select])];
@@ -24,33 +40,44 @@ const pictureViewer = (() => {
         const frame = make('input', { type: 'range', min: 0, value: 0, className: 'frame' });
         const frameText = make('output', { className: 'frame-text' });
         const frameControl = make('label', { className: 'control' }, [make('span', { textContent: 'Frame' }), frame, frameText]);
-        worlds.forEach((set, index) => world.append(new Option([titleOf(set.experiment), set.world].filter(Boolean).join(' · '), index)));
-        for (const [value, text] of [['slider', 'slider'], ['flicker', 'alternating'], ['both', 'side by side']]) mode.append(new Option(text, value));
+        worlds.forEach(({ text }, index) => world.append(new Option(text, index)));
+        for (const [value, text] of [['slider', 'slider'], ['flicker', 'alternating'], ['both', 'side by side'], ['native', 'native size']]) mode.append(new Option(text, value));
 
         const [leftImage, rightImage] = ['left-image', 'right-image'].map(className => make('img', { className, decoding: 'sync' }));
         const [leftName, rightName] = ['left-name', 'right-name'].map(className => make('figcaption', { className }));
         const line = make('div', { className: 'divider' });
         const slider = make('input', { type: 'range', min: 0, max: 1000, value: 500, className: 'wipe', ariaLabel: 'edge of the left picture' });
         const stage = make('div', { className: 'picture-stage' }, [leftImage, rightImage, line, leftName, rightName]);
+        const bar = colourBar(report.data.heat || []);
+        const missing = make('p', { className: 'note missing', hidden: true });
         const place = make('div', { className: 'picture-viewer' }, [
-            make('div', { className: 'controls' }, [worldControl, frameControl, leftControl, rightControl, modeControl]), stage, slider,
+            make('div', { className: 'controls' }, [worldControl, frameControl, leftControl, rightControl, modeControl]), stage, slider, bar, missing,
         ]);
 
         let timer = null;
-        const framesHere = () => sets.filter(set => set.experiment === worlds[world.value].experiment && set.world === worlds[world.value].world)
+        const framesHere = () => sets.filter(set => set.experiment === worlds[world.value].set.experiment && set.world === worlds[world.value].set.world)
             .sort((a, b) => a.frame - b.frame);
         const setNow = () => framesHere()[frame.value];
         const showWipe = () => {
             const share = slider.value / 10;
-            const sliding = mode.value === 'slider';
+            const sliding = mode.value === 'slider' || mode.value === 'native';
             rightImage.style.clipPath = sliding ? `inset(0 0 0 ${share}%)` : '';
             line.style.left = `${share}%`;
             line.hidden = slider.hidden = !sliding;
+        };
+        /// Little pixels are magnified, but not to bricks; at native size not at all.
+        const showSize = () => {
+            const { width } = setNow();
+            const widest = mode.value === 'native' && width ? width : width ? Math.min(1280, Math.max(2 * width, 480)) : 960;
+            stage.style.setProperty('--widest', `${widest}px`);
+            slider.style.maxWidth = `${widest}px`;
         };
         const showMode = () => {
             clearInterval(timer);
             rightImage.style.visibility = rightName.style.visibility = leftName.style.visibility = '';
             stage.classList.toggle('both', mode.value === 'both');
+            stage.classList.toggle('native', mode.value === 'native');
+            showSize();
             stage.classList.toggle('turns', mode.value === 'flicker');
             if (mode.value === 'flicker') {
                 let onTop = true;
@@ -69,11 +96,14 @@ const pictureViewer = (() => {
             const [a, b] = [set.pictures[left.value], set.pictures[right.value]];
             [[leftImage, leftName, a], [rightImage, rightName, b]].forEach(([image, caption, picture]) => {
                 image.src = picture.source;
-                image.alt = caption.textContent = nameOf(picture);
+                image.alt = nameOf(picture);
+                const numbers = numbersOf(picture);
+                caption.replaceChildren(make('b', { textContent: nameOf(picture) }), ...(numbers ? [make('span', { textContent: numbers })] : []));
                 if (set.width) [image.width, image.height] = [set.width, set.height];
             });
-            // Little pixels are magnified, but not to bricks.
-            stage.style.setProperty('--widest', `${set.width ? Math.min(960, Math.max(2 * set.width, 480)) : 960}px`);
+            bar.hidden = !(a.difference || b.difference);
+            missing.hidden = true;
+            showSize();
             frameText.textContent = set.frame;
         };
         /// The same names stay chosen from frame to frame and from world to world.
@@ -84,9 +114,14 @@ const pictureViewer = (() => {
                 select.replaceChildren(...names.map((name, index) => new Option(name, index)));
                 select.value = Math.max(names.includes(before) ? names.indexOf(before) : otherwise, 0);
             };
-            const exact = names.indexOf('exact');
+            // A method is held against its own finer setting where it has one, or else against the exact picture.
+            const { pictures } = setNow();
+            const judged = pictures.findIndex(picture => worst && picture.label === worst.picture.label && !picture.difference);
+            const other = judged >= 0 ? judged : Math.max(pictures.findIndex(picture => !isReference(picture)), 0);
+            const finer = names.indexOf(`reference of ${pictures[other].label}`);
+            const exact = Math.max(finer >= 0 ? finer : pictures.findIndex(isReference), 0);
             pick(left, exact);
-            pick(right, names.findIndex((name, index) => index !== Math.max(exact, 0)));
+            pick(right, other !== exact ? other : names.findIndex((name, index) => index !== exact));
             showPictures();
         };
         const showWorld = () => {
@@ -102,6 +137,17 @@ const pictureViewer = (() => {
         right.addEventListener('change', showPictures);
         mode.addEventListener('change', showMode);
         slider.addEventListener('input', showWipe);
+        // Beside this file there may be no runs/: then the picture is named, not shown broken.
+        for (const image of [leftImage, rightImage])
+            image.addEventListener('error', () => {
+                missing.hidden = false;
+                missing.textContent = `Not in this file, and not found beside it: ${image.getAttribute('src')}`;
+            });
+        if (worst) {
+            world.value = worlds.findIndex(({ set }) => set.experiment === worst.set.experiment && set.world === worst.set.world);
+            frame.max = framesHere().length - 1;
+            frame.value = framesHere().indexOf(worst.set);
+        }
         showWorld();
         showMode();
         return place;

@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import tempfile
 import time
+import urllib.parse
 
 NAMES = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
 
@@ -126,6 +127,11 @@ class Browser:
         self.call("Page.navigate", url="file://" + os.path.abspath(file))
         self.wait_for("document.documentElement?.dataset.ready !== undefined", 60)
         return time.monotonic() - begin
+
+    def open_at(self, file, anchor):
+        """The same, at an anchor with what follows it."""
+        self.call("Page.navigate", url="file://" + urllib.parse.quote(os.path.abspath(file)) + anchor)
+        self.wait_for("document.documentElement?.dataset.ready !== undefined", 60)
 
     def resize(self, width, height, mobile=False):
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=mobile)

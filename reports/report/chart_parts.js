@@ -1,0 +1,115 @@
+// What the builders of charts share: colours of series, panels, scales, rows of bars. Pure, as charts.js is.
+const chartParts = (() => {
+    const { methodColours, baselineColour, baseline, colourOf, themes, shapes, dashes, digits, withUnit, mixed } = chartStyle;
+    const { valueOf, variantOf, worldOf, inOrder, distinct } = chartData;
+
+    /// By the methods' names; where two on a page fall on the same colour, the later in the alphabet takes the next.
+    const coloursOf = report => {
+        const taken = new Map();
+        const names = distinct(report.data.experiments.flatMap(item => item.cells.map(cell => cell.method))).filter(name => name !== baseline);
+        for (const name of names.sort()) {
+            let place = colourOf(name);
+            for (let tries = 0; taken.has(place) && tries < methodColours.light.length; ++tries) place = (place + 1) % methodColours.light.length;
+            taken.set(place, name);
+        }
+        return new Map([...taken].map(([place, name]) => [name, place]));
+    };
+    const methodColour = (report, method, theme) => {
+        if (method === baseline) return baselineColour[theme];
+        const places = report.colours || (report.colours = coloursOf(report));
+        return methodColours[theme][places.get(method) ?? colourOf(method)];
+    };
+    /// A method's own colour, darker (lighter on black) from one of its variants to the next; shapes and dashes as well.
+    const seriesStyles = (report, series, theme) => {
+        const perMethod = {};
+        for (const { method } of series) perMethod[method] = (perMethod[method] || 0) + 1;
+        const counted = {};
+        return series.map(({ method }) => {
+            const index = counted[method] = (counted[method] ?? -1) + 1;
+            const share = perMethod[method] > 1 ? 0.55 * index / (perMethod[method] - 1) : 0;
+            return {
+                colour: mixed(methodColour(report, method, theme), themes[theme].ink, share),
+                shape: shapes[index % shapes.length],
+                dash: dashes[index % dashes.length],
+            };
+        });
+    };
+
+    const fresh = specification => JSON.parse(JSON.stringify(specification));
+    const setSignals = (spec, values) => {
+        for (const signal of spec.signals) if (signal.name in values) signal.value = values[signal.name];
+    };
+    const setData = (spec, name, values) => { spec.data.find(item => item.name === name).values = values; };
+    const setScale = (spec, name, values) => Object.assign(spec.scales.find(item => item.name === name), values);
+    const panelsWithin = (width, panels) => {
+        const columns = panels === 1 || width < 620 ? 1 : panels === 2 || panels === 4 || width < 900 ? 2 : 3;
+        return { columns, each: Math.floor((width - 8 - (columns - 1) * 26) / columns - 66) };
+    };
+    const legendColumns = (width, longest) => Math.max(Math.floor(width / (longest * 7.2 + 46)), 1);
+    const domainOf = (values, log, zero) => {
+        const finite = values.filter(value => Number.isFinite(value) && (!log || value > 0));
+        if (!finite.length) return [log ? 1 : 0, 10];
+        let [min, max] = [Math.min(...finite), Math.max(...finite)];
+        if (log) return [min / 1.2, max * 1.2];
+        const room = (max - min) * 0.06 || Math.abs(max) * 0.1 || 1;
+        return [zero && min >= 0 ? 0 : min - room, max + room];
+    };
+    /// Ticks of a logarithmic axis: 1, 2 and 5 of each power of ten, of many powers only 1. Undefined for less than one.
+    const logTicks = ([low, high]) => {
+        const powers = Math.log10(high / low);
+        if (powers < 1) return undefined;
+        const factors = powers > 2.5 ? [1] : [1, 2, 5];
+        const ticks = [];
+        for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); ++power) ticks.push(...factors.map(factor => Number((factor * 10 ** power).toPrecision(1))));
+        return ticks.filter(tick => tick >= low && tick <= high);
+    };
+    const spans = (values, factor) => {
+        const above = values.filter(value => value > 0);
+        return above.length === values.length && Math.max(...above) / Math.min(...above) >= factor;
+    };
+    /// `96 to 98 ms, 96 % interval of the median, 6 runs`
+    const intervalText = (cell, [, low, high], unit) => {
+        const of = cell.seeds > 1 ? cell.seeds : cell.runs.length;
+        if (of < 2) return 'one run';
+        const share = cell.probability >= 0.95 ? `, ${Math.floor(cell.probability * 100)} % interval of the median` : ', min and max';
+        return `${withUnit(low, unit)} to ${withUnit(high, unit)}${share}`;
+    };
+    const runsText = cell => (cell.seeds > 1 ? `${cell.runs.length} with ${cell.seeds} seeds` : String(cell.runs.length));
+    const missing = { empty: 'No method that is switched on has these numbers.' };
+
+    const mostRows = 16;
+    /// Rows of bars: a heading for each world, a row for each cell under it. If there are too many, of one world at a
+    /// time, apart from the setting `along`.
+    const rowsOf = (report, experiment, cells, asked, along) => {
+        const all = inOrder(experiment, cells);
+        const several = all.length > mostRows;
+        const rest = cell => worldOf(experiment, cell, several ? along : '');
+        const worlds = several ? distinct(all.map(rest)) : [];
+        const world = worlds.includes(asked) ? asked : worlds[worlds.length - 1];
+        const here = worlds.length > 1 ? all.filter(cell => rest(cell) === world) : all;
+        const severalWorlds = distinct(here.map(cell => worldOf(experiment, cell))).length > 1;
+        const severalVariants = distinct(here.map(cell => variantOf(report, experiment, cell))).length > 1;
+        const rows = [];
+        let last = null;
+        for (const cell of here) {
+            const of = worldOf(experiment, cell);
+            if (severalWorlds && severalVariants && of !== last) rows.push({ place: rows.length, text: of, header: true });
+            last = of;
+            rows.push({ place: rows.length, text: severalVariants || !severalWorlds ? variantOf(report, experiment, cell) : of, header: false, cell, world: of });
+        }
+        return { rows, worlds: worlds.length > 1 ? worlds : [], world };
+    };
+    const widestText = rows => Math.max(...rows.map(row => (row.total || '').length)) * 6.4 + 14;
+
+    /// The numbers of a chart as a table; `value` gives [value, low, high] in the column's own unit.
+    const tableOf = (report, experiment, cells, quantities) => ({
+        columns: [['method', ''], ['setting', ''], ['world', ''], ['runs', ''], ['seeds', ''],
+            ...quantities.flatMap(name => [[name, chartData.columnOf(report, name).unit], [`${name}_low`, chartData.columnOf(report, name).unit], [`${name}_high`, chartData.columnOf(report, name).unit]])],
+        rows: cells.map(cell => [cell.method, variantOf(report, experiment, cell).slice(cell.method.length).replace(/^, /, ''), worldOf(experiment, cell), cell.runs.length, cell.seeds || 1,
+            ...quantities.flatMap(name => valueOf(cell, name) || [null, null, null])]),
+    });
+    return {
+        methodColour, seriesStyles, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, domainOf, logTicks, spans, intervalText,
+        runsText, missing, mostRows, rowsOf, widestText, tableOf, digits,
+    };
+})();

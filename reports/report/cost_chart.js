@@ -1,0 +1,167 @@
+// The chart of a quantity: curves against a load, or bars of all methods and settings where there is none. Pure, as
+// charts.js is.
+const costChart = (() => {
+    const { themes, digits, withUnit } = chartStyle;
+    const { columnOf, axisTitle, shown, isWhole, valueOf, variantOf, worldOf, inOrder, distinct, loadsOf, quantitiesOf } = chartData;
+    const { seriesStyles, methodColour, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, domainOf, logTicks, spans, intervalText, runsText, missing, rowsOf, widestText, tableOf } = chartParts;
+    /// Instead of a load: each setting is a bar.
+    const bars = 'bars';
+
+    const fitCurves = (experiment, x, column, theSeries, thePanel, min, max) => {
+        const rows = [];
+        const of = column === 'fps_avg' ? 'frame_ms_median' : column;
+        for (const fit of experiment.fits.filter(item => item.axis === x && item.column === of)) {
+            for (let step = 0; step <= 40; ++step) {
+                const load = min > 0 ? min * (max / min) ** (step / 40) : min + (max - min) * step / 40;
+                const ms = fit.a[0] + fit.b[0] * load ** fit.k[0];
+                rows.push({ series: theSeries(fit), panel: thePanel(fit), x: load, y: column === 'fps_avg' ? 1000 / ms : ms });
+            }
+        }
+        return rows;
+    };
+
+    /// Texts at the right ends of the lines, pushed apart where they would overlap.
+    const endLabels = (points, series, domain, log, height) => {
+        const share = value => (log ? Math.log(value / domain[0]) / Math.log(domain[1] / domain[0]) : (value - domain[0]) / (domain[1] - domain[0]));
+        const labels = series.map(({ name }) => {
+            const last = points.filter(point => point.series === name).sort((a, b) => b.x - a.x)[0];
+            return { series: name, text: name, panel: '', pixel: height * (1 - share(last.y)) };
+        }).sort((a, b) => a.pixel - b.pixel);
+        const gap = 14;
+        for (let round = 0; round < 60; ++round)
+            for (let index = 1; index < labels.length; ++index) {
+                const overlap = gap - (labels[index].pixel - labels[index - 1].pixel);
+                if (overlap <= 0) continue;
+                labels[index - 1].pixel -= overlap / 2;
+                labels[index].pixel += overlap / 2;
+            }
+        return labels;
+    };
+
+    /// What the chart shows: asked for, else what its suite opens on, else the frame rate over the first load.
+    const choose = (report, chart) => {
+        const { experiment } = chart;
+        const opens = experiment.chart || {};
+        const quantities = quantitiesOf(report, experiment);
+        const column = [chart.column, opens.column, 'fps_avg', quantities[0]].find(name => quantities.includes(name));
+        const loads = loadsOf(experiment).filter(load => load.numeric);
+        const named = [chart.x, opens.against].find(name => name === bars || loads.some(load => load.name === name));
+        const x = named || (loads.length ? loads[0].name : bars);
+        return { column, x, load: loads.find(load => load.name === x) };
+    };
+    const pointTip = (report, cell, title, column, load) => {
+        const info = columnOf(report, column);
+        return {
+            title,
+            ...(load ? { [load.name]: `${cell.settings[load.name]}${load.unit && load.unit !== load.name ? ' ' + load.unit : ''}` } : {}),
+            [info.name]: withUnit(valueOf(cell, column)[0], info.unit),
+            'from … to': intervalText(cell, valueOf(cell, column), info.unit),
+            runs: runsText(cell),
+        };
+    };
+
+    const buildCurves = (report, chart, column, load) => {
+        const { experiment, theme } = chart;
+        const info = columnOf(report, column);
+        const cells = inOrder(experiment, experiment.cells)
+            .filter(cell => cell.settings[load.name] !== undefined && valueOf(cell, column) && !chart.hidden.has(cell.method));
+        if (!cells.length) return missing;
+
+        // One method in one setting: its lines share a panel, one for each world.
+        const panels = distinct(cells.map(cell => worldOf(experiment, cell, load.name)));
+        const alone = distinct(cells.map(cell => variantOf(report, experiment, cell, load.name))).length === 1 && panels.length > 1 && panels.length <= 7;
+        const thePanel = cell => (alone ? '' : worldOf(experiment, cell, load.name));
+        const theSeries = cell => (alone ? worldOf(experiment, cell, load.name) : variantOf(report, experiment, cell, load.name));
+        const points = cells.map(cell => {
+            const [y, low, high] = valueOf(cell, column).map(value => shown(value, info.unit));
+            return { panel: thePanel(cell), series: theSeries(cell), x: Number(cell.settings[load.name]), y, low, high, tip: pointTip(report, cell, theSeries(cell), column, load) };
+        });
+        const xs = distinct(points.map(point => point.x)).sort((a, b) => a - b);
+        const xLog = chart.xLog ?? spans(xs, 15);
+        const yLog = chart.yLog ?? spans(points.map(point => point.y), 60);
+        const seen = points.filter(point => (!xLog || point.x > 0) && (!yLog || point.low > 0));
+        if (!seen.length) return { empty: 'No value is above 0; a logarithmic scale cannot show it.' };
+        const curves = xs.length > 1 ? fitCurves(experiment, load.name, column, theSeries, thePanel, xs[0], xs[xs.length - 1])
+            .filter(row => seen.some(point => point.series === row.series && point.panel === row.panel)) : [];
+        const published = experiment.published.filter(item => item.column === column && (!item.axis || item.axis === load.name))
+            .map(item => ({
+                x: item.axis ? item.x : null, min: item.min, max: item.max,
+                tip: { title: 'published', [info.name]: `${digits(item.min)} to ${withUnit(item.max, info.unit)}`, of: item.what },
+            }));
+        const series = distinct(seen.map(point => point.series))
+            .map(name => ({ name, method: cells.find(cell => theSeries(cell) === name).method }));
+        // Side by side, so that intervals of equal loads do not hide each other.
+        const gap = Math.min(5, 24 / series.length);
+        for (const point of seen) point.shift = gap * (series.findIndex(({ name }) => name === point.series) - (series.length - 1) / 2);
+        const styles = seriesStyles(report, series, theme);
+        const shownPanels = distinct(seen.map(point => point.panel));
+        const { columns, each } = panelsWithin(chart.width, shownPanels.length);
+        const single = shownPanels.length === 1;
+        const longest = Math.max(...series.map(({ name }) => name.length));
+        const labelled = single && series.length > 1 && series.length <= 7 && chart.width > 520 && longest <= 34;
+        const labelRoom = labelled ? Math.ceil(longest * 6.6 + 12) : 0;
+        const panelWidth = Math.max(each - labelRoom, 120);
+        const panelHeight = single ? 320 : Math.max(170, Math.min(240, Math.round(panelWidth * 0.75)));
+        const yDomain = domainOf(seen.flatMap(point => [point.y, point.low, point.high]).concat(published.flatMap(item => [item.min, item.max])), yLog, true);
+        const xRoom = (xs[xs.length - 1] - xs[0]) * 0.04 || 1;
+
+        const spec = fresh(report.specifications.cost);
+        setSignals(spec, {
+            panelWidth, panelHeight, panelColumns: columns, labelRoom, xTitle: axisTitle(load.name, load.unit === load.name ? '' : load.unit), yTitle: axisTitle(info.name, info.unit),
+            xFormat: xs[xs.length - 1] >= 100000 ? '.4~s' : ',.6~r', yFormat: yDomain[1] >= 100000 ? '.4~s' : ',.6~r',
+            yStep: isWhole(info.unit) ? 1 : 0, legendColumns: legendColumns(chart.width, longest),
+        });
+        setData(spec, 'panels', shownPanels.map(panel => ({ panel })));
+        setData(spec, 'points', seen);
+        setData(spec, 'curves', curves.filter(row => row.y >= yDomain[0] && row.y <= yDomain[1]));
+        setData(spec, 'published', published);
+        setData(spec, 'labels', labelled ? endLabels(seen, series, yDomain, yLog, panelHeight) : []);
+        const names = series.map(({ name }) => name);
+        setScale(spec, 'x', xLog ? { type: 'log', domain: [xs[0] / 1.12, xs[xs.length - 1] * 1.08] } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
+        setScale(spec, 'y', { type: yLog ? 'log' : 'linear', domain: yDomain });
+        setScale(spec, 'colour', { domain: names, range: styles.map(style => style.colour) });
+        setScale(spec, 'shape', { domain: names, range: styles.map(style => style.shape) });
+        setScale(spec, 'dash', { domain: names, range: styles.map(style => style.dash) });
+        if (yLog) spec.marks[0].axes[0].values = logTicks(yDomain);
+        if (labelled || series.length === 1) spec.legends = [];
+        if (xs.length <= 10) spec.marks[0].axes[1].values = xs;
+        const notes = [];
+        if (series.length === 1 && names[0]) notes.push(`${names[0]}.`);
+        if (published.length) notes.push(`Grey: numbers given in the paper's text. ${distinct(published.map(item => item.tip.of)).join('; ')}.`);
+        if (curves.length) notes.push(`Wide pale lines: the fitted cost a + b·N^k${column === 'fps_avg' ? ' of the frame time, as a rate' : ''}.`);
+        return { spec, notes, table: tableOf(report, experiment, cells, [column]), state: { x: load.name, column, xLog, yLog } };
+    };
+
+    const buildBars = (report, chart, column) => {
+        const { experiment, theme } = chart;
+        const info = columnOf(report, column);
+        const cells = experiment.cells.filter(cell => valueOf(cell, column) && !chart.hidden.has(cell.method));
+        if (!cells.length) return missing;
+        const along = experiment.axes.find(axis => axis.world && axis.values.length <= 8)?.name || '';
+        const { rows, worlds, world } = rowsOf(report, experiment, cells, chart.world, along);
+        for (const row of rows) {
+            if (row.header) continue;
+            [row.value, row.low, row.high] = valueOf(row.cell, column).map(value => shown(value, info.unit));
+            row.total = withUnit(valueOf(row.cell, column)[0], info.unit);
+            row.colour = methodColour(report, row.cell.method, theme);
+            row.tip = pointTip(report, row.cell, row.text, column);
+        }
+        const values = rows.filter(row => !row.header).flatMap(row => [row.low, row.high]);
+        const [least, most] = [Math.min(0, ...values), Math.max(0, ...values)];
+        const spec = fresh(report.specifications.bars);
+        spec.width = chart.width - 24;
+        const room = widestText(rows) / Math.max(spec.width - widestText(rows), 60) * (most - least || 1);
+        setSignals(spec, { xTitle: axisTitle(info.name, info.unit), xStep: isWhole(info.unit) ? 1 : 0, ink: themes[theme].ink, min: least, max: most + room });
+        spec.height = rows.length * spec.signals.find(signal => signal.name === 'rowHeight').value;
+        setData(spec, 'rows', rows.map(({ cell, ...row }) => row));
+        const here = rows.filter(row => row.cell).map(row => row.cell);
+        return { spec, notes: [], table: tableOf(report, experiment, here, [column]), state: { x: bars, column, worlds, world } };
+    };
+
+    const build = (report, chart) => {
+        const { column, x, load } = choose(report, chart);
+        if (!column) return missing;
+        return x === bars ? buildBars(report, chart, column) : buildCurves(report, chart, column, load);
+    };
+    return { build, bars };
+})();

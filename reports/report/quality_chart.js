@@ -1,0 +1,65 @@
+// The chart of an image metric against a cost. Pure, as charts.js is.
+const qualityChart = (() => {
+    const { themes, withUnit } = chartStyle;
+    const { columnOf, axisTitle, shown, isWhole, valueOf, variantOf, worldOf, inOrder, distinct, metricsOf } = chartData;
+    const { seriesStyles, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, domainOf, logTicks, spans, intervalText, missing, tableOf } = chartParts;
+
+    /// The points which every other one, by intervals that do not overlap, costs more or errs more.
+    const frontOf = (points, high) => {
+        const errsMore = (other, point) => (high ? other.yHigh < point.yLow : other.yLow > point.yHigh);
+        return points.filter(point => points.every(other => other === point || other.xLow > point.xHigh || errsMore(other, point)));
+    };
+
+    const build = (report, chart) => {
+        const { experiment, theme } = chart;
+        const metrics = metricsOf(report, experiment);
+        const opens = (experiment.chart || {}).column;
+        const metric = [chart.metric, opens, 'flip', metrics[0]].find(name => metrics.includes(name));
+        const against = chart.against || 'frame_ms_median';
+        const [info, cost] = [columnOf(report, metric), columnOf(report, against)];
+        const cells = inOrder(experiment, experiment.cells)
+            .filter(cell => valueOf(cell, metric) && valueOf(cell, against) && !chart.hidden.has(cell.method));
+        if (!cells.length) return missing;
+        const points = cells.map(cell => {
+            const [x, xLow, xHigh] = valueOf(cell, against).map(value => shown(value, cost.unit));
+            const [y, yLow, yHigh] = valueOf(cell, metric).map(value => shown(value, info.unit));
+            return {
+                panel: worldOf(experiment, cell), series: variantOf(report, experiment, cell), method: cell.method, x, xLow, xHigh, y, yLow, yHigh,
+                tip: {
+                    title: variantOf(report, experiment, cell),
+                    [info.name]: withUnit(valueOf(cell, metric)[0], info.unit),
+                    [cost.name]: withUnit(valueOf(cell, against)[0], cost.unit),
+                    'its interval': intervalText(cell, valueOf(cell, against), cost.unit),
+                },
+            };
+        });
+        const panels = distinct(points.map(point => point.panel));
+        const front = panels.flatMap(panel => frontOf(points.filter(point => point.panel === panel), info.better === 'high'));
+        const xLog = (chart.xLog ?? spans(points.map(point => point.x), 8)) && points.every(point => point.xLow > 0);
+        const yLog = (chart.yLog ?? false) && points.every(point => point.yLow > 0);
+        const series = distinct(points.map(point => point.series)).map(name => ({ name, method: points.find(point => point.series === name).method }));
+        const styles = seriesStyles(report, series, theme);
+        const { columns, each } = panelsWithin(chart.width, panels.length);
+        const spec = fresh(report.specifications.quality);
+        setSignals(spec, {
+            panelWidth: Math.max(each, 120), panelHeight: panels.length === 1 ? 320 : 240, panelColumns: columns, xTitle: axisTitle(cost.name, cost.unit),
+            yTitle: axisTitle(info.name, info.unit), xFormat: ',.6~r', yFormat: ',.6~r', yStep: isWhole(info.unit) ? 1 : 0, frontColour: themes[theme].muted,
+            legendColumns: legendColumns(chart.width, Math.max(...series.map(({ name }) => name.length))),
+        });
+        setData(spec, 'panels', panels.map(panel => ({ panel })));
+        setData(spec, 'points', points);
+        setData(spec, 'front', front);
+        setScale(spec, 'x', { type: xLog ? 'log' : 'linear', domain: domainOf(points.flatMap(point => [point.x, point.xLow, point.xHigh]), xLog, false) });
+        const yDomain = domainOf(points.flatMap(point => [point.y, point.yLow, point.yHigh]), yLog, info.better === 'low');
+        setScale(spec, 'y', { type: yLog ? 'log' : 'linear', domain: yDomain });
+        if (yLog) spec.marks[0].axes[0].values = logTicks(yDomain);
+        const names = series.map(({ name }) => name);
+        setScale(spec, 'colour', { domain: names, range: styles.map(style => style.colour) });
+        setScale(spec, 'shape', { domain: names, range: styles.map(style => style.shape) });
+        const hint = info.better === 'high' ? 'Upwards' : 'Downwards';
+        const rings = front.length ? 'Ringed and joined: the Pareto front, where intervals separate: every other setting costs more or errs more.'
+            : 'No setting is ringed: the intervals of those that lead overlap.';
+        return { spec, notes: [`${hint} and to the left is better. ${rings}`], table: tableOf(report, experiment, cells, [metric, against]), state: { metric, against, xLog, yLog } };
+    };
+    return { build, frontOf };
+})();
