@@ -17,6 +17,8 @@
 #include "bench/cli/shared_options.h"
 #include "bench/cli/suite_report.h"
 #include "bench/report/page.h"
+#include "bench/report/page_template.h"
+#include "bench/report/papers_page.h"
 #include "bench/report/report_reader.h"
 #include "bench/run/progress.h"
 #include "bench/suite/paper.h"
@@ -45,6 +47,11 @@ struct PaperWork {
     bool quick = false;  ///< short forms, of experiments too
 };
 
+/// Several papers of one call get folders side by side in this one.
+std::filesystem::path folderOfAll(const ReproduceOptions& options) {
+    return options.out.empty() ? std::filesystem::path("reports/out") : std::filesystem::path(options.out);
+}
+
 /// Reads all input files, so that an error in the last paper is found before the first run.
 std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
     std::vector<PaperWork> work;
@@ -65,11 +72,11 @@ std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
         }
     }
     requireOpenGl();
+    if (options.paper.empty()) bench::requireOwnPage(folderOfAll(options));
     for (PaperWork& paper : work) {
-        // Several papers of one call get folders side by side.
         std::filesystem::path out = options.out;
-        if (options.out.empty()) out = std::filesystem::path("reports/out") / paper.paper.id;
-        if (!options.out.empty() && options.paper.empty()) out /= paper.paper.id;
+        if (options.out.empty() || options.paper.empty()) out = folderOfAll(options) / paper.paper.id;
+        bench::requireOwnPage(out);
         paper.results = std::make_unique<bench::ResultsFolder>(out);
     }
     return work;
@@ -107,8 +114,8 @@ std::string notMeasured(const std::vector<bench::StoredFinding>& findings) {
     return lines.empty() ? lines : lines + "\n";
 }
 
-/// Runs, tables, verdicts and the page of one paper.
-int reproducePaper(const PaperWork& work) {
+/// Runs, tables, verdicts and the page of one paper, whose line is added to `index`.
+int reproducePaper(const PaperWork& work, std::vector<bench::PaperLine>& index) {
     const bench::Paper& paper = work.paper;
     bench::ResultsFolder& results = *work.results;
     const std::string year = paper.year != 0 ? fmt::format(" ({})", paper.year) : "";
@@ -135,6 +142,7 @@ int reproducePaper(const PaperWork& work) {
         if (std::filesystem::exists(results.path() / file)) std::cout << (results.path() / file).string() << "\n";
     const bench::ReportData report = bench::readReport(results.path(), bench::defaultPictureBytes);
     std::cout << bench::writePage(results.path(), report).string() << "  (open it in a browser)\n";
+    index.push_back(bench::lineOf(report, paper, results.path().filename().string()));
     return code;
 }
 
@@ -146,11 +154,14 @@ int reproduce(const ReproduceOptions& options) {
         return exitAborted;
     }
     int code = exitOk;
+    std::vector<bench::PaperLine> index;
     for (const PaperWork& paper : work) {
-        const int paperCode = reproducePaper(paper);
+        const int paperCode = reproducePaper(paper, index);
         if (paperCode == exitAborted) return paperCode;
         code = std::max(code, paperCode);
     }
+    if (options.paper.empty())
+        std::cout << bench::writePapersPage(folderOfAll(options), index).string() << "  (all papers)\n";
     return code;
 }
 

@@ -14,6 +14,7 @@
 #include "bench/report/chart_file.h"
 #include "bench/report/frame_times.h"
 #include "bench/report/page.h"
+#include "bench/report/papers_page.h"
 #include "bench/report/picture_sets.h"
 #include "bench/report/published_points.h"
 #include "bench/report/report_json.h"
@@ -296,6 +297,53 @@ TEST(Report, ChartsOfASettingNeedMoreThanItsSeeds) {
     data.groups.push_back(makeGroup(all, {}));
     data.groups[1].id = "two";
     EXPECT_EQ(chartIds(data), (std::vector<std::string>{"one-stages", "two", "two-stages"}));
+}
+
+TEST(PapersPage, ListsEachPaperWithItsVerdicts) {
+    ReportData data;
+    StoredRun warned = run("haze", 100, 1, 3), failed = run("haze", 200, 1, 3);
+    data.runs.emplace(warned.runId, warned);
+    data.runs.emplace(failed.runId, failed);
+    data.notDone.push_back({failed.runId, "failed", "it rained"});
+    data.warnings = {{"busy", {warned.runId}}, {"slow", {warned.runId, failed.runId}}};
+    data.machines = {{{"cpu", "A<B>"}, {"cores", "2"}, {"gl_renderer", "llvmpipe"}}};
+    RunGroup group;
+    group.suite = "dust";
+    group.id = "dust-quick";
+    data.groups.push_back(group);
+    Paper paper, other;
+    paper.id = "mud";
+    paper.title = "Mud & dust";
+    paper.authors = "Nobody";
+    paper.year = 2026;
+    other.id = "air";
+    for (const auto& [of, verdict] :
+         {std::pair(&paper, ClaimVerdict::confirmed), std::pair(&paper, ClaimVerdict::notTested),
+          std::pair(&paper, ClaimVerdict::confirmed), std::pair(&other, ClaimVerdict::refuted)}) {
+        JudgedClaim claim;
+        claim.paper = of->id;
+        claim.result.verdict = verdict;
+        data.claims.push_back(claim);
+    }
+    const PaperLine line = lineOf(data, paper, "mud");
+    EXPECT_EQ(line.runs, 2u);
+    EXPECT_EQ(line.runsDone, 1u);
+    EXPECT_EQ(line.runsWithWarnings, 2u);
+    EXPECT_EQ(line.form, "quick");
+    EXPECT_EQ(line.verdicts, (std::array<std::size_t, 6>{2, 0, 0, 0, 0, 1}));
+
+    const std::string page = papersPage({line});
+    for (const char* part : {"href=\"mud/index.html\"", "Nobody (2026): Mud &amp; dust", "2 confirmed", "1 not-tested",
+                             "1 of 2", "A&lt;B>, 2 cores, llvmpipe"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+    EXPECT_EQ(page.find("refuted\">"), std::string::npos) << "of another paper";
+    EXPECT_EQ(page.find("{{"), std::string::npos);
+
+    const Folder folder;
+    EXPECT_TRUE(fs::exists(writePapersPage(folder.path(), {line})));
+    EXPECT_NO_THROW(writePapersPage(folder.path(), {line}));
+    folder.write("index.html", "<html>my garden</html>");
+    EXPECT_THROW(writePapersPage(folder.path(), {line}), InputError);
 }
 
 TEST(Report, APaperWhoseRunsAreAnothersControlsIsNotJudged) {

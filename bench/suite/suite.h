@@ -30,8 +30,8 @@ inline constexpr Choices<Order> orders{{"interleaved", Order::interleaved}, {"ba
 /// What a suite's chart opens on. Empty: the frame rate, against what varies most.
 struct ChartView {
     std::string column;  ///< of summary.csv
-    std::string
-        against;  ///< a parameter that the suite sets, or `size`, `scene`, `drive`, `seed`; empty: as the chart likes
+    /// A parameter that the suite sets, or `size`, `scene`, `drive`, `seed`; empty: as the chart likes.
+    std::string against;
 };
 
 struct Suite {

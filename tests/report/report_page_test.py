@@ -3,6 +3,7 @@
     report_page_test.py DUSTBENCH [TEST …]
 """
 
+import glob
 import json
 import os
 import shutil
@@ -250,6 +251,55 @@ class ReportPage(page_case.PageCase):
         self.assertTrue(all(marks.values()), marks)
         self.assertIn("✓ confirmed", self.browser.evaluate("document.getElementById('claims').textContent"))
         self.assertTrue(self.browser.evaluate("[...document.querySelectorAll('.picture-stage img')].every(image => image.naturalWidth === 96)"))
+
+    def test_reproducing_all_papers_ends_with_an_index_of_them(self):
+        # A copy of the program beside data with two papers of seconds.
+        place = tempfile.mkdtemp(prefix="dustbench-papers-")
+        self.addCleanup(shutil.rmtree, place)
+        program = os.path.join(place, "build", "release", "dustbench")
+        os.makedirs(os.path.dirname(program))
+        shutil.copy(page_case.PROGRAM, program)
+        # Libraries that are loaded at run time lie beside it.
+        for library in glob.glob(os.path.join(os.path.dirname(page_case.PROGRAM), "libdustbench_*.so")):
+            shutil.copy(library, os.path.dirname(program))
+        os.symlink(os.path.join(page_case.ROOT, "reports"), os.path.join(place, "reports"))
+        data = os.path.join(place, "data")
+        shutil.copytree(os.path.join(page_case.ROOT, "data"), data, ignore=shutil.ignore_patterns("papers"))
+        for paper in ("tiny", "other"):
+            for name, text in made_folder.TINY_PAPER.items():
+                file = os.path.join(data, "papers", paper, name.replace("tiny", paper))
+                os.makedirs(os.path.dirname(file), exist_ok=True)
+                with open(file, "w", encoding="utf-8") as stream:
+                    stream.write(text.replace("tiny", paper).replace("[100, 300]", "[100, 300]" if paper == "tiny" else "[150, 450]"))
+        out = os.path.join(place, "out")
+
+        def reproduce():
+            libraries = os.path.dirname(page_case.PROGRAM) + ":" + os.environ.get("LD_LIBRARY_PATH", "")
+            return subprocess.run([program, "reproduce", "--quick", "--out", out], capture_output=True, text=True,
+                                  env=os.environ | {"LD_LIBRARY_PATH": libraries, "DUSTBENCH_DATA": ""})
+
+        called = reproduce()
+        self.assertEqual(called.returncode, 0, called.stderr)
+        index = os.path.join(out, "index.html")
+        self.assertIn(index, called.stdout)
+        self.touch()
+        self.browser.open(index)
+        rows = self.browser.evaluate("[...document.querySelectorAll('tbody tr')].map(row => row.innerText)")
+        self.assertEqual(len(rows), 2)
+        for row in rows:
+            self.assertIn("Nobody (2026): A very short paper", row)
+            self.assertIn("1 confirmed", row)
+            self.assertIn("2 of 2", row)
+        for link in self.browser.evaluate("[...document.querySelectorAll('tbody a')].map(link => link.getAttribute('href'))"):
+            self.assertTrue(os.path.exists(os.path.join(out, link)), link)
+        # A page of somebody else is noticed before the first run.
+        with open(index, "w", encoding="utf-8") as stream:
+            stream.write("<html>my garden</html>")
+        shutil.rmtree(os.path.join(out, "tiny"))
+        called = reproduce()
+        self.assertEqual(called.returncode, 3)
+        self.assertIn("not written by dustbench", called.stderr)
+        self.assertFalse(os.path.exists(os.path.join(out, "tiny", "runs")))
 
 
 if __name__ == "__main__":
