@@ -61,6 +61,16 @@ def cross(a, b):
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
+def write_obj(name, comment, digits, points, faces):
+    """The counts let the reader notice a file that is cut between two lines."""
+    with open(path(name), "w", encoding="ascii", newline="") as file:
+        file.write(f"# {comment}\n# counts: v {len(points)}, f {len(faces)}\n")
+        for p in points:
+            file.write("v " + " ".join(f"{x:.{digits}f}" for x in p) + "\n")
+        for a, b, c in faces:
+            file.write(f"f {a + 1} {b + 1} {c + 1}\n")
+
+
 def rock():
     """A sphere cut by planes (facets of stone) and bent by a few waves, half buried."""
     points, faces = icosphere(2)
@@ -79,23 +89,13 @@ def rock():
                 radius = min(radius, distance / across)
         radius *= 1 + 0.035 * math.sin(7 * p[0] + 2 * p[1]) * math.sin(6 * p[2] - p[0]) + 0.02 * math.sin(15 * p[1] + 9 * p[0])
         moved.append((1.05 * radius * p[0], 0.78 * radius * p[1] + 0.42, 0.85 * radius * p[2]))
-    with open(path("rock.obj"), "w", newline="") as file:
-        file.write("# a boulder, about 1.8 m long and 1 m above the ground\n")
-        for p in moved:
-            file.write("v {:.4f} {:.4f} {:.4f}\n".format(*p))
-        for a, b, c in faces:
-            file.write(f"f {a + 1} {b + 1} {c + 1}\n")
+    write_obj("rock.obj", "a boulder, about 1.8 m long and 1 m above the ground", 4, moved, faces)
 
 
 def sphere():
     """Of radius 1, its middle at the origin."""
     points, faces = icosphere(4)
-    with open(path("sphere.obj"), "w", encoding="ascii") as file:
-        file.write("# a sphere of radius 1 m\n")
-        for p in points:
-            file.write("v {:.5f} {:.5f} {:.5f}\n".format(*p))
-        for a, b, c in faces:
-            file.write(f"f {a + 1} {b + 1} {c + 1}\n")
+    write_obj("sphere.obj", "a sphere of radius 1 m", 5, points, faces)
 
 
 def write_quads(name, comment, vertices, faces):

@@ -1,4 +1,6 @@
 #include "methods/kit/files/toml_reader.h"
+
+#include "methods/kit/files/toml_text.h"
 #include "methods/kit/testing/test_input_error.h"
 
 #include <gmock/gmock.h>

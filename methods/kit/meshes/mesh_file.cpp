@@ -1,81 +1,128 @@
 #include "methods/kit/meshes/mesh_file.h"
 
-#include <vtkAlgorithm.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkExecutive.h>
+#include <vtkFloatArray.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
-#include <vtkOBJReader.h>
-#include <vtkPLYReader.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataNormals.h>
+#include <vtkPolygon.h>
 #include <vtkSmartPointer.h>
-#include <vtkSTLReader.h>
-#include <vtkTriangleFilter.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <fstream>
 #include <string>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/input_log.h"
+#include "methods/kit/files/whole_text.h"
 #include "methods/kit/maths/srgb.h"
-#include "methods/kit/meshes/mesh_check.h"
+#include "methods/kit/meshes/obj_file.h"
+#include "methods/kit/meshes/ply_file.h"
+#include "methods/kit/meshes/polygons.h"
+#include "methods/kit/meshes/stl_file.h"
 
 namespace dustbench::meshes {
 namespace {
 
 constexpr double creaseDegrees = 35;
 
-/// Captures VTK's errors and warnings, which would otherwise go to standard error, and keeps the first.
-class Complaints {
+Polygons readPolygons(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    const auto read = extension == ".obj"   ? &readObj
+                      : extension == ".ply" ? &readPly
+                      : extension == ".stl" ? &readStl
+                                            : nullptr;
+    if (read == nullptr)
+        throw InputError(file.string() + ": unknown kind of mesh '" + extension + "', expected .obj, .ply or .stl");
+    const std::string text = files::wholeText(file, "a mesh", files::limits::geometryBytes);
+    files::noteInput(file);
+    return read(text, file);
+}
+
+/// Cuts polygons into n − 2 triangles each: a concave one by its ears, one without area into a fan.
+class Triangulator {
  public:
-    Complaints() {
-        command_->SetClientData(this);
-        command_->SetCallback([](vtkObject*, unsigned long, void* client, void* data) {
-            auto& self = *static_cast<Complaints*>(client);
-            if (self.first_.empty() && data) self.first_ = static_cast<const char*>(data);
-        });
-    }
-    void listenTo(vtkObject& object) {
-        object.AddObserver("ErrorEvent", command_);
-        object.AddObserver("WarningEvent", command_);
-    }
-    [[nodiscard]] bool any() const { return !first_.empty(); }
-    /// The first message as one line, without VTK's source position.
-    [[nodiscard]] std::string line() const {
-        std::string text = first_;
-        if (const auto colon = text.find("): "); colon != std::string::npos) text.erase(0, colon + 3);
-        std::ranges::replace(text, '\n', ' ');
-        while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
-        return text;
+    explicit Triangulator(const Polygons& mesh) : mesh_(mesh) {}
+
+    /// Calls `take` with three positions for each triangle.
+    template <typename Take>
+    void cut(std::span<const std::uint32_t> corners, const Take& take) {
+        const auto triangles = static_cast<vtkIdType>(corners.size()) - 2;
+        if (triangles > 1) {
+            load(corners);
+            if (polygon_->Triangulate(ears_) != 0 && ears_->GetNumberOfIds() == 3 * triangles) {
+                const auto corner = [&](vtkIdType i) { return corners[static_cast<std::size_t>(ears_->GetId(i))]; };
+                for (vtkIdType i = 0; i < 3 * triangles; i += 3) take(corner(i), corner(i + 1), corner(i + 2));
+                return;
+            }
+        }
+        for (std::size_t i = 2; i < corners.size(); ++i) take(corners[0], corners[i - 1], corners[i]);
     }
 
  private:
-    vtkNew<vtkCallbackCommand> command_;
-    std::string first_;
+    void load(std::span<const std::uint32_t> corners) {
+        const auto count = static_cast<vtkIdType>(corners.size());
+        polygon_->PointIds->SetNumberOfIds(count);
+        polygon_->Points->SetNumberOfPoints(count);
+        for (vtkIdType i = 0; i < count; ++i) {
+            const glm::dvec3 p(mesh_.positions[corners[static_cast<std::size_t>(i)]]);
+            polygon_->PointIds->SetId(i, corners[static_cast<std::size_t>(i)]);
+            polygon_->Points->SetPoint(i, p.x, p.y, p.z);
+        }
+    }
+
+    const Polygons& mesh_;
+    vtkNew<vtkPolygon> polygon_;
+    vtkNew<vtkIdList> ears_;
 };
 
-template <typename Reader>
-vtkSmartPointer<vtkPolyDataAlgorithm> makeReader(const std::filesystem::path& file) {
-    vtkNew<Reader> reader;
-    reader->SetFileName(file.c_str());
-    return vtkSmartPointer<vtkPolyDataAlgorithm>(reader);
+vtkSmartPointer<vtkUnsignedCharArray> colourArray() {
+    auto colours = vtkSmartPointer<vtkUnsignedCharArray>::New();
+    colours->SetNumberOfComponents(3);
+    return colours;
 }
 
-vtkSmartPointer<vtkPolyDataAlgorithm> readerFor(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (extension == ".obj") return makeReader<vtkOBJReader>(file);
-    if (extension == ".ply") return makeReader<vtkPLYReader>(file);
-    if (extension == ".stl") return makeReader<vtkSTLReader>(file);
-    throw InputError(file.string() + ": unknown kind of mesh '" + extension + "', expected .obj, .ply or .stl");
+/// The colour of a polygon goes to each of its triangles.
+void addTriangles(const Polygons& mesh, vtkPolyData& surface) {
+    vtkNew<vtkCellArray> triangles;
+    const auto colours = colourArray();
+    Triangulator triangulator(mesh);
+    for (std::size_t i = 0; i < mesh.size(); ++i)
+        triangulator.cut(mesh[i], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+            triangles->InsertNextCell({a, b, c});
+            if (!mesh.faceColours.empty()) colours->InsertNextTypedTuple(mesh.faceColours[i].data());
+        });
+    surface.SetPolys(triangles);
+    if (!mesh.faceColours.empty()) surface.GetCellData()->SetScalars(colours);
+}
+
+vtkSmartPointer<vtkPolyData> surfaceOf(const Polygons& mesh) {
+    auto surface = vtkSmartPointer<vtkPolyData>::New();
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToFloat();
+    for (const glm::vec3& p : mesh.positions)
+        points->InsertNextPoint(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
+    surface->SetPoints(points);
+    if (!mesh.normals.empty()) {
+        vtkNew<vtkFloatArray> normals;
+        normals->SetNumberOfComponents(3);
+        for (const glm::vec3& n : mesh.normals) normals->InsertNextTypedTuple(&n.x);
+        surface->GetPointData()->SetNormals(normals);
+    }
+    if (!mesh.colours.empty()) {
+        const auto colours = colourArray();
+        for (const Colour8& colour : mesh.colours) colours->InsertNextTypedTuple(colour.data());
+        surface->GetPointData()->SetScalars(colours);
+    }
+    addTriangles(mesh, *surface);
+    return surface;
 }
 
 glm::vec3 tuple(vtkDataArray& array, vtkIdType index) {
@@ -126,50 +173,10 @@ scene::Mesh convert(vtkPolyData& surface, const glm::vec3& colour) {
     return mesh;
 }
 
-/// VTK's filters do not check the indices that its readers return.
-void checkGeometry(vtkPolyData& surface, const std::filesystem::path& file) {
-    const vtkIdType points = surface.GetNumberOfPoints();
-    for (vtkIdType i = 0; i < points; ++i)
-        for (int k = 0; k < 3; ++k)
-            if (!std::isfinite(surface.GetPoint(i)[k]))
-                throw InputError(file.string() + ": vertex " + std::to_string(i + 1) + " is not a finite point");
-    for (vtkCellArray* cells : {surface.GetVerts(), surface.GetLines(), surface.GetPolys(), surface.GetStrips()})
-        for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i) {
-            vtkIdType count = 0;
-            const vtkIdType* corners = nullptr;
-            cells->GetCellAtId(i, count, corners);
-            for (vtkIdType k = 0; k < count; ++k)
-                if (corners[k] < 0 || corners[k] >= points)
-                    throw InputError(file.string() + ": face " + std::to_string(i + 1) + " uses vertex " +
-                                     std::to_string(corners[k] + 1) + ", the mesh has " + std::to_string(points));
-        }
-}
-
 }  // namespace
 
 scene::Mesh readMesh(const std::filesystem::path& file, const glm::vec3& colour) {
-    const auto reader = readerFor(file);
-    if (!std::ifstream(file) || std::filesystem::is_directory(file))
-        throw InputError(file.string() + ": the mesh cannot be read");
-    if (vtkOBJReader::SafeDownCast(reader)) checkObj(file);
-    if (vtkPLYReader::SafeDownCast(reader)) checkPly(file);
-    files::noteInput(file);
-    Complaints complaints;
-    complaints.listenTo(*reader);
-    complaints.listenTo(*reader->GetExecutive());
-    reader->Update();
-    if (complaints.any()) throw InputError(file.string() + ": not a mesh that can be read: " + complaints.line());
-
-    checkGeometry(*reader->GetOutput(), file);
-
-    vtkNew<vtkTriangleFilter> triangles;
-    triangles->SetInputConnection(reader->GetOutputPort());
-    triangles->PassVertsOff();
-    triangles->PassLinesOff();
-    triangles->Update();
-    vtkSmartPointer<vtkPolyData> surface = triangles->GetOutput();
-    if (surface->GetNumberOfPolys() == 0)
-        throw InputError(file.string() + ": the mesh has no triangles, or is not of the kind that its name says");
+    vtkSmartPointer<vtkPolyData> surface = surfaceOf(readPolygons(file));
     if (!surface->GetPointData()->GetNormals()) {
         vtkNew<vtkPolyDataNormals> normals;
         normals->SetInputData(surface);

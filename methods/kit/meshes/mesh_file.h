@@ -1,4 +1,5 @@
-// Reads triangle meshes from OBJ, PLY and STL files through VTK's readers.
+// Reads triangle meshes from OBJ, PLY and STL files, all of a file or none of it
+// (reports/decisions/0015-mesh-files.md).
 //
 // Units: as in the file. Colours: linear RGB.
 #pragma once
@@ -10,8 +11,9 @@
 
 namespace dustbench::meshes {
 
-/// Triangulates polygons; computes missing normals, keeping creases above 35 degrees. Uses the vertex or face colours
-/// of a PLY file (8 bit, sRGB), else `colour`. Throws InputError with the file and the reason.
+/// A polygon of n corners becomes n − 2 triangles. Computes missing normals, keeping creases above 35 degrees. Uses the
+/// vertex or face colours of a PLY file (8 bit, sRGB), else `colour`. Limits: kit/files/limits.h. Throws InputError
+/// with the file and the reason.
 [[nodiscard]] DUSTBENCH_API scene::Mesh readMesh(const std::filesystem::path& file, const glm::vec3& colour);
 
 }  // namespace dustbench::meshes
