@@ -17,6 +17,7 @@
 #include "bench/report/side_by_side_sheet.h"
 #include "bench/suite/side_by_side.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/limits.h"
 
 namespace dustbench::cli {
 namespace {
@@ -145,7 +146,7 @@ Command compareCommand() {
                                "frames to judge and show, 5 or more, without B; default: five from first to last",
                                options->moments);
                 arguments.integer("--repetitions", "of every run, each in a new process; fewer than 6 give no verdict",
-                                  options->repetitions, 1, 1000);
+                                  options->repetitions, 1, files::limits::repetitions);
                 arguments.text("--out", "DIR",
                                "folder for the results, default: out/compare; for folders: where comparison.csv goes",
                                options->out);

@@ -3,9 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
@@ -14,6 +12,7 @@
 #include "bench/run/plan_forecast.h"
 #include "bench/run/run_forecast.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/whole_text.h"
 
 namespace dustbench::cli {
 namespace {
@@ -21,8 +20,7 @@ namespace {
 bench::RunSpec specOf(const std::vector<std::string>& argv) {
     if (argv.size() < 4 || argv[3] != "--")
         throw InputError(argv[0] + ": got other arguments than SPEC FOLDER -- COMMAND");
-    std::ifstream file(argv[1], std::ios::binary);
-    return bench::specFromJson(std::string(std::istreambuf_iterator<char>(file), {}));
+    return bench::specFromJson(files::wholeText(argv[1], "a run's specification"));
 }
 
 }  // namespace

@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <memory>
 
 #include "bench/cli/commands.h"
@@ -16,6 +14,7 @@
 #include "bench/view/view_state.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
+#include "methods/kit/files/whole_text.h"
 #ifdef DUSTBENCH_PANELS
 #include "bench/view/panels/panel_picture.h"
 #endif
@@ -75,9 +74,7 @@ bench::ViewState ofOptions(const ViewOptions& options) {
 }
 
 bench::ViewState ofFile(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw InputError("--state: '" + file + "' cannot be read, expected a TOML file");
-    return bench::stateOfToml(std::string(std::istreambuf_iterator<char>(stream), {}), file);
+    return bench::stateOfToml(files::wholeText(file, "a TOML file"), file);
 }
 
 int view(const ViewOptions& options) {

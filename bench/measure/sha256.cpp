@@ -4,9 +4,9 @@
 #include <openssl/evp.h>
 
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
+
+#include "methods/kit/files/whole_text.h"
 
 namespace dustbench::bench {
 
@@ -20,9 +20,8 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256OfFile(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file)) return "";
-    return sha256(std::string(std::istreambuf_iterator<char>(stream), {}));
+    if (!files::refusalOf(file, files::limits::geometryBytes).empty()) return "";
+    return sha256(files::wholeText(file, "a file", files::limits::geometryBytes));
 }
 
 }  // namespace dustbench::bench

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/shipped_folder.h"
+#include "methods/kit/files/whole_text.h"
 
 namespace dustbench::bench {
 namespace {
@@ -48,9 +47,7 @@ fs::path reportsFolder() {
 }  // namespace
 
 std::string fileText(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw InputError(fmt::format("'{}': cannot be read", file.string()));
-    return {std::istreambuf_iterator<char>(stream), {}};
+    return files::wholeText(file, "a part of the report");
 }
 
 std::string reportFile(std::string_view name) {

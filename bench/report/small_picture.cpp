@@ -1,11 +1,11 @@
 #include "bench/report/small_picture.h"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/whole_text.h"
+#include "methods/kit/pictures/picture_files.h"
 #include "methods/kit/pictures/picture_library.h"
 
 namespace dustbench::bench {
@@ -29,12 +29,12 @@ std::vector<std::uint8_t> colourBytes(const pictures::StoredPicture& picture) {
 SmallPicture makeSmall(const std::filesystem::path& png) {
     const pictures::PictureLibrary& library = pictures::pictureLibrary();
     pictures::StoredPicture picture;
-    std::string fault = library.read(png, picture);
+    std::string fault = pictures::readPicture(png, picture);
     if (fault.empty() && picture.channels < 3) fault = "it has no colours";
     if (!fault.empty()) throw InputError("'" + png.string() + "': cannot be read as a picture: " + fault);
 
-    std::ifstream stream(png, std::ios::binary);
-    SmallPicture small{"image/png", {std::istreambuf_iterator<char>(stream), {}}, picture.width, picture.height};
+    SmallPicture small{"image/png", files::wholeText(png, "a picture", files::limits::geometryBytes), picture.width,
+                       picture.height};
     std::vector<std::uint8_t> jpeg;
     // If JPEG encoding fails, the original file is used.
     if (library.encodeJpeg(picture.width, picture.height, colourBytes(picture), jpegQuality, jpeg).empty() &&

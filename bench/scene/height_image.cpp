@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/limits.h"
 #include "methods/kit/pictures/picture_files.h"
 
 namespace dustbench::bench {
@@ -12,11 +13,16 @@ namespace dustbench::bench {
 scene::Terrain readHeightImage(const std::filesystem::path& file, double spacingMetres, double heightMetres,
                                double baseMetres) {
     pictures::StoredPicture image;
-    if (const std::string reason = pictures::readPicture(file, image); !reason.empty())
+    const auto fail = [&](const std::string& reason) {
         throw InputError(file.string() + ": not an image that can be read: " + reason);
-    if (image.width < 2 || image.height < 2 || image.width > 8192 || image.height > 8192)
+    };
+    if (const std::string reason = pictures::readPictureSize(file, image); !reason.empty()) fail(reason);
+    const auto isAllowed = [](int edge) { return edge >= 2 && edge <= files::limits::heightEdge; };
+    if (!isAllowed(image.width) || !isAllowed(image.height))
         throw InputError(file.string() + ": the height field has " + std::to_string(image.width) + " x " +
-                         std::to_string(image.height) + " pixels, expected 2..8192 a side");
+                         std::to_string(image.height) + " pixels, expected 2.." +
+                         std::to_string(files::limits::heightEdge) + " a side");
+    if (const std::string reason = pictures::readPicture(file, image); !reason.empty()) fail(reason);
     std::vector<float> heights(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     for (std::size_t i = 0; i < heights.size(); ++i) {
         const float share = image.values[i * static_cast<std::size_t>(image.channels)];

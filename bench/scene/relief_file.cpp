@@ -5,6 +5,7 @@
 #include <string>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/limits.h"
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/maths/srgb.h"
 #include "methods/kit/pictures/picture_files.h"
@@ -12,7 +13,7 @@
 namespace dustbench::bench {
 namespace {
 
-constexpr int fewestTexels = 2, mostTexels = 8192;
+constexpr int fewestTexels = 2, mostTexels = files::limits::heightEdge;
 
 std::string sizeOf(const pictures::StoredPicture& picture) {
     return std::to_string(picture.width) + "x" + std::to_string(picture.height);
@@ -24,7 +25,8 @@ void requireSize(const std::filesystem::path& file) {
     if (const std::string reason = pictures::readPictureSize(file, picture); !reason.empty())
         throw InputError(file.string() + ": not an image that can be read: " + reason);
     if (std::min(picture.width, picture.height) < fewestTexels || std::max(picture.width, picture.height) > mostTexels)
-        throw InputError(file.string() + ": it has " + sizeOf(picture) + " texels, allowed: 2..8192 a side");
+        throw InputError(file.string() + ": it has " + sizeOf(picture) + " texels, allowed: 2.." +
+                         std::to_string(mostTexels) + " a side");
 }
 
 pictures::StoredPicture readPicture(const std::filesystem::path& file) {

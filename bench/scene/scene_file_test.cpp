@@ -199,6 +199,14 @@ TEST(HeightImage, IsCentredAndScaledFromBlackToWhite) {
     EXPECT_FLOAT_EQ(terrain.heightAt(-2, 1), 6);
 }
 
+TEST(HeightImage, IsRefusedByItsHeaderWhereItIsTooLarge) {
+    const TestFolder folder;
+    // No pixel follows: only the header can be what is refused.
+    const auto file = folder.write("h.pgm", "P5\n8193 2\n255\n");
+    EXPECT_THAT(inputError([&] { (void)readHeightImage(file, 1, 1, 0); }),
+                HasSubstr("h.pgm: the height field has 8193 x 2 pixels, expected 2..8192 a side"));
+}
+
 TEST(DataList, DescribesEverySceneAndDrive) {
     for (const auto& entries : {listScenes(), listDrives()}) {
         EXPECT_FALSE(entries.empty());

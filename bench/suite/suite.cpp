@@ -15,6 +15,7 @@
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/limits.h"
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/maths/philox.h"
 
@@ -67,15 +68,43 @@ void requireLoad(const Suite& suite, const std::string& where) {
     throw InputError(where + unknownName("load of the chart", name, names).what());
 }
 
+/// Checked before the cells are made.
+void requireFewEnough(const std::string& what, double runs) {
+    if (runs > static_cast<double>(files::limits::plannedRuns))
+        throw InputError(fmt::format("{}: got {:.0f} planned runs, allowed: {} (limit of a command)", what, runs,
+                                     files::limits::plannedRuns));
+}
+
+double combinations(const ParameterLists& lists) {
+    double product = 1;
+    for (const auto& [name, values] : lists) product *= static_cast<double>(values.size());
+    return product;
+}
+
+/// The parameters' values for one method of the suite.
+ParameterLists listsOf(const SuiteDraft& draft, const std::string& id) {
+    ParameterLists lists = draft.parameters;
+    for (const auto& [method, own] : draft.methodParameters)
+        if (method == id)
+            for (const auto& [name, values] : own) setList(lists, name, values);
+    return lists;
+}
+
+void requireFewEnough(const SuiteDraft& draft) {
+    double cells = 0;
+    for (const std::string& id : draft.methods) cells += combinations(listsOf(draft, id));
+    for (const std::size_t count : {draft.scenes.size(), draft.drives.size(), draft.sizes.size(), draft.seeds.size()})
+        cells *= static_cast<double>(count);
+    requireFewEnough("suite", cells * draft.suite.repetitions);
+}
+
 /// `wholeFile`: an exception that excludes nothing is an error; in `[quick]`, which has fewer cells, it is not.
 Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     requireFramesWithinRun(draft.base);
+    requireFewEnough(draft);
     Suite suite = std::move(draft.suite);
     for (const std::string& id : draft.methods) {
-        ParameterLists lists = draft.parameters;
-        for (const auto& [method, own] : draft.methodParameters)
-            if (method == id)
-                for (const auto& [name, values] : own) setList(lists, name, values);
+        const ParameterLists lists = listsOf(draft, id);
         for (const std::string& scene : draft.scenes)
             for (const std::string& drive : draft.drives)
                 for (const std::string& size : draft.sizes)
@@ -203,6 +232,7 @@ Suite parseSuite(std::string_view text, const std::string& name, bool quick) {
 }
 
 std::vector<PlannedRun> expandParameters(const RunSpec& base, const MethodInfo& method, const ParameterLists& lists) {
+    requireFewEnough("-P", combinations(lists));
     std::vector<PlannedRun> runs;
     std::vector<std::size_t> choice(lists.size(), 0);
     for (;;) {
@@ -228,6 +258,7 @@ RunSpec inRepetition(RunSpec cell, int repetition) {
 }
 
 std::vector<PlannedRun> planRuns(const Suite& cellsOnly) {
+    requireFewEnough("suite", static_cast<double>(cellsOnly.cells.size()) * cellsOnly.repetitions);
     const Suite suite = withBaselines(cellsOnly);
     std::vector<PlannedRun> plan;
     const auto add = [&plan](PlannedRun run, int repetition) {

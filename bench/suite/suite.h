@@ -61,6 +61,7 @@ struct Suite {
 
 /// One list of values per parameter, in order.
 using ParameterLists = std::vector<std::pair<std::string, std::vector<std::string>>>;
+/// Throws InputError for more than files::limits::plannedRuns of them.
 /// `base` with every combination of the values set and labelled; the last parameter changes fastest.
 [[nodiscard]] std::vector<PlannedRun> expandParameters(const RunSpec& base, const MethodInfo& method,
                                                        const ParameterLists& lists);

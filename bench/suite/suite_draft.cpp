@@ -11,12 +11,13 @@
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/limits.h"
 
 namespace dustbench::bench {
 namespace {
 
 constexpr std::int64_t maximumFrames = 10'000'000;
-constexpr std::int64_t maximumRepetitions = 1000;
+constexpr std::int64_t maximumRepetitions = files::limits::repetitions;
 
 [[nodiscard]] InputError at(const std::string& where, const InputError& error) {
     return InputError(where + error.what());

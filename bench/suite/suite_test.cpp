@@ -234,6 +234,18 @@ TEST(Suite, MistakesNameFileLineAndWhatIsNear) {
     EXPECT_THAT(messageOf("[method.billbord]\nsort = \"none\""), HasSubstr("'billboard'"));
 }
 
+TEST(Suite, ItsRunsAreCountedBeforeTheyAreMade) {
+    const std::string loads = "[parameters]\nparticles = \"1:10000:1\"\n";
+    EXPECT_THAT(messageOf("methods = [\"null_method\"]\nrepetitions = 1000\n" + loads),
+                HasSubstr("got 10000000 planned runs, allowed: 100000 (limit of a command)"));
+    EXPECT_THAT(messageOf("methods = [\"null_method\"]\n" + loads + "speed = \"0.001:10:0.001\"\n"),
+                HasSubstr("got 100000000 planned runs, allowed: 100000"));
+    EXPECT_THAT(messageOf("methods = [\"null_method\"]\nrepetitions = 1001\n"), HasSubstr("1..1000"));
+    const MethodInfo& method = findMethod("null_method");
+    const std::vector<std::string> thousand(1000, "1");
+    EXPECT_THROW((void)expandParameters(RunSpec(), method, {{"particles", thousand}, {"speed", thousand}}), InputError);
+}
+
 TEST(Suite, EverySuiteOfTheProjectCanBePlanned) {
     const auto suites = listSuites();
     EXPECT_FALSE(suites.empty());

@@ -7,6 +7,7 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
+#include "methods/kit/files/limits.h"
 
 namespace dustbench::bench {
 namespace {
@@ -72,6 +73,9 @@ std::vector<std::string> expandValues(std::string_view what, std::string_view te
         } else {
             values.emplace_back(part);
         }
+        if (values.size() > static_cast<std::size_t>(files::limits::plannedRuns))
+            throw InputError(std::string(what) + ": got more than " + std::to_string(files::limits::plannedRuns) +
+                             " values, which is the limit of a command's planned runs");
     }
     return values;
 }

@@ -31,4 +31,16 @@ TEST(ValueList, RefusesWhatIsNoListAndNoRange) {
         EXPECT_THROW((void)expandValues("p", text), InputError) << text;
 }
 
+TEST(ValueList, StopsAtTheLimitOfPlannedRuns) {
+    std::string text = "1:9999:1";
+    for (int i = 0; i < 9; ++i) text += ",1:9999:1";
+    EXPECT_EQ(expandValues("p", text).size(), 99'990u);
+    try {
+        (void)expandValues("p", text + ",1:9999:1");
+        FAIL() << "nothing thrown";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("more than 100000 values"));
+    }
+}
+
 }  // namespace dustbench::bench

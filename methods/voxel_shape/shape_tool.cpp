@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "methods/contract/choices.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/experiment.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/whole_text.h"
 #include "methods/voxel_shape/edit_text.h"
 #include "methods/voxel_shape/shape_builder.h"
 #include "methods/voxel_shape/shape_file.h"
@@ -100,8 +100,7 @@ std::string textOf(const fs::path& file, const fs::path& folder, const std::stri
     if (isVoxelFile(file))
         return fmt::format("description = \"voxels of {}\"\nvoxels_from = \"{}\"\n{}", file.filename().string(),
                            fs::proximate(fs::absolute(file), fs::absolute(folder)).generic_string(), edits);
-    std::ifstream stream(file, std::ios::binary);
-    return withEdits(std::string(std::istreambuf_iterator<char>(stream), {}), file, folder, edits);
+    return withEdits(files::wholeText(file, "a shape file"), file, folder, edits);
 }
 
 void save(const Call& call, const Shape& edited, const VoxelGrid& voxels) {

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/input_log.h"
+#include "methods/kit/files/whole_text.h"
 
 namespace dustbench::files {
 namespace {
@@ -97,10 +96,7 @@ CsvTable CsvTable::parseText(std::string_view text, std::string name) {
 }
 
 CsvTable CsvTable::parseFile(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file))
-        throw InputError(file.string() + ": cannot be read, expected a CSV file");
-    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    const std::string text = wholeText(file, "a CSV file");
     noteInput(file);
     return parseText(text, file.string());
 }
@@ -121,15 +117,21 @@ const std::string& CsvTable::cell(std::size_t row, std::string_view column) cons
 
 double CsvTable::number(std::size_t row, std::string_view column) const {
     const std::string& text = cell(row, column);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    const std::optional<double> value = numberOf(text);
+    if (!value)
         throw InputError(where(row) + "column '" + std::string(column) + "': got '" + text + "', expected a number");
-    return value;
+    return *value;
 }
 
 std::string CsvTable::where(std::size_t row) const {
     return name_ + ":" + std::to_string(lines_.at(row)) + ": ";
+}
+
+std::optional<double> numberOf(std::string_view text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
 }
 
 std::string csvCell(std::string_view text) {

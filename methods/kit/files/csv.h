@@ -33,6 +33,8 @@ class DUSTBENCH_API CsvTable {
     std::vector<std::size_t> lines_;
 };
 
+/// The whole text as a finite number, however small, else empty.
+[[nodiscard]] DUSTBENCH_API std::optional<double> numberOf(std::string_view text);
 /// A cell's text, quoted if necessary.
 [[nodiscard]] DUSTBENCH_API std::string csvCell(std::string_view text);
 /// The shortest text that reads back as the same number; empty for NaN and infinities.

@@ -32,6 +32,12 @@ TEST(Csv, WrittenNumbersReadBackTheSame) {
     EXPECT_EQ(csvNumber(std::numeric_limits<double>::quiet_NaN()), "");
 }
 
+TEST(Csv, NumbersMayBeTinyButMustBeNumbers) {
+    for (const double value : {1e-310, 5e-324, -1e-310, 1e308}) EXPECT_EQ(numberOf(csvNumber(value)), value);
+    for (const char* text : {"", "abc", "1 ", " 1", "nan", "inf", "-inf", "1e999", "0x10", "true"})
+        EXPECT_FALSE(numberOf(text)) << text;
+}
+
 TEST(Csv, NamesTheLineOfWhatIsWrong) {
     const auto messageOf = [](const char* text, auto action) {
         try {

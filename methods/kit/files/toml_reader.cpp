@@ -5,7 +5,6 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <set>
 #include <sstream>
@@ -13,6 +12,8 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/input_log.h"
+#include "methods/kit/files/toml_nesting.h"
+#include "methods/kit/files/whole_text.h"
 
 namespace dustbench::files {
 
@@ -51,6 +52,9 @@ TomlReader& TomlReader::operator=(TomlReader&&) noexcept = default;
 TomlReader::~TomlReader() = default;
 
 TomlReader TomlReader::parseText(std::string_view text, std::string name) {
+    if (const std::size_t line = tooDeepLine(text, limits::tomlLevels); line > 0)
+        throw InputError(fmt::format("{}:{}: tables and arrays nest too deeply, allowed: {} levels", name, line,
+                                     limits::tomlLevels));
     try {
         auto document = std::make_shared<const toml::table>(toml::parse(text, name));
         return TomlReader(std::make_unique<State>(State{document, document.get(), std::move(name), "", {}}));
@@ -61,10 +65,7 @@ TomlReader TomlReader::parseText(std::string_view text, std::string name) {
 }
 
 TomlReader TomlReader::parseFile(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file))
-        throw InputError(file.string() + ": cannot be read, expected a TOML file");
-    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    const std::string text = wholeText(file, "a TOML file");
     noteInput(file);
     return parseText(text, file.string());
 }

@@ -21,6 +21,7 @@ namespace dustbench::files {
 /// name. All members throw InputError, `scenes/flat.toml:12: key 'wind' … got …, expected …`.
 class DUSTBENCH_API TomlReader {
  public:
+    /// Limits: limits.h, for the file's length and its depth.
     static TomlReader parseFile(const std::filesystem::path& file);
     /// `name` is the file name used in messages.
     static TomlReader parseText(std::string_view text, std::string name);

@@ -9,6 +9,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/pictures/image.h"
 #include "methods/kit/pictures/picture_files.h"
+#include "methods/kit/pictures/picture_limits.h"
 
 namespace dustbench::pictures {
 namespace {
@@ -79,6 +80,8 @@ void writeImage(const Image& image, const fs::path& file) {
 Image readImage(const fs::path& file) {
     StoredPicture stored;
     if (const std::string reason = readPicture(file, stored); !reason.empty())
+        throw InputError("cannot read image '" + file.string() + "': " + reason);
+    if (const std::string reason = tooLarge(stored.width, stored.height, 4); !reason.empty())
         throw InputError("cannot read image '" + file.string() + "': " + reason);
     const auto pixels = static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height);
     const auto channels = static_cast<std::size_t>(stored.channels);

@@ -2,13 +2,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <random>
 #include <string>
 
 #include "methods/kit/pictures/picture_files.h"
+#include "methods/kit/pictures/picture_limits.h"
 #include "methods/kit/testing/test_input_error.h"
 
 namespace dustbench::pictures {
@@ -165,6 +168,67 @@ TEST_F(ImageFile, UnreadableOnesAreNamedInOneLine) {
     const std::string missing = inputError([&] { static_cast<void>(readImage(folder_ / "missing.exr")); });
     EXPECT_THAT(missing, testing::HasSubstr("missing.exr"));
     EXPECT_EQ(missing.find('\n'), std::string::npos);
+}
+
+/// The head of a PNG file: all that a bomb needs.
+std::string pngHead(std::uint32_t width, std::uint32_t height, int bits, int colours) {
+    const auto word = [](std::uint32_t value) {
+        std::string bytes;
+        for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
+        return bytes;
+    };
+    const auto crc = [&](const std::string& data) {
+        std::uint32_t sum = 0xffffffff;
+        for (const char byte : data) {
+            sum ^= static_cast<unsigned char>(byte);
+            for (int bit = 0; bit < 8; ++bit) sum = sum & 1 ? sum >> 1 ^ 0xedb88320 : sum >> 1;
+        }
+        return word(~sum);
+    };
+    const std::string head = "IHDR" + word(width) + word(height) + static_cast<char>(bits) +
+                             static_cast<char>(colours) + std::string(3, '\0');
+    const std::string data = std::string("IDAT") + "\x78\x9c\x03";
+    return "\x89PNG\r\n\x1a\n" + word(13) + head + crc(head) + word(3) + data + crc(data);
+}
+
+/// Kilobytes of memory that the process has had at most.
+long peakKilobytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
+
+TEST_F(ImageFile, BombsAreRefusedByTheirHeaders) {
+    const auto refusal = [&](const std::string& bytes) {
+        const fs::path file = folder_ / "bomb.png";
+        std::ofstream(file, std::ios::binary) << bytes;
+        return inputError([&] { static_cast<void>(readImage(file)); });
+    };
+    const long before = peakKilobytes();
+    for (const int colours : {0, 2, 6})
+        EXPECT_THAT(refusal(pngHead(30'000, 30'000, 8, colours)), testing::HasSubstr("allowed: 16384 a side"));
+    EXPECT_THAT(refusal(pngHead(30'000, 30'000, 16, 6)), testing::HasSubstr("allowed: 16384 a side"));
+    EXPECT_THAT(refusal(pngHead(16'384, 16'384, 8, 2)), testing::HasSubstr("allowed: 1 GB decoded"));
+    EXPECT_THAT(refusal(pngHead(8'000, 8'000, 8, 2)), testing::HasSubstr("says too many pixels"));
+    testing::internal::CaptureStderr();
+    EXPECT_THAT(refusal(pngHead(1'000'000'000, 3, 8, 2)), testing::HasSubstr("bomb.png"));
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_LT(peakKilobytes() - before, 200'000);
+}
+
+TEST_F(ImageFile, LimitsHoldForOtherFormats) {
+    const auto refusal = [&](const std::string& name, const std::string& head) {
+        std::ofstream(folder_ / name, std::ios::binary) << head;
+        return inputError([&] { static_cast<void>(readImage(folder_ / name)); });
+    };
+    EXPECT_THAT(refusal("a.pgm", "P5\n20000 2\n255\n"), testing::HasSubstr("allowed: 16384 a side"));
+    EXPECT_THAT(refusal("a.ppm", "P6\n16000 16000\n255\n"), testing::HasSubstr("allowed: 1 GB decoded"));
+    EXPECT_THAT(inputError([&] { static_cast<void>(readImage("/dev/zero")); }), testing::HasSubstr("is a device"));
+    EXPECT_EQ(tooLarge(8192, 8192, 4), "");
+    EXPECT_EQ(tooLarge(16'384, 4096, 4), "");
+    EXPECT_NE(tooLarge(8192, 8193, 4), "");
+    EXPECT_NE(tooLarge(16'385, 1, 1), "");
+    EXPECT_NE(tooLarge(16'384, 16'384, 2'000'000'000), "");
 }
 
 TEST_F(ImageFile, CutOffOnesAreRefused) {

@@ -13,7 +13,8 @@
 
 namespace dustbench::pictures {
 
-/// Reads any file that OpenImageIO can read.
+/// Reads any file that OpenImageIO can read, within the limits of kit/files/limits.h, which are checked against the
+/// header before memory for the pixels is allocated.
 [[nodiscard]] DUSTBENCH_API std::string readPicture(const std::filesystem::path& file, StoredPicture& picture);
 /// Width and height alone, which is quick however large the picture is; the rest of `picture` stays as it is.
 [[nodiscard]] DUSTBENCH_API std::string readPictureSize(const std::filesystem::path& file, StoredPicture& picture);

@@ -1,7 +1,12 @@
 // PNG files through libpng: 8-bit files are read here, others by OpenImageIO.
 #include <png.h>
 
+#include <array>
+#include <fstream>
+
+#include "methods/kit/files/whole_text.h"
 #include "methods/kit/pictures/picture_files.h"
+#include "methods/kit/pictures/picture_limits.h"
 
 namespace dustbench::pictures {
 namespace {
@@ -21,15 +26,33 @@ class PngImage {
     png_image image_{};
 };
 
+bool isPng(const std::filesystem::path& file) {
+    std::array<png_byte, 8> start{};
+    std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(start.data()), start.size());
+    return png_sig_cmp(start.data(), 0, start.size()) == 0;
+}
+
+/// PNG packs at most 1,032 bytes into one, and eight pixels into a byte: a short file cannot hold a large picture.
+bool isTooShort(const std::filesystem::path& file, const png_image& image) {
+    std::error_code none;
+    constexpr std::uintmax_t pixelsPerByte = 8 * 1032;
+    return std::filesystem::file_size(file, none) < std::uintmax_t{image.width} * image.height / pixelsPerByte;
+}
+
 }  // namespace
 
 std::string readPicture(const std::filesystem::path& file, StoredPicture& picture) {
+    if (std::string reason = files::refusalOf(file, files::limits::geometryBytes); !reason.empty()) return reason;
     PngImage image;
-    // OpenImageIO handles everything but plain 8-bit PNG, and reports what is wrong with invalid files.
-    if (png_image_begin_read_from_file(image.get(), file.c_str()) == 0 ||
-        (image->format & (PNG_FORMAT_FLAG_LINEAR | PNG_FORMAT_FLAG_COLORMAP)) != 0 || image->warning_or_error != 0)
+    // OpenImageIO handles everything but plain 8-bit PNG. It lets libpng write to standard error where PNG is damaged.
+    const bool begun = png_image_begin_read_from_file(image.get(), file.c_str()) != 0;
+    if (!begun && isPng(file)) return image.message();
+    if (!begun || (image->format & (PNG_FORMAT_FLAG_LINEAR | PNG_FORMAT_FLAG_COLORMAP)) != 0 ||
+        image->warning_or_error != 0)
         return pictureLibrary().read(file, picture);
     const int channels = static_cast<int>(PNG_IMAGE_SAMPLE_CHANNELS(image->format));
+    if (std::string reason = tooLarge(image->width, image->height, channels); !reason.empty()) return reason;
+    if (isTooShort(file, *image.get())) return "it is cut, or its header says too many pixels";
     std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(*image.get()));
     if (png_image_finish_read(image.get(), nullptr, bytes.data(), 0, nullptr) == 0) return image.message();
     const bool hasAlpha = (image->format & PNG_FORMAT_FLAG_ALPHA) != 0;
@@ -45,8 +68,10 @@ std::string readPicture(const std::filesystem::path& file, StoredPicture& pictur
 }
 
 std::string readPictureSize(const std::filesystem::path& file, StoredPicture& picture) {
+    if (std::string reason = files::refusalOf(file, files::limits::geometryBytes); !reason.empty()) return reason;
     PngImage image;
-    if (png_image_begin_read_from_file(image.get(), file.c_str()) == 0) return pictureLibrary().readSize(file, picture);
+    if (png_image_begin_read_from_file(image.get(), file.c_str()) == 0)
+        return isPng(file) ? image.message() : pictureLibrary().readSize(file, picture);
     picture.width = static_cast<int>(image->width);
     picture.height = static_cast<int>(image->height);
     return "";

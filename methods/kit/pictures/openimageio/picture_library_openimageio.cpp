@@ -8,6 +8,7 @@
 #include <cctype>
 
 #include "methods/kit/pictures/picture_library.h"
+#include "methods/kit/pictures/picture_limits.h"
 
 namespace dustbench::pictures {
 namespace {
@@ -40,6 +41,7 @@ class OpenImageIo final : public PictureLibrary {
         const OIIO::ImageSpec& spec = input->spec();
         const int channels = spec.nchannels;
         if (channels < 1 || spec.width < 1 || spec.height < 1 || spec.depth > 1) return "it is not a flat picture";
+        if (std::string reason = tooLarge(spec.width, spec.height, channels); !reason.empty()) return reason;
         const std::string space = spec.get_string_attribute("oiio:ColorSpace");
         const bool integers = !spec.format.is_floating_point();
         picture = {spec.width,
