@@ -9,7 +9,9 @@
 
 #include "bench/claims/claim_control.h"
 #include "bench/suite/suite.h"
+#include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
+#include "methods/kit/files/limits.h"
 
 namespace dustbench::bench {
 namespace {
@@ -37,12 +39,22 @@ std::string cellsText(const std::vector<ClaimCell>& cells) {
     return fmt::format("{}", fmt::join(texts, "; "));
 }
 
+/// Counted through, so it is held to its limit.
+int repetitionIn(const files::CsvTable& summary, std::size_t row) {
+    const double number = summary.number(row, "repetition");
+    if (!(number >= 1 && number <= files::limits::repetitions))
+        throw InputError(fmt::format("{}column 'repetition': got '{}', allowed: 1..{} (limit of repetitions)",
+                                     summary.where(row), summary.cell(row, "repetition").substr(0, 40),
+                                     files::limits::repetitions));
+    return static_cast<int>(number);
+}
+
 }  // namespace
 
 std::set<std::string> runIdsOf(const std::string& suiteId, const files::CsvTable& summary) {
     int repetitions = 1;
     for (std::size_t row = 0; row < summary.rows(); ++row)
-        repetitions = std::max(repetitions, static_cast<int>(summary.number(row, "repetition")));
+        repetitions = std::max(repetitions, repetitionIn(summary, row));
     std::set<std::string> ids;
     for (const bool quick : {false, true})
         for (const PlannedRun& cell : loadSuite(suiteId, quick).cells)

@@ -32,7 +32,7 @@ class SampleTable {
     [[nodiscard]] std::string keyOf(std::size_t row) const { return rows_.cellKey(row, within_); }
     [[nodiscard]] std::int64_t turnOf(std::size_t row) const {
         if (rule_.over != Chance::seeds) return rows_.repetition(row);
-        return static_cast<std::int64_t>(rows_.number(row, "seed").value_or(1));
+        return static_cast<std::int64_t>(std::clamp(rows_.number(row, "seed").value_or(1), 0.0, 9e18));
     }
     void add(const std::string& key, std::int64_t turn, double numerator, double denominator = 1) {
         values_[key][turn].push_back({numerator, denominator});

@@ -44,7 +44,8 @@ std::string findingsCsv(const std::vector<StoredFinding>& findings) {
 std::vector<StoredFinding> readFindings(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "experiments.csv";
     std::vector<StoredFinding> findings;
-    if (!std::filesystem::exists(file)) return findings;
+    std::error_code missing;
+    if (!std::filesystem::exists(std::filesystem::symlink_status(file, missing))) return findings;
     const files::CsvTable table = files::CsvTable::parseFile(file);
     const bool hasNotes = table.hasColumn("note");  // older results do not
     for (std::size_t row = 0; row < table.rows(); ++row)

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <iterator>
 #include <map>
 #include <sstream>
@@ -15,12 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 9> identityColumns{"method", "scene", "drive",   "seed",  "width",
                                                           "height", "sync",  "threads", "frames"};
 
-std::optional<double> numberOf(const std::string& text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
+using files::numberOf;
 
 bool sameValue(const std::string& a, const std::string& b) {
     if (a == b) return true;
@@ -71,7 +65,7 @@ std::optional<double> ResultRows::number(std::size_t row, std::string_view colum
 }
 
 int ResultRows::repetition(std::size_t row) const {
-    return static_cast<int>(number(row, "repetition").value_or(1));
+    return static_cast<int>(std::clamp(number(row, "repetition").value_or(1), 0.0, 1e9));
 }
 
 const std::string& ResultRows::runId(std::size_t row) const {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -66,6 +67,32 @@ TEST_F(Dustbench, WrongUseIsOneLineAndExitCodeThree) {
         EXPECT_EQ(std::ranges::count(called.err, '\n'), 1) << arguments << "\n" << called.err;
         EXPECT_EQ(called.out, "") << arguments;
     }
+}
+
+TEST_F(Dustbench, NothingOfAFileReachesTheTerminalRaw) {
+    const auto expectOneLine = [&](const std::string& arguments) {
+        const Called called = call(arguments);
+        EXPECT_EQ(called.code, 3) << arguments;
+        EXPECT_LE(called.err.size(), 1000u) << arguments;
+        EXPECT_TRUE(called.err.starts_with("dustbench: ")) << called.err;
+        EXPECT_EQ(std::ranges::count_if(called.err, [](unsigned char c) { return c < 32 || c == 127; }), 1)
+            << arguments << "\n"
+            << called.err;  // the end of the line
+    };
+    std::ofstream(folder_ / "control.toml") << "methods = [\"a\\u001b[2J\\u0007b\"]\n";
+    std::ofstream(folder_ / "long.toml") << "methods = [\"" << std::string(5'000'000, 'x') << "\"]\n";
+    std::ofstream(folder_ / "deep.toml") << "a = " << std::string(31'000, '[') << "\n";
+    std::ofstream(folder_ / "big.toml")
+        << "methods = [\"null_method\"]\n[parameters]\nparticles = \"1:10000:1\"\nspeed = \"0.001:10:0.001\"\n";
+    for (const char* name : {"control", "long", "deep", "big"})
+        expectOneLine(fmt::format("suite {}/{}.toml --dry-run --out {}", folder_.string(), name, out()));
+    fs::create_symlink("loop.toml", folder_ / "loop.toml");
+    ASSERT_EQ(mkfifo((folder_ / "pipe.toml").c_str(), 0600), 0);
+    for (const char* name : {"loop.toml", "pipe.toml"})
+        expectOneLine(fmt::format("suite {}/{} --dry-run --out {}", folder_.string(), name, out()));
+    expectOneLine("view --state " + (folder_ / "pipe.toml").string());
+    expectOneLine("diff /dev/zero /dev/zero");
+    EXPECT_FALSE(fs::exists(out()));
 }
 
 TEST_F(Dustbench, AMalformedFileIsNamedWithItsLine) {

@@ -2,11 +2,13 @@
 // code.
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <list>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/cli/commands.h"
@@ -14,15 +16,15 @@
 #include "bench/measure/provenance.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/printable.h"
 #include "methods/kit/gpu/device.h"
 
 namespace dustbench::cli {
 namespace {
 
-/// The message without line breaks, so that stderr always gets one line.
-std::string oneLine(std::string message) {
-    std::ranges::replace(message, '\n', ' ');
-    return message;
+/// Stderr gets exactly one line, whatever a file's text or name holds.
+void say(std::string_view message, std::string_view kind = "") {
+    std::cerr << "dustbench: " << kind << files::printable(message) << std::endl;
 }
 
 /// `--adapter` and `--data`, for this process and its children.
@@ -67,13 +69,16 @@ int main(int argc, char** argv) {
     try {
         return cli::run({argv + std::min(argc, 1), argv + argc});
     } catch (const InputError& error) {
-        std::cerr << "dustbench: " << cli::oneLine(error.what()) << '\n';
+        cli::say(error.what());
+        return cli::exitBadInput;
+    } catch (const std::filesystem::filesystem_error& error) {
+        cli::say("'" + error.path1().string() + "': " + error.code().message());
         return cli::exitBadInput;
     } catch (const SimulationError& error) {
-        std::cerr << "dustbench: " << cli::oneLine(error.what()) << '\n';
+        cli::say(error.what());
         return cli::exitRunFailed;
     } catch (const std::exception& error) {
-        std::cerr << "dustbench: internal error: " << cli::oneLine(error.what()) << '\n';
+        cli::say(error.what(), "internal error: ");
         return cli::exitInternal;
     }
 }

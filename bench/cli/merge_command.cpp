@@ -12,6 +12,7 @@
 #include "bench/results/merge.h"
 #include "bench/results/stored_folder.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/printable.h"
 
 namespace dustbench::cli {
 namespace {
@@ -31,7 +32,7 @@ void sayWhereMachinesDiffer(const bench::StoredRuns& runs) {
         if (!first) first = &run;
         for (const auto& [field, mine, other] : bench::differences(*first, run, bench::machineFields()))
             if (const std::string text = fmt::format("{}: '{}' and '{}'", field, mine, other); said.insert(text).second)
-                std::cerr << "note: the runs are of different machines, " << text << "\n";
+                std::cerr << "note: the runs are of different machines, " << files::printable(text) << "\n";
     }
 }
 

@@ -8,6 +8,7 @@
 #include "bench/cli/interruption.h"
 #include "bench/cli/progress_printer.h"
 #include "bench/measure/provenance.h"
+#include "methods/kit/files/printable.h"
 #include "methods/kit/gpu/device.h"
 
 namespace dustbench::cli {
@@ -62,7 +63,8 @@ bench::PlanForecast forecastRuns(const std::vector<bench::PlannedRun>& plan, ben
 int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,
             const PlanOptions& options) {
     const bench::ExecutionOptions execution = executionOf(options);
-    for (const std::string& sentence : results.setAside()) std::cerr << "warning: " << sentence << std::endl;
+    for (const std::string& sentence : results.setAside())
+        std::cerr << "warning: " << files::printable(sentence) << std::endl;
     ProgressPrinter printer;
     const bench::ExecutionResult result = bench::execute(plan, repetitions, results, execution, printer);
     if (result.aborted) {
@@ -74,7 +76,7 @@ int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::
                   << result.kept << " existing" << std::endl;
     if (result.outdated > 0)
         std::cerr << "outdated: " << result.outdated << " of the existing results; --redo-outdated re-runs them ("
-                  << result.whyOutdated << ")" << std::endl;
+                  << files::printable(result.whyOutdated) << ")" << std::endl;
     return result.failed > 0 ? exitRunFailed : exitOk;
 }
 

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "bench/run/progress.h"
+#include "methods/kit/files/printable.h"
 
 namespace dustbench::cli {
 namespace {
@@ -29,7 +30,7 @@ void ProgressPrinter::eraseBar() {
 
 void ProgressPrinter::started(std::size_t position, std::size_t total, const bench::PlannedRun& run, int repetitions,
                               double etaSeconds) {
-    std::cerr << bench::progressLine(position, total, run, repetitions, etaSeconds) << std::endl;
+    std::cerr << files::printable(bench::progressLine(position, total, run, repetitions, etaSeconds)) << std::endl;
     last_.clear();
     lastShown_ = std::chrono::steady_clock::now();
 }
@@ -39,9 +40,9 @@ void ProgressPrinter::heard(std::string_view line) {
     const auto now = std::chrono::steady_clock::now();
     if (terminal_ && now - lastShown_ >= barInterval) {
         eraseBar();
-        std::cerr << bench::progressBar(last_, terminalWidth()) << std::flush;
+        std::cerr << files::printable(bench::progressBar(last_, terminalWidth())) << std::flush;
     } else if (!terminal_ && now - lastShown_ >= plainInterval) {
-        std::cerr << "    " << (last_.empty() ? "starting" : last_) << std::endl;
+        std::cerr << "    " << (last_.empty() ? "starting" : files::printable(last_)) << std::endl;
     } else {
         return;
     }
@@ -51,7 +52,7 @@ void ProgressPrinter::heard(std::string_view line) {
 void ProgressPrinter::ended(const bench::PlannedRun&, bench::RunStatus status, const std::string& reason) {
     eraseBar();
     if (status != bench::RunStatus::done)
-        std::cerr << "    " << bench::runStatuses.wordOf(status) << ": " << reason << std::endl;
+        std::cerr << "    " << bench::runStatuses.wordOf(status) << ": " << files::printable(reason) << std::endl;
 }
 
 }  // namespace dustbench::cli

@@ -13,6 +13,7 @@
 #include "bench/suite/planned_evaluation.h"
 #include "bench/suite/regression/regression_table.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/printable.h"
 
 namespace dustbench::cli {
 namespace {
@@ -64,8 +65,9 @@ int checkRegression(const RegressionOptions& options) {
     const bench::ResultsSide a{options.a, bench::readStoredRuns(options.a)};
     const bench::ResultsSide b{options.b, bench::readStoredRuns(options.b)};
     const bench::FolderComparison comparison = bench::compareFolders(a, b, columns, options.acrossMachines);
-    for (const std::string& remark : comparison.remarks) std::cerr << "note: " << remark << "\n";
-    for (const std::string& obstacle : comparison.obstacles) std::cerr << "not comparable: " << obstacle << "\n";
+    for (const std::string& remark : comparison.remarks) std::cerr << "note: " << files::printable(remark) << "\n";
+    for (const std::string& obstacle : comparison.obstacles)
+        std::cerr << "not comparable: " << files::printable(obstacle) << "\n";
     if (!comparison.obstacles.empty()) return exitNotComparable;
 
     std::cout << fmt::format(

@@ -11,6 +11,7 @@
 #include "bench/report/page.h"
 #include "bench/report/report_reader.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/printable.h"
 
 namespace dustbench::cli {
 namespace {
@@ -40,7 +41,7 @@ int report(const ReportOptions& options) {
     const bool needsPictures = !options.text && options.chart.empty();
     const bench::ReportData data = bench::readReport(
         options.folder, needsPictures ? static_cast<std::int64_t>(options.pictureMegabytes * 1e6) : 0);
-    for (const std::string& problem : data.problems) std::cerr << "note: " << problem << "\n";
+    for (const std::string& problem : data.problems) std::cerr << "note: " << files::printable(problem) << "\n";
     if (options.text) {
         printTables(data);
     } else if (!options.chart.empty()) {

@@ -25,6 +25,7 @@
 #include "bench/suite/suite.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
+#include "methods/kit/files/printable.h"
 
 namespace dustbench::cli {
 namespace {
@@ -92,7 +93,7 @@ bool sayHowLong(std::vector<PaperWork>& work) {
             const bench::PlanForecast forecast = forecastRuns(each.plan, *paper.results, each.options);
             if (forecast.aborted) return false;
             for (const std::string& warning : forecast.warnings)
-                std::cerr << "warning: " << each.suite.id << ": " << warning << std::endl;
+                std::cerr << "warning: " << each.suite.id << ": " << files::printable(warning) << std::endl;
             std::cerr << fmt::format("    {}: {} runs, {}", each.suite.id, forecast.runs,
                                      bench::durationText(forecast.seconds))
                       << std::endl;

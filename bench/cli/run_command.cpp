@@ -1,6 +1,7 @@
 // `dustbench run`: one method in one scene; lists and ranges in -P give several runs.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -11,8 +12,10 @@
 #include "bench/cli/text_table.h"
 #include "bench/cli/volume_options.h"
 #include "bench/cli/world_options.h"
+#include "bench/suite/cell_results.h"
 #include "methods/contract/registry.h"
 #include "methods/contract/stage_clock.h"
+#include "methods/kit/files/printable.h"
 
 namespace dustbench::cli {
 namespace {
@@ -42,10 +45,11 @@ void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results)
     const bench::StoredRun& stored = results.runs().at(id);
     std::cout << results.runFolder(id).string() << (run.label.empty() ? "" : "  " + run.label) << "\n";
     if (stored.status != bench::RunStatus::done) {
-        std::cout << "  " << bench::runStatuses.wordOf(stored.status) << ": " << stored.reason << "\n";
+        std::cout << "  " << bench::runStatuses.wordOf(stored.status) << ": " << files::printable(stored.reason)
+                  << "\n";
         return;
     }
-    const auto number = [&stored](const std::string& name) { return std::stod(stored.cells.at(name)); };
+    const auto number = [&stored](const std::string& name) { return bench::numberIn(stored, name).value_or(NAN); };
     const double frameMs = number("frame_ms_median");
     std::vector<std::vector<std::string>> rows{{"  median of", "ms", "share"}};
     rows.push_back({"  frame", fixed(frameMs, 3), "100.0%"});
@@ -57,7 +61,7 @@ void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results)
               << fmt::format("  {:.1f} fps, 95 % of the frames within {:.2f} ms, {:.0f} particles, {:.0f} primitives\n",
                              number("fps_avg"), number("frame_ms_p95"), number("particles_median"),
                              number("primitives_median"));
-    for (const std::string& warning : stored.warnings) std::cout << "  warning: " << warning << "\n";
+    for (const std::string& warning : stored.warnings) std::cout << "  warning: " << files::printable(warning) << "\n";
 }
 
 int run(const RunOptions& options) {

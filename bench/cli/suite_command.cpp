@@ -21,6 +21,8 @@
 #include "bench/suite/shard.h"
 #include "bench/suite/suite.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/limits.h"
+#include "methods/kit/files/printable.h"
 
 namespace dustbench::cli {
 namespace {
@@ -83,8 +85,10 @@ int printPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, const
             ++toDo;
             bytes += bench::maximumBytesOf(run.spec);
         }
-        std::cout << fmt::format("{}  {:<8}  {} {} {}{}rep {}/{}\n", id, state, run.spec.method, run.spec.scene,
-                                 run.label, run.label.empty() ? "" : " ", run.spec.repetition, repetitions);
+        std::cout << files::printable(fmt::format("{}  {:<8}  {} {} {}{}rep {}/{}", id, state, run.spec.method,
+                                                  run.spec.scene, run.label, run.label.empty() ? "" : " ",
+                                                  run.spec.repetition, repetitions))
+                  << "\n";
     }
     std::cerr << fmt::format("{} runs, {} to do, which take {} at most\n", plan.size(), toDo, bench::bytesText(bytes));
     return exitOk;
@@ -138,7 +142,7 @@ Command suiteCommand() {
                 arguments.required("--out", "DIR", "folder for the results; made where it is missing", options->out);
                 arguments.flag("--quick", "the suite's short form", options->quick);
                 arguments.integer("--repetitions", "of every run, each in a new process; 0: as the suite says",
-                                  options->repetitions, 0, 1000);
+                                  options->repetitions, 0, files::limits::repetitions);
                 arguments.flag("--force", "re-run existing results", options->force);
                 arguments.flag("--retry-failed", "re-run what failed or timed out", options->retryFailed);
                 arguments.flag("--redo-outdated",

@@ -6,6 +6,7 @@
 #include "bench/suite/suite_fit.h"
 #include "bench/suite/suite_table.h"
 #include "bench/suite/suite_verdicts.h"
+#include "methods/kit/files/printable.h"
 
 namespace dustbench::cli {
 namespace {
@@ -33,7 +34,7 @@ std::string textOf(bench::TextRows table) {
 
 std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs) {
     std::string text =
-        fmt::format("{}\nframes per second; ms of a frame and of its stages; {}\n", suite.title,
+        fmt::format("{}\nframes per second; ms of a frame and of its stages; {}\n", files::printable(suite.title),
                     suite.repetitions == 1 ? std::string("one run each")
                                            : fmt::format("medians over {} runs each", suite.repetitions));
     text += textOf(bench::tabulate(suite, runs));
@@ -48,7 +49,7 @@ std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs
         text += fmt::format("\n{} against {}: ratio of their times, 95 % interval over paired runs\n", comparison.of,
                             comparison.with);
         text += textOf(bench::tabulate(comparison));
-        for (const std::string& sentence : bench::conclusions(comparison)) text += sentence + "\n";
+        for (const std::string& sentence : bench::conclusions(comparison)) text += files::printable(sentence) + "\n";
     }
     return text;
 }

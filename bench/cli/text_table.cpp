@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/kit/files/printable.h"
+
 namespace dustbench::cli {
 namespace {
 
@@ -20,8 +22,10 @@ std::size_t displayWidth(const std::string& cell) {
 
 }  // namespace
 
-std::string textTable(const std::vector<std::vector<std::string>>& rows) {
+std::string textTable(std::vector<std::vector<std::string>> rows) {
     if (rows.empty()) return {};
+    for (auto& row : rows)
+        for (std::string& cell : row) cell = files::printable(cell);
     std::vector<std::size_t> width(rows.front().size(), 0);
     std::vector<bool> right(rows.front().size(), rows.size() > 1);
     for (std::size_t row = 0; row < rows.size(); ++row)

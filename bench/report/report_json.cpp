@@ -10,6 +10,7 @@
 #include "bench/report/run_groups.h"
 #include "bench/results/method_facts.h"
 #include "bench/suite/catalogue.h"
+#include "methods/kit/files/csv.h"
 #include "methods/kit/maths/srgb.h"
 
 namespace dustbench::bench {
@@ -19,8 +20,8 @@ using nlohmann::json;
 
 /// Six digits are more than any chart shows, and keep the page small; null if not finite.
 json number(double value) {
-    if (!std::isfinite(value)) return nullptr;
-    return std::stod(fmt::format("{:.6g}", value));
+    const std::optional<double> rounded = files::numberOf(fmt::format("{:.6g}", value));
+    return rounded ? json(*rounded) : json(nullptr);
 }
 
 using RunIndex = std::map<std::string, std::size_t, std::less<>>;

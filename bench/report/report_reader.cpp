@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <regex>
 #include <set>
 
 #include "bench/report/frame_times.h"
@@ -33,7 +32,12 @@ void readRuns(const fs::path& folder, ReportData& data) {
     }
     for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
         const std::string name = entry->path().filename().string();
-        if (name.starts_with('.') || !fs::is_directory(entry->path())) continue;
+        if (name.starts_with('.')) continue;
+        std::error_code why;
+        if (!fs::is_directory(entry->path(), why)) {
+            if (why) data.problems.push_back(fmt::format("left out: runs/{}: {}", name, why.message()));
+            continue;
+        }
         try {
             StoredRun run = readRunFile(entry->path() / "run.json");
             if (run.runId != name)
@@ -86,12 +90,24 @@ void noteBuilds(ReportData& data) {
     }
 }
 
+/// Warnings that differ only in their numbers are of one kind: every number becomes 0.
+std::string withoutNumbers(std::string_view warning) {
+    std::string kind;
+    const auto isDigit = [&](std::size_t at) {
+        return at < warning.size() && warning[at] >= '0' && warning[at] <= '9';
+    };
+    for (std::size_t at = 0; at < warning.size(); ++at) {
+        kind += isDigit(at) ? '0' : warning[at];
+        if (!isDigit(at)) continue;
+        while (isDigit(at + 1) || (warning.substr(at + 1).starts_with('.') && isDigit(at + 2))) ++at;
+    }
+    return kind;
+}
+
 void noteWhatIsNotDone(ReportData& data) {
-    // Warnings that differ only in their numbers are of one kind.
-    static const std::regex number("[0-9]+(\\.[0-9]+)?");
     std::map<std::string, RunWarnings> byKind;
     const auto noteWarning = [&byKind](const std::string& warning, const std::string& runId) {
-        RunWarnings& kind = byKind[std::regex_replace(warning, number, "0")];
+        RunWarnings& kind = byKind[withoutNumbers(warning)];
         if (kind.warning.empty()) kind.warning = warning;
         kind.runs.push_back(runId);
     };
@@ -151,7 +167,9 @@ void readPapers(const fs::path& folder, ReportData& data) {
     const std::set<std::string> ids = papersOf(data.groups);
     if (ids.empty()) return;
     const fs::path summary = folder / "summary.csv";
-    if (!fs::exists(summary))
+    std::error_code none;
+    const bool hasSummary = fs::exists(summary, none);
+    if (!hasSummary)
         data.problems.push_back("summary.csv is missing, so no claim is tested: the suite's command writes it again");
     for (const std::string& id : ids) {
         try {
@@ -161,7 +179,7 @@ void readPapers(const fs::path& folder, ReportData& data) {
             for (RunGroup& group : data.groups)
                 if (const auto found = published.find(group.suite); found != published.end())
                     group.published = found->second;
-            if (!fs::exists(summary)) continue;
+            if (!hasSummary) continue;
             for (JudgedClaim& claim : judgeClaims(id, files::CsvTable::parseFile(summary), readFindings(folder)))
                 data.claims.push_back(std::move(claim));
         } catch (const InputError& fault) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <set>
 
@@ -16,9 +15,12 @@
 #include "bench/suite/suite_axes.h"
 #include "bench/suite/suite_verdicts.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
 namespace {
+
+using files::numberOf;
 
 using Settings = std::map<std::string, std::string, std::less<>>;
 
@@ -26,13 +28,6 @@ using Settings = std::map<std::string, std::string, std::less<>>;
 constexpr std::array<std::string_view, 6> worldCells{"scene", "drive", "seed", "sync", "threads", "frames"};
 /// Columns whose growth with a load is fitted.
 constexpr std::array<std::string_view, 3> fittedColumns{"frame_ms_median", "build_ms_median", "sort_ms_median"};
-
-std::optional<double> numberOf(std::string_view text) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
 
 const std::string& cellOf(const StoredRun& run, std::string_view column) {
     static const std::string none;

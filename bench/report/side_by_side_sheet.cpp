@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 
 #include "bench/measure/image/flip.h"
 #include "bench/measure/image/heat_map.h"
+#include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
@@ -35,8 +37,11 @@ std::string captionOf(const files::CsvTable& metrics, std::size_t row) {
 
 pictures::Image readPicture(const ResultsFolder& results, const SheetRun& run, const std::string& frame,
                             const char* what) {
+    const double number = files::numberOf(frame).value_or(-1);
+    if (!(number >= 0 && number < 1e9))
+        throw InputError(fmt::format("run '{}': metrics.csv has the frame '{}', expected a number", run.runId, frame));
     return pictures::readImage(results.runFolder(run.runId) / "images" /
-                               fmt::format("f{:06}{}.exr", std::stoll(frame), what));
+                               fmt::format("f{:06}{}.exr", static_cast<std::int64_t>(number), what));
 }
 
 files::CsvTable metricsOf(const ResultsFolder& results, const SheetRun& run) {

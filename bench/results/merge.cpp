@@ -2,27 +2,35 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/whole_text.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
+/// What a link leads to is not the run's, and may lie anywhere.
+void requireOwn(const fs::path& path, fs::file_type type) {
+    if (type == fs::file_type::regular || type == fs::file_type::directory) return;
+    throw InputError(fmt::format("'{}': is {}, allowed: regular files and folders, which are all that a run writes",
+                                 path.string(), type == fs::file_type::symlink ? "a symbolic link" : "no file"));
+}
+
 /// Sizes of all files below the run's folder, by relative name.
 std::map<std::string, std::uintmax_t> filesOf(const fs::path& run) {
     std::map<std::string, std::uintmax_t> sizes;
-    for (const auto& entry : fs::recursive_directory_iterator(run))
+    requireOwn(run, fs::symlink_status(run).type());
+    for (const auto& entry : fs::recursive_directory_iterator(run)) {
+        requireOwn(entry.path(), entry.symlink_status().type());
         if (!entry.is_directory()) sizes[entry.path().lexically_relative(run)] = entry.file_size();
+    }
     return sizes;
 }
 
 std::string contentOf(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    return files::wholeText(file, "a run's record");
 }
 
 void requireEqual(const std::string& runId, const fs::path& first, const fs::path& second) {
@@ -37,7 +45,8 @@ MergePlan planMerge(const std::vector<MergeSource>& sources, const ResultsFolder
     MergePlan plan;
     std::map<std::string, fs::path> places;
     for (const auto& [id, run] : results.runs()) places[id] = results.runFolder(id);
-    for (const auto& [source, runs] : sources)
+    for (const auto& [source, runs] : sources) {
+        requireOwn(source / "runs", fs::symlink_status(source / "runs").type());
         for (const auto& [id, run] : runs) {
             const fs::path from = source / "runs" / id;
             try {
@@ -53,6 +62,7 @@ MergePlan planMerge(const std::vector<MergeSource>& sources, const ResultsFolder
                 throw InputError(fmt::format("'{}': cannot be read: {}", from.string(), error.code().message()));
             }
         }
+    }
     return plan;
 }
 
@@ -70,7 +80,7 @@ bool merge(const MergePlan& plan, ResultsFolder& results, const std::function<bo
         }
         const fs::path hidden = results.beginRun(copy.runId);
         std::error_code error;
-        fs::copy(copy.from, hidden, fs::copy_options::recursive, error);
+        fs::copy(copy.from, hidden, fs::copy_options::recursive | fs::copy_options::skip_symlinks, error);
         if (error) {
             results.discard(copy.runId);
             throw InputError(fmt::format("'{}': cannot be copied to '{}': {}", copy.from.string(),

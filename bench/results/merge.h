@@ -28,8 +28,8 @@ struct MergePlan {
 using MergeSource = std::pair<std::filesystem::path, StoredRuns>;
 
 /// Checks everything before writing anything. Of equal results for a run (same run.json byte by byte, same files by
-/// name and size) one is kept. Throws InputError with the folder if it is missing or contains an unreadable run, and
-/// with both places if a run has two different results.
+/// name and size) one is kept. Throws InputError with the folder if it is missing or contains an unreadable run, with
+/// both places if a run has two different results, and with the path of a link, pipe or device below a source.
 [[nodiscard]] MergePlan planMerge(const std::vector<MergeSource>& sources, const ResultsFolder& results);
 
 /// Throws InputError with both sizes if the copies do not fit.

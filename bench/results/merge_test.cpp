@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -148,6 +149,34 @@ TEST_F(Merge, NamesWhatIsMissingOrBroken) {
     const fs::path empty = results("empty", {});
     fs::create_directories(empty / "runs" / "haze-plain-r1-000000000000");
     EXPECT_THAT(refusal({empty}), HasSubstr("haze-plain-r1-000000000000/run.json"));
+}
+
+TEST_F(Merge, TakesNothingFromOutsideItsFolders) {
+    write(folder_ / "secret", "not a result");
+    const auto withLink = [&](const char* name, const fs::path& link, const fs::path& target) {
+        const fs::path source = results(name, {1, 2});
+        fs::remove_all(source / "runs" / link);
+        fs::create_symlink(target, source / "runs" / link);
+        return refusal({source});
+    };
+    const fs::path run = runId(spec(1));
+    EXPECT_THAT(withLink("file", run / "frames.csv", folder_ / "secret"), HasSubstr("frames.csv': is a symbolic link"));
+    EXPECT_THAT(withLink("more", run / "more.txt", "../../../../secret"), HasSubstr("more.txt': is a symbolic link"));
+    EXPECT_THAT(withLink("folders", run / "images", "/etc"), HasSubstr("images': is a symbolic link"));
+    EXPECT_THAT(withLink("round", run / "round", "round"), HasSubstr("round': is a symbolic link"));
+    const fs::path honest = results("honest", {1});
+    EXPECT_THAT(withLink("whole", run, runFolder(honest, 1)), HasSubstr(run.string() + "': is a symbolic link"));
+    const fs::path piped = results("piped", {1});
+    ASSERT_EQ(mkfifo((runFolder(piped, 1) / "pipe").c_str(), 0600), 0);
+    EXPECT_THAT(refusal({piped}), HasSubstr("pipe': is no file"));
+    const fs::path linked = folder_ / "linked";
+    fs::create_directories(linked);
+    fs::create_symlink(honest / "runs", linked / "runs");
+    EXPECT_THAT(refusal({linked}), HasSubstr("runs': is a symbolic link"));
+    EXPECT_TRUE(fs::is_empty(folder_ / "out" / "runs"));
+    // The folder itself may be named by a link.
+    fs::create_symlink(honest, folder_ / "by-name");
+    EXPECT_EQ(mergeInto(folder_ / "out", {folder_ / "by-name"}).copies.size(), 1u);
 }
 
 TEST_F(Merge, SaysWhereItDoesNotFit) {

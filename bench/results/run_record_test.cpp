@@ -80,6 +80,47 @@ TEST(RunRecord, AStrangeFileIsNamed) {
     }
 }
 
+/// Writes a record in which `from` became `to`, and reads it.
+StoredRun readChanged(const std::string& from, const std::string& to) {
+    RunRecord record;
+    record.spec = spec();
+    record.summary = identityColumns(record, 2);
+    record.summary.emplace_back("frame_ms_median", 12.5);
+    record.provenance.warnings = {"short"};
+    std::string text = toJson(record);
+    const std::size_t at = text.rfind(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    const auto file = std::filesystem::path(testing::TempDir()) / ("changed-" + std::to_string(getpid()) + ".json");
+    writeWhole(file, text.replace(at, from.size(), to));
+    return readRunFile(file);
+}
+
+TEST(RunRecord, NumbersMustBeNumbers) {
+    const auto refusal = [](const std::string& from, const std::string& to) {
+        try {
+            (void)readChanged(from, to);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("nothing thrown");
+    };
+    for (const char* text : {"\"abc\"", "\"1e999\"", "\"nan\"", "true", "\"12,5\""})
+        EXPECT_THAT(refusal("12.5", text), testing::HasSubstr("summary.frame_ms_median: got '")) << text;
+    EXPECT_THAT(refusal("\"repetition\": 3", "\"repetition\": 2147483647"),
+                testing::HasSubstr("summary.repetition: got '2147483647', allowed: 1..1000"));
+    for (const char* text : {"0", "-1", "1.5", "\"many\"", "1001"})
+        EXPECT_THAT(refusal("\"repetition\": 3", std::string("\"repetition\": ") + text),
+                    testing::HasSubstr("summary.repetition"))
+            << text;
+    EXPECT_EQ(readChanged("12.5", "1e-310").cells.at("frame_ms_median"), "1e-310");
+    EXPECT_EQ(readChanged("12.5", "\"\"").cells.at("frame_ms_median"), "");
+}
+
+TEST(RunRecord, LongWarningsAreCut) {
+    const StoredRun run = readChanged("\"short\"", '"' + std::string(50'000, '7') + '"');
+    EXPECT_EQ(run.warnings.at(0), std::string(1000, '7') + " [50000 bytes in all]");
+}
+
 TEST(Summary, EveryMeasuredColumnIsOneOfTheTable) {
     RunRecord record;
     std::vector<std::string> known = columnsBeforeParameters();

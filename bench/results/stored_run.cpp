@@ -1,9 +1,16 @@
 #include "bench/results/stored_run.h"
 
+#include <fmt/format.h>
 #include <simdjson.h>
 
+#include <cmath>
+#include <set>
+
+#include "bench/results/summary.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
+#include "methods/kit/files/limits.h"
+#include "methods/kit/files/whole_text.h"
 
 namespace dustbench::bench {
 namespace {
@@ -27,6 +34,37 @@ std::string cellText(element value) {
     }
 }
 
+/// True for columns of summary.csv that hold numbers; unknown columns are nobody's.
+bool isNumeric(std::string_view column) {
+    static const std::set<std::string, std::less<>> names = [] {
+        const std::vector<std::string>& list = numericColumns();
+        std::set<std::string, std::less<>> all{"seed", "repetition", "width", "height", "threads"};
+        all.insert(list.begin(), list.end());
+        return all;
+    }();
+    return names.contains(column);
+}
+
+/// What readers of these cells rely on: numbers are numbers, and repetitions can be counted through.
+void requireSound(const StoredRun& run) {
+    for (const auto& [column, text] : run.cells)
+        if (isNumeric(column) && !text.empty() && !files::numberOf(text))
+            throw InputError(fmt::format("summary.{}: got '{}', expected a number", column, text.substr(0, 40)));
+    const auto repetition = run.cells.find("repetition");
+    if (repetition == run.cells.end() || repetition->second.empty()) return;
+    const double number = *files::numberOf(repetition->second);
+    if (number != std::floor(number) || number < 1 || number > files::limits::repetitions)
+        throw InputError(fmt::format("summary.repetition: got '{}', allowed: 1..{} (limit of repetitions)",
+                                     repetition->second.substr(0, 40), files::limits::repetitions));
+}
+
+/// A warning is a sentence; what is longer comes from a damaged file.
+std::string shortened(std::string text) {
+    constexpr std::size_t maximum = 1000;
+    if (text.size() <= maximum) return text;
+    return fmt::format("{} [{} bytes in all]", text.substr(0, maximum), text.size());
+}
+
 template <typename Map>
 void readCells(object fields, Map& cells) {
     for (const auto& [name, value] : fields)
@@ -41,20 +79,22 @@ std::string textOf(element value) {
 
 StoredRun readRunFile(const std::filesystem::path& file) {
     thread_local simdjson::dom::parser parser;  // reuses its memory
+    const simdjson::padded_string text(files::wholeText(file, "a run.json"));
     try {
-        const object json = parser.load(file.string());
+        const object json = parser.parse(text);
         StoredRun run;
         run.runId = textOf(json["run_id"]);
-        run.reason = textOf(json["reason"]);
+        run.reason = shortened(textOf(json["reason"]));
         run.status = runStatuses.parse("status", textOf(json["status"]));
         readCells(json["parameters"], run.parameters);
         readCells(json["summary"], run.cells);
-        for (const element warning : json["warnings"].get_array()) run.warnings.push_back(textOf(warning));
+        for (const element warning : json["warnings"].get_array()) run.warnings.push_back(shortened(textOf(warning)));
         run.stateHash = cellText(json["state_hash"]);
         run.methodHash = cellText(json["method_hash"]);
         readCells(json["provenance"], run.provenance);
         for (const element input : json["provenance"]["inputs"].get_array())
             run.inputs.push_back({textOf(input["file"]), textOf(input["sha256"])});
+        requireSound(run);
         return run;
     } catch (const std::exception& error) {
         throw InputError(file.string() + ": is no run.json of dustbench: " + error.what());

@@ -28,7 +28,8 @@ struct StoredRun {
 /// By run id.
 using StoredRuns = std::map<std::string, StoredRun>;
 
-/// Throws InputError with the file if it is not a valid run.json.
+/// Throws InputError with the file if it is not a valid run.json, or one of its columns of numbers holds something
+/// else; repetitions are 1..files::limits::repetitions. Reasons and warnings end after 1,000 bytes.
 [[nodiscard]] StoredRun readRunFile(const std::filesystem::path& file);
 
 }  // namespace dustbench::bench

@@ -84,6 +84,17 @@ const std::vector<std::string>& columnsAfterParameters() {
     return names;
 }
 
+const std::vector<std::string>& numericColumns() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> list = columnsAfterParameters();
+        std::erase_if(list, [](const std::string& name) {
+            return name.starts_with("FILE_") || name == "metric_reference" || name == "invalid";
+        });
+        return list;
+    }();
+    return names;
+}
+
 Columns identityColumns(const RunRecord& record, int threads) {
     const RunSpec& spec = record.spec;
     return {{"run_id", runId(spec)},

@@ -14,6 +14,8 @@ namespace dustbench::bench {
 /// The columns of summary.csv before and after those of the parameters (`p.…`), in order.
 [[nodiscard]] const std::vector<std::string>& columnsBeforeParameters();
 [[nodiscard]] const std::vector<std::string>& columnsAfterParameters();
+/// Those after the parameters that hold numbers: the ones that charts can show.
+[[nodiscard]] const std::vector<std::string>& numericColumns();
 
 /// The cells that every run has, whatever its status.
 [[nodiscard]] Columns identityColumns(const RunRecord& record, int threads);

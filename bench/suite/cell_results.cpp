@@ -1,5 +1,7 @@
 #include "bench/suite/cell_results.h"
 
+#include "methods/kit/files/csv.h"
+
 namespace dustbench::bench {
 
 const StoredRun* doneRun(const PlannedRun& cell, int repetition, const StoredRuns& runs) {
@@ -16,8 +18,7 @@ std::vector<const StoredRun*> doneRuns(const PlannedRun& cell, int repetitions, 
 
 std::optional<double> numberIn(const StoredRun& run, std::string_view column) {
     const auto found = run.cells.find(column);
-    if (found == run.cells.end() || found->second.empty()) return std::nullopt;
-    return std::stod(found->second);
+    return found == run.cells.end() ? std::nullopt : files::numberOf(found->second);
 }
 
 std::vector<double> numbersIn(const std::vector<const StoredRun*>& runs, std::string_view column) {

@@ -121,11 +121,23 @@ void readMeshName(TomlReader& file, const std::filesystem::path& from, Shape& sh
     }
 }
 
+/// A shape's file may come from a stranger, so what it writes stays in its folder and is a file of voxels.
+std::filesystem::path savedVoxelsAt(TomlReader& file, const std::filesystem::path& from) {
+    const std::filesystem::path named = file.text("save_voxels_as", "");
+    if (named.empty()) return {};
+    const auto folder = std::filesystem::weakly_canonical(std::filesystem::absolute(from).parent_path());
+    const auto target = std::filesystem::weakly_canonical(folder / named), relative = target.lexically_relative(folder);
+    if (named.extension() != ".vti" || relative.empty() || *relative.begin() == ".." || target == folder ||
+        target.extension() != ".vti")
+        throw InputError(file.where("save_voxels_as") + "key 'save_voxels_as': got '" + named.string() +
+                         "', allowed: a file that ends in .vti, in the folder of the shape's file or below");
+    return from.parent_path() / named;
+}
+
 void readSource(TomlReader& file, const std::filesystem::path& from, Shape& shape) {
     if (int{file.has("grid")} + int{file.has("mesh")} + int{file.has("voxels_from")} != 1)
         throw InputError(file.where("mesh") + "expected exactly one of mesh, [grid] and voxels_from");
-    if (const std::string saved = file.text("save_voxels_as", ""); !saved.empty())
-        shape.savedVoxels = from.parent_path() / saved;
+    if (file.has("save_voxels_as")) shape.savedVoxels = savedVoxelsAt(file, from);
     if (file.has("voxels_from")) {
         shape.source = Source::voxels;
         shape.mesh = fileAt(file, "voxels_from", from);

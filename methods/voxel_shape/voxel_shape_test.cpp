@@ -241,5 +241,24 @@ TEST(ShapeFile, TakesUpVoxelsThatWereSaved) {
               6554u);
 }
 
+TEST(ShapeFile, WritesVoxelsBelowItsFolderAlone) {
+    const TestFolder folder;
+    std::filesystem::create_directories(folder.path() / "shapes" / "sub");
+    std::filesystem::create_directory_symlink("/", folder.path() / "shapes" / "root");
+    std::filesystem::create_symlink("../precious.vti", folder.path() / "shapes" / "link.vti");
+    folder.write("precious.vti", "precious");
+    const auto read = [&](const std::string& name) {
+        return readShape(folder.write("shapes/a.toml", "description = \"\"\nsave_voxels_as = \"" + name +
+                                                           "\"\n[grid]\ncells = [4, 2, 1]\nedge_metres = 1\n"));
+    };
+    for (const char* name : {"v.vti", "sub/v.vti", "sub/../v.vti", "./v.vti", "new/v.vti"})
+        EXPECT_EQ(read(name).savedVoxels, folder.path() / "shapes" / name);
+    for (const char* name : {"../v.vti", "/tmp/v.vti", "sub/../../v.vti", "root/tmp/v.vti", "link.vti", "v.txt",
+                             "a.toml", "sub", ".", "..", "/"})
+        EXPECT_NE(inputError([&] { (void)read(name); }).find("in the folder of the shape's file or below"),
+                  std::string::npos)
+            << name;
+}
+
 }  // namespace
 }  // namespace dustbench::voxel_shape

@@ -21,9 +21,9 @@ const chartParts = (() => {
     };
     /// A method's own colour, darker (lighter on black) from one of its variants to the next; shapes and dashes as well.
     const seriesStyles = (report, series, theme) => {
-        const perMethod = {};
+        const perMethod = Object.create(null); // a method may be called like a property of every object
         for (const { method } of series) perMethod[method] = (perMethod[method] || 0) + 1;
-        const counted = {};
+        const counted = Object.create(null);
         return series.map(({ method }) => {
             const index = counted[method] = (counted[method] ?? -1) + 1;
             const share = perMethod[method] > 1 ? 0.55 * index / (perMethod[method] - 1) : 0;

@@ -95,7 +95,8 @@ fs::path dataPath(const fs::path& relative) {
 std::vector<std::string> listData(std::string_view folder, std::string_view extension) {
     std::set<std::string> ids;
     forEachEntry(folder, [&](const fs::directory_entry& entry) {
-        if (entry.is_regular_file() && entry.path().extension() == extension) ids.insert(entry.path().stem());
+        std::error_code loop;
+        if (entry.is_regular_file(loop) && entry.path().extension() == extension) ids.insert(entry.path().stem());
     });
     return {ids.begin(), ids.end()};
 }
@@ -103,7 +104,8 @@ std::vector<std::string> listData(std::string_view folder, std::string_view exte
 std::vector<std::string> listDataFolders(std::string_view folder) {
     std::set<std::string> ids;
     forEachEntry(folder, [&](const fs::directory_entry& entry) {
-        if (entry.is_directory()) ids.insert(entry.path().filename());
+        std::error_code loop;
+        if (entry.is_directory(loop)) ids.insert(entry.path().filename());
     });
     return {ids.begin(), ids.end()};
 }
