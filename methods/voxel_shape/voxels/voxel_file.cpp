@@ -17,6 +17,8 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/input_log.h"
+#include "methods/kit/files/whole_text.h"
+#include "methods/kit/volumes/vti_check.h"
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -175,7 +177,9 @@ void writeVoxels(const VoxelGrid& grid, const std::filesystem::path& file) {
 }
 
 VoxelGrid readVoxels(MemoryLedger& ledger, const std::filesystem::path& file) {
-    if (!std::ifstream(file) || std::filesystem::is_directory(file)) fail(file, "the voxels cannot be read");
+    if (const std::string why = files::refusalOf(file, files::limits::geometryBytes); !why.empty()) fail(file, why);
+    if (const std::string why = volumes::vtiFault(file); !why.empty())
+        fail(file, "not a complete VTK image data file (.vti): " + why);
     files::noteInput(file);
     Complaints complaints;
     vtkNew<vtkXMLImageDataReader> reader;

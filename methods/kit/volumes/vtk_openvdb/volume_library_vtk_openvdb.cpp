@@ -19,11 +19,11 @@
 #endif
 
 #include "methods/kit/volumes/volume_library.h"
+#include "methods/kit/volumes/vti_check.h"
 
 namespace dustbench::volumes {
 namespace {
 
-constexpr std::int64_t maximumCells = 256'000'000;
 constexpr double cubeWithin = 1e-5;
 
 /// Collects VTK's errors, which would go to standard error.
