@@ -1,0 +1,176 @@
+// Reads mutants of valid files with the readers of our own and those of pictures: each is read, or refused in one line.
+// What crashes leaves its case in the temporary folder, as `fuzz-<name>`.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <functional>
+#include <random>
+
+#include "bench/report/page.h"
+#include "bench/report/report_reader.h"
+#include "bench/results/run_record.h"
+#include "bench/results/stored_run.h"
+#include "bench/results/summary.h"
+#include "bench/scene/camera_path.h"
+#include "bench/scene/drive.h"
+#include "bench/scene/height_image.h"
+#include "bench/scene/relief_file.h"
+#include "bench/scene/scene_file.h"
+#include "bench/suite/suite.h"
+#include "methods/kit/files/csv.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/toml_reader.h"
+#include "methods/kit/files/whole_text.h"
+#include "methods/kit/meshes/mesh_file.h"
+#include "methods/kit/particles/part_toml.h"
+#include "methods/kit/pictures/image.h"
+#include "methods/kit/testing/test_folder.h"
+#include "tests/fuzz/mutation.h"
+
+namespace dustbench::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// 300, or as many as DUSTBENCH_FUZZ_CASES says.
+int cases() {
+    const char* const given = std::getenv("DUSTBENCH_FUZZ_CASES");
+    return given ? std::max(std::atoi(given), 1) : 300;
+}
+
+fs::path data(const char* name) {
+    return files::dataFolder() / name;
+}
+
+std::string bytesOf(const fs::path& file) {
+    return files::wholeText(file, "a file to mutate", files::limits::geometryBytes);
+}
+
+/// `name` has the extension that the reader goes by; the mutants are written beside the original if that names others.
+void expectSound(const std::string& name, const std::string& original, const std::function<void(const fs::path&)>& read,
+                 const fs::path& folder = fs::temp_directory_path()) {
+    const fs::path file = folder / ("fuzz-" + name);
+    const auto write = [&](const std::string& text) { std::ofstream(file, std::ios::binary) << text; };
+    write(original);
+    EXPECT_NO_THROW(read(file)) << name;
+    Mutation mutate(20'260'728);
+    int refused = 0;
+    for (int n = 0; n < cases(); ++n) {
+        write(mutate(original));
+        try {
+            read(file);
+        } catch (const InputError& error) {
+            ++refused;
+            ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos) << name << ", case " << n;
+        }  // anything else ends the test, and the file stays
+    }
+    EXPECT_GT(refused, 0) << name;
+    fs::remove(file);
+}
+
+pictures::Image smallImage() {
+    pictures::Image image{12, 9, {}};
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> share(0, 1);
+    for (int i = 0; i < 12 * 9; ++i) image.pixels.emplace_back(share(random), share(random), share(random), 1);
+    return image;
+}
+
+TEST(Fuzz, Tables) {
+    expectSound("a.toml", bytesOf(data("scenes/plain.toml")), [](const fs::path& file) {
+        files::TomlReader reader = files::TomlReader::parseFile(file);
+        for (const std::string& key : reader.keys())
+            if (reader.has(key)) (void)reader.where(key);
+    });
+    expectSound("a.csv", bytesOf(data("drives/slalom.csv")),
+                [](const fs::path& file) { (void)files::CsvTable::parseFile(file); });
+}
+
+TEST(Fuzz, Meshes) {
+    const auto read = [](const fs::path& file) {
+        const scene::Mesh mesh = meshes::readMesh(file, {});
+        for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.positions.size());
+    };
+    for (const char* name : {"rock.obj", "crate.ply", "marker_post.stl"})
+        expectSound(name, bytesOf(data("scenes/meshes") / name), read);
+    expectSound("all.obj",
+                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nf 2//1 -1//1 3//1\n", read);
+    expectSound(
+        "edges.ply",
+        "ply\nformat ascii 1.0\nelement edge 1\nproperty int a\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list int int vertex_indices\nend_header\n7\n0 0 0\n1 0 0\n0 1 0\n"
+        "3 0 1 2\n",
+        read);
+    expectSound("text.stl",
+                "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+                "0\nendloop\nendfacet\nendsolid a\n",
+                read);
+}
+
+TEST(Fuzz, Pictures) {
+    const TestFolder folder;
+    for (const char* name : {"a.png", "a.exr"}) {
+        pictures::writeImage(smallImage(), folder.path() / name);
+        expectSound(name, bytesOf(folder.path() / name), [](const fs::path& file) { (void)pictures::readImage(file); });
+    }
+    expectSound("a.pgm", "P5\n3 2\n255\nabcdef",
+                [](const fs::path& file) { (void)bench::readHeightImage(file, 1, 1, 0); });
+}
+
+TEST(Fuzz, Results) {
+    bench::RunRecord record;
+    record.spec.method = "haze";
+    record.summary = bench::identityColumns(record, 2);
+    record.summary.emplace_back("frame_ms_median", 12.5);
+    record.provenance.warnings = {"slow"};
+    expectSound("run.json", bench::toJson(record), [](const fs::path& file) { (void)bench::readRunFile(file); });
+}
+
+TEST(Fuzz, ReportsOverDamagedFolders) {
+    const TestFolder folder;
+    bench::RunRecord record;
+    record.spec.method = "haze";
+    record.summary = bench::identityColumns(record, 2);
+    record.summary.emplace_back("frame_ms_median", 12.5);
+    const fs::path run = folder.path() / "runs" / bench::runId(record.spec);
+    fs::create_directories(run);
+    const auto write = [](const fs::path& file, const std::string& text) {
+        std::ofstream(file, std::ios::binary) << text;
+    };
+    Mutation mutate(28);
+    const std::string frames = "frame,frame_ms\n0,1.5\n1,2.5\n", summary = "run_id,status,repetition\nx,done,1\n";
+    for (int n = 0; n < std::max(cases() / 20, 1); ++n) {
+        write(run / "run.json", n % 2 == 0 ? bench::toJson(record) : mutate(bench::toJson(record)));
+        write(run / "frames.csv", mutate(frames));
+        write(folder.path() / "summary.csv", mutate(summary));
+        const bench::ReportData data = bench::readReport(folder.path(), 1'000'000);
+        EXPECT_FALSE(data.runs.empty() && data.problems.empty());
+        EXPECT_NO_THROW((void)bench::writePage(folder.path(), data));
+    }
+}
+
+TEST(Fuzz, Worlds) {
+    expectSound("drive.csv", bytesOf(data("drives/slalom.csv")),
+                [](const fs::path& file) { (void)bench::Drive::parseFile(file); });
+    expectSound("camera.csv",
+                "time_s,eye_x,eye_y,eye_z,target_x,target_y,target_z,fov_deg\n0,1,2,3,4,5,6,50\n2,1,2,9,4,5,6,50\n",
+                [](const fs::path& file) { (void)bench::CameraPath::parseFile(file); });
+    expectSound("dust.toml", bytesOf(data("particles/fountain.toml")),
+                [](const fs::path& file) { (void)particles::systemsFromFile(file); });
+    expectSound("scene.toml", bytesOf(data("scenes/plain.toml")),
+                [](const fs::path& file) { (void)bench::readScene(file); });
+    // A relief names pictures beside it.
+    const TestFolder folder;
+    fs::copy(data("reliefs"), folder.path(), fs::copy_options::recursive);
+    expectSound(
+        "relief.toml", bytesOf(data("reliefs/sign.toml")), [](const fs::path& file) { (void)bench::readRelief(file); },
+        folder.path());
+}
+
+TEST(Fuzz, Suites) {
+    expectSound("suite.toml", bytesOf(data("suites/harness-same.toml")),
+                [](const fs::path& file) { (void)bench::planRuns(bench::loadSuite(file.string(), false)); });
+}
+
+}  // namespace
+}  // namespace dustbench::fuzz
