@@ -11,6 +11,7 @@
 #include "bench/cli/world_options.h"
 #include "bench/run/thread_limit.h"
 #include "bench/view/keys.h"
+#include "bench/view/split_view.h"
 #include "bench/view/view_state.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
@@ -28,6 +29,7 @@ namespace {
 struct ViewOptions {
     WorldOptions world;
     std::string with, state, picture, windowSize = "1280x720", out = "view";
+    std::string show = "wipe", channel = "picture";
     std::int64_t frame = 0;
 };
 
@@ -39,6 +41,7 @@ struct ViewOptions {
 }
 
 bench::HalfState halfOf(const std::string& method, const bench::ParameterLists& given) {
+    if (method == bench::exactPicture) return {method, {}};
     bench::HalfState half{findMethod(method).id, {}};
     for (const auto& [name, values] : given)
         if (findMethod(method).parameters.find(name)) half.parameters[name] = values.front();
@@ -77,13 +80,21 @@ bench::ViewState ofFile(const std::string& file) {
     return bench::stateOfToml(files::wholeText(file, "a TOML file"), file);
 }
 
+[[maybe_unused]] bench::SplitSettings splitOf(const ViewOptions& options) {
+    bench::SplitSettings split;
+    split.shown = bench::shownChoices.parse("--show", options.show);
+    split.channel = bench::channelChoices.parse("--channel", options.channel);
+    return split;
+}
+
 int view(const ViewOptions& options) {
     const bench::ViewState state = options.state.empty() ? ofOptions(options) : ofFile(options.state);
     if (!options.picture.empty()) {
 #ifdef DUSTBENCH_PANELS
         const bench::ImageSize size = bench::parseSize(options.windowSize);
+        const bench::SplitSettings split = splitOf(options);
         bench::withThreads(state.threads, [&] {
-            pictures::writeImage(bench::panelPicture(state, size.width, size.height), options.picture);
+            pictures::writeImage(bench::panelPicture(state, split, size.width, size.height), options.picture);
         });
         return exitOk;
 #else
@@ -116,13 +127,17 @@ Command viewCommand() {
                 keysText(),
             [options](Arguments& arguments) {
                 arguments.text("--method", "ID", "picture A: one of `dustbench list methods`", options->world.method);
-                arguments.text("--with", "ID", "picture B, beside it", options->with);
+                arguments.text("--with", "ID", "picture B, beside it; 'exact': the exact picture", options->with);
                 options->world.declareWorld(arguments);
                 arguments.integer("--frame", "go to this frame first", options->frame, 0, 10'000'000);
                 arguments.text("--state", "FILE", "settings that were saved, instead of the options above",
                                options->state);
                 arguments.text("--picture", "FILE", "draw the window to a picture (.png, .exr) instead of opening it",
                                options->picture);
+                arguments.text("--show", "A|B|wipe|beside|difference|flip",
+                               "of that picture: how A and B are put together", options->show);
+                arguments.text("--channel", "picture|alpha|depth|overdraw|faults", "of that picture: what of them",
+                               options->channel);
                 arguments.text("--window", "WxH", "of that picture, pixels", options->windowSize);
                 arguments.text("--out", "DIR", "folder for what is saved; created when needed", options->out);
             },

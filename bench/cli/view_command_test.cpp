@@ -37,11 +37,18 @@ TEST_F(ViewCommand, HelpListsTheKeys) {
 
 TEST_F(ViewCommand, WrongUseIsOneLineAndExitCodeThree) {
     const std::vector<std::pair<std::string, std::string>> mistakes{
-        {"view --method bilboard", "unknown method"},       {"view --with nothing", "unknown method"},
-        {"view --state nowhere.toml", "nowhere.toml"},      {"view -P particle=5", "'particles'"},
-        {"view -P particles=5,6", "got 2 values"},          {"view --frame -1", "--frame"},
-        {"view --camera-path 0,1", "expected 8"},           {"view --drive keybord", "'keybord'"},
-        {"view --picture x.png --window 5", "WIDTHxHEIGHT"}};
+        {"view --method bilboard", "unknown method"},
+        {"view --with nothing", "unknown method"},
+        {"view --method exact", "half A: got 'exact'"},
+        {"view --state nowhere.toml", "nowhere.toml"},
+        {"view -P particle=5", "'particles'"},
+        {"view -P particles=5,6", "got 2 values"},
+        {"view --frame -1", "--frame"},
+        {"view --camera-path 0,1", "expected 8"},
+        {"view --drive keybord", "'keybord'"},
+        {"view --picture x.png --window 5", "WIDTHxHEIGHT"},
+        {"view --picture x.png --show both", "--show: got 'both', allowed: A|B|wipe"},
+        {"view --picture x.png --channel z", "--channel: got 'z', allowed: picture|alpha"}};
     for (const auto& [arguments, expected] : mistakes) {
         const Called called = call(arguments);
         EXPECT_EQ(called.code, 3) << arguments << "\n" << called.err;

@@ -38,6 +38,10 @@ class MethodHost {
     [[nodiscard]] pictures::Image result() const;
     /// The composed picture of the last `draw`, display-encoded; valid as long as the host.
     [[nodiscard]] const gpu::Texture& display() const { return composite_->result(); }
+    /// What it is composed of, linear: the opaque scene and its reversed depth, and the premultiplied layer.
+    [[nodiscard]] const gpu::Texture& sceneColour() const { return scene_->colour(); }
+    [[nodiscard]] const gpu::Texture& sceneDepth() const { return scene_->depth(); }
+    [[nodiscard]] const gpu::Texture& layerColour() const { return layer_->colour(); }
     /// The layer over its scene, linear.
     [[nodiscard]] pictures::Image picture() const;
     /// Draws the frame outside all timing. `withDetail`: also draws the layer without the scene.

@@ -1,7 +1,8 @@
-// Puts two pictures into one: side by side under a divider, one alone, or their signed difference.
+// Puts what two halves have drawn into one picture: under a divider, side by side, one alone, or as a signed
+// difference.
 //
-// Units: pictures display-encoded, as they come. Frame: shares of width and height from the lower left corner. A
-// picture is enlarged by repeating its pixels, so that single ones can be told apart.
+// Units: shares of width and height from the lower left corner. A picture is enlarged by repeating its pixels, so that
+// single ones can be told apart.
 #pragma once
 
 #include "methods/contract/choices.h"
@@ -12,9 +13,26 @@
 
 namespace dustbench::bench {
 
-enum class Shown { a, b, wipe, difference };
-inline constexpr Choices<Shown> shownChoices{
-    {"A", Shown::a}, {"B", Shown::b}, {"wipe", Shown::wipe}, {"difference", Shown::difference}};
+/// How the two are put together. flip: FLIP's map between them.
+enum class Shown { a, b, wipe, beside, difference, flip };
+inline constexpr Choices<Shown> shownChoices{{"A", Shown::a},
+                                             {"B", Shown::b},
+                                             {"wipe", Shown::wipe},
+                                             {"beside", Shown::beside},
+                                             {"difference", Shown::difference},
+                                             {"flip", Shown::flip}};
+
+/// What of them is shown.
+///   alpha     of the layer: 0 black, 1 white
+///   depth     of the opaque scene along the camera's axis, by its logarithm: white at 1 m, black from 1 km on
+///   overdraw  primitives over each pixel
+///   faults    magenta: a value is not finite; cyan: a colour is negative; yellow: alpha is outside [0, 1]
+enum class Channel { picture, alpha, depth, overdraw, faults };
+inline constexpr Choices<Channel> channelChoices{{"picture", Channel::picture},
+                                                 {"alpha", Channel::alpha},
+                                                 {"depth", Channel::depth},
+                                                 {"overdraw", Channel::overdraw},
+                                                 {"faults", Channel::faults}};
 
 struct SplitSettings {
     Shown shown = Shown::wipe;
@@ -22,14 +40,26 @@ struct SplitSettings {
     float gain = 4;        ///< of the difference, above 0
     glm::vec2 origin{0};   ///< of the part that is shown: a share of the pictures
     glm::vec2 extent{1};
+    Channel channel = Channel::picture;
+    float stops = 0;      ///< exposure: light is multiplied by 2^stops before it is encoded
+    bool encoded = true;  ///< for display; else linear light as it is, of the channel `picture` only
+};
+
+/// What a half has drawn, all of one size.
+struct HalfTextures {
+    const gpu::Texture& display;  ///< the picture, display-encoded
+    const gpu::Texture& scene;    ///< linear light
+    const gpu::Texture& layer;    ///< premultiplied, linear light
+    const gpu::Texture& depth;    ///< reversed depth of the scene
 };
 
 class SplitView {
  public:
     explicit SplitView(gpu::Device& device);
 
-    /// Fills the target, which is `width` × `height`. Throws std::invalid_argument if the pictures differ in size.
-    void draw(const gpu::Texture& a, const gpu::Texture& b, const SplitSettings& settings,
+    /// Fills the target, which is `width` × `height`. `flip` and `overdraw` show `display`: what is in it is the
+    /// caller's business. Throws std::invalid_argument if the halves differ in size.
+    void draw(const HalfTextures& a, const HalfTextures& b, const SplitSettings& settings, double nearMetres,
               const gpu::Framebuffer& target, int width, int height);
 
  private:

@@ -7,6 +7,7 @@
 
 #include "bench/measure/clock.h"
 #include "bench/run/frame_runner.h"
+#include "bench/run/judged_run.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 
@@ -21,8 +22,8 @@ ParameterValues worldValues(const ViewState& state) {
     return values;
 }
 
-bool hasHalf(const ViewState& state, Half which) {
-    return which == Half::a || state.b.has_value();
+bool needsHost(const ViewState& state, Half which) {
+    return which == Half::a || (state.b && !showsExact(state));
 }
 
 /// Without what can be changed in a world that goes on: halves, camera, size and frame.
@@ -66,6 +67,7 @@ void ViewSession::set(const ViewState& wanted) {
     replaceHalves(state);
     aim(*world_, state);
     state_ = state;
+    ++moment_;
 }
 
 void ViewSession::restart() {
@@ -79,14 +81,16 @@ void ViewSession::begin(const ViewState& state) {
     std::unique_ptr<World> world = makeWorld(state, input);
     Halves halves;
     for (const Half which : bothHalves)
-        if (hasHalf(state, which)) halves[indexOf(which)] = makeHalf(state, which, *world);
+        if (needsHost(state, which)) halves[indexOf(which)] = makeHalf(state, which, *world);
     // Hosts refer to their world, so they go first.
     halves_ = std::move(halves);
     world_ = std::move(world);
     input_ = std::move(input);
     state_ = state;
     if (state_.drive == keyboardDrive) state_.frame = 0;
+    exact_.reset();
     recording_ = {};
+    ++moment_;
     next_ = -stepsBeforeWarmup(*world_) - state_.warmup;
 }
 
@@ -114,18 +118,19 @@ ViewSession::ShownHalf ViewSession::makeHalf(const ViewState& state, Half which,
 void ViewSession::replaceHalves(const ViewState& state) {
     std::array<std::optional<ShownHalf>, 2> joining;
     for (const Half which : bothHalves) {
-        if (!hasHalf(state, which)) continue;
-        const bool same = has(which) && state.size == state_.size && half(state, which) == half(state_, which);
+        if (!needsHost(state, which)) continue;
+        const bool same = hasHost(which) && state.size == state_.size && half(state, which) == half(state_, which);
         if (!same) joining[indexOf(which)] = makeHalf(state, which, *world_);
     }
     for (const Half which : bothHalves) {
         ShownHalf& shown = halves_[indexOf(which)];
-        if (!hasHalf(state, which)) shown = {};
+        if (!needsHost(state, which)) shown = {};
         if (!joining[indexOf(which)]) continue;
         shown = std::move(*joining[indexOf(which)]);
         shown.sinceStart = frame() < -state.warmup - stepsBeforeWarmup(*world_);
         if (!shown.sinceStart) updateHalf(shown);
     }
+    if (!showsExact(state) || state.size != state_.size) exact_.reset();
 }
 
 void ViewSession::updateHalf(ShownHalf& shown) {
@@ -140,6 +145,7 @@ void ViewSession::step() {
     const bool isOfDrive = world_->state().timeSeconds > -0.5 * stepSeconds;
     world_->step();
     ++next_;
+    ++moment_;
     if (state_.drive == keyboardDrive && isOfDrive) recording_.add(world_->controls());
     // As replay.h: a method is updated from the last step of the preroll on, or all the time if it wants that.
     for (ShownHalf& shown : halves_)
@@ -155,6 +161,45 @@ void ViewSession::draw() {
         device_.finish();
         shown.cost.drawMs = millisecondsSince(start);
     }
+    noteDrawn();
+}
+
+void ViewSession::noteDrawn() {
+    drawnMoment_ = moment_;
+    drawnFrame_ = frame();
+}
+
+void ViewSession::drawExact() {
+    const StageClock untimed;
+    MethodHost& host = *halves_[indexOf(Half::a)].host;
+    const DrawnMoment drawn = host.drawn(host.see(frame(), untimed), false);
+    if (!exact_) exact_ = std::make_unique<ExactHalf>(device_, state_.size.width, state_.size.height);
+    exact_->draw(drawn, view(), world_->dust(), whyNotJudged({}, host.method()));
+    exactMoment_ = moment_;
+    noteDrawn();
+}
+
+bool ViewSession::isCurrent(Half half) const {
+    return isExact(half) ? exact_ && exactMoment_ == drawnMoment_ : hasHost(half);
+}
+
+HalfTextures ViewSession::textures(Half half) const {
+    if (isExact(half)) return exact_->textures();
+    const MethodHost& drawn = host(half);
+    return {drawn.display(), drawn.sceneColour(), drawn.layerColour(), drawn.sceneDepth()};
+}
+
+pictures::Image ViewSession::image(Half half) const {
+    if (isExact(half)) return exact_->judged().reference;
+    pictures::Image image = host(half).picture();
+    for (glm::vec4& pixel : image.pixels) pixel.a = 1;
+    return image;
+}
+
+void ViewSession::volume(Half half, VolumeVisitor& visitor) {
+    const StageClock untimed;
+    MethodHost& shown = *halves_.at(indexOf(half)).host;
+    shown.method().volume(shown.see(frame(), untimed), visitor);
 }
 
 ViewState ViewSession::replayOf(const std::string& file) const {

@@ -1,4 +1,4 @@
-// One world stepped once a frame, shown by up to two methods side by side.
+// One world stepped once a frame, shown by up to two methods side by side, or by one beside the exact picture.
 //
 // Each method has the host of a run, with its own targets and its own ledger, and gets the updates that a run gives it.
 // Owns: world and hosts. Threads: the device's, inside the oneTBB arena to be used; `ViewState::threads` is the
@@ -16,6 +16,7 @@
 #include "bench/scene/control_recording.h"
 #include "bench/scene/keyboard_controls.h"
 #include "bench/scene/world.h"
+#include "bench/view/exact_half.h"
 #include "bench/view/view_state.h"
 #include "methods/kit/gpu/device.h"
 
@@ -46,13 +47,35 @@ class ViewSession {
     /// Steps to go until the frame of the state that was set.
     [[nodiscard]] std::int64_t stepsToGo() const { return std::max<std::int64_t>(state_.frame - frame(), 0); }
 
-    /// Draws every half; its picture is valid until the next call or set().
+    /// Draws every method; its picture is valid until the next call or set().
     void draw();
-    [[nodiscard]] const gpu::Texture& picture(Half half) const { return host(half).display(); }
+    /// Draws the exact picture of the world as it is now, and the methods with it. Half B must be the exact picture.
+    void drawExact();
+    /// Of the last draw: another number is another state of the world, of a method or of the camera.
+    [[nodiscard]] std::int64_t drawnMoment() const { return drawnMoment_; }
+    [[nodiscard]] std::int64_t drawnFrame() const { return drawnFrame_; }
+    /// The half shows the moment that was drawn last: false for an exact picture of an earlier one, or none.
+    [[nodiscard]] bool isCurrent(Half half) const;
+    /// The world has gone on, or the state has changed, since the last draw.
+    [[nodiscard]] bool isBehind() const { return drawnMoment_ != moment_; }
+
+    /// What a half has drawn; it must be current.
+    [[nodiscard]] HalfTextures textures(Half half) const;
+    [[nodiscard]] const gpu::Texture& picture(Half half) const { return textures(half).display; }
+    /// The picture in linear light, opaque.
+    [[nodiscard]] pictures::Image image(Half half) const;
 
     [[nodiscard]] const World& world() const { return *world_; }
-    [[nodiscard]] bool has(Half half) const { return static_cast<bool>(halves_.at(indexOf(half)).host); }
+    [[nodiscard]] scene::View view() const { return world_->view(state_.size.width, state_.size.height); }
+    [[nodiscard]] bool has(Half half) const { return hasHost(half) || isExact(half); }
+    [[nodiscard]] bool isExact(Half half) const { return half == Half::b && showsExact(state_); }
+    [[nodiscard]] bool hasHost(Half half) const { return static_cast<bool>(halves_.at(indexOf(half)).host); }
+    /// Of a half that is a method.
     [[nodiscard]] const MethodHost& host(Half half) const { return *halves_.at(indexOf(half)).host; }
+    /// The volume that a half's method shows.
+    void volume(Half half, VolumeVisitor& visitor);
+    /// Of half B; isExact() must be true.
+    [[nodiscard]] const ExactHalf& exact() const { return *exact_; }
     [[nodiscard]] HalfCost cost(Half half) const { return halves_.at(indexOf(half)).cost; }
     /// False for a half that joined later: if its method remembers earlier frames, a run shows another picture.
     [[nodiscard]] bool isSinceStart(Half half) const { return halves_.at(indexOf(half)).sinceStart; }
@@ -79,14 +102,18 @@ class ViewSession {
     [[nodiscard]] ShownHalf makeHalf(const ViewState& state, Half half, const World& world) const;
     void replaceHalves(const ViewState& state);
     void updateHalf(ShownHalf& shown);
+    void noteDrawn();
 
     gpu::Device& device_;
     ViewState state_;
     std::shared_ptr<DrivingInput> input_;
     std::unique_ptr<World> world_;
     Halves halves_;
+    std::unique_ptr<ExactHalf> exact_;
     ControlRecording recording_;
     std::int64_t next_ = 0;
+    std::int64_t moment_ = 0, drawnMoment_ = -1, exactMoment_ = -1;
+    std::int64_t drawnFrame_ = 0;
 };
 
 }  // namespace dustbench::bench

@@ -1,5 +1,7 @@
 #include "bench/view/view_state.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "bench/scene/world.h"
@@ -27,6 +29,11 @@ ParameterTexts together(const ParameterTexts& world, const ParameterTexts& metho
 }
 
 HalfState normalisedHalf(const HalfState& state) {
+    if (state.method == exactPicture) {
+        if (state.parameters.empty()) return state;
+        throw InputError(
+            fmt::format("{}: got the parameter '{}', allowed: none", exactPicture, state.parameters.begin()->first));
+    }
     const MethodInfo& method = findMethod(state.method);
     HalfState result{method.id, {}};
     for (auto& [name, value] : necessary(method, state.parameters))
@@ -42,10 +49,16 @@ const HalfState& half(const ViewState& state, Half which) {
     return *state.b;
 }
 
+bool showsExact(const ViewState& state) {
+    return state.b && state.b->method == exactPicture;
+}
+
 RunSpec runOf(const ViewState& state, Half which) {
     if (state.drive == keyboardDrive)
         throw InputError("drive: a run cannot be driven by keyboard; save the recording and name its file");
     const HalfState& shown = half(state, which);
+    if (shown.method == exactPicture)
+        throw InputError("exact: no run draws this picture; `dustbench run --metrics` saves it beside the method's");
     const MethodInfo& method = findMethod(shown.method);
     RunSpec spec;
     spec.method = method.id;
@@ -63,6 +76,8 @@ RunSpec runOf(const ViewState& state, Half which) {
 }
 
 ViewState normalised(const ViewState& state) {
+    if (state.a.method == exactPicture)
+        throw InputError("half A: got 'exact', allowed: a method; the exact picture is half B, over A's scene");
     ViewState result = state;
     result.a = normalisedHalf(state.a);
     if (state.b) result.b = normalisedHalf(*state.b);

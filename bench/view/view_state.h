@@ -14,9 +14,12 @@ namespace dustbench::bench {
 
 enum class Half { a, b };
 
+/// In place of half B's method: the exact picture of the shared dust over half A's scene. No run draws it.
+inline constexpr const char* exactPicture = "exact";
+
 /// A method and those of its parameters that are set; the others have their defaults.
 struct HalfState {
-    std::string method;
+    std::string method;  ///< or exactPicture
     ParameterTexts parameters;
 
     friend bool operator==(const HalfState&, const HalfState&) = default;
@@ -42,9 +45,11 @@ struct ViewState {
 inline constexpr const char* keyboardDrive = "keyboard";
 
 [[nodiscard]] const HalfState& half(const ViewState& state, Half half);
+/// Half B is the exact picture.
+[[nodiscard]] bool showsExact(const ViewState& state);
 
 /// The run that ends with the half's picture. Throws InputError for an unknown name or an invalid value, and for
-/// keyboardDrive.
+/// keyboardDrive and exactPicture.
 [[nodiscard]] RunSpec runOf(const ViewState& state, Half half);
 
 /// Without what has its default anyway, presets considered, in canonical form: states that mean the same are equal.

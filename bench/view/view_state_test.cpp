@@ -171,5 +171,23 @@ TEST(ViewState, OfTheKeyboardIsNoRun) {
     EXPECT_EQ(stateOfToml(toToml(state), "s.toml"), state);
 }
 
+TEST(ViewState, TheExactPictureIsHalfBAlone) {
+    ViewState state = unusual(methods().front().id);
+    state.b = HalfState{exactPicture, {}};
+    EXPECT_TRUE(showsExact(state));
+    state = normalised(state);
+    EXPECT_EQ(stateOfToml(toToml(state), "state.toml"), state) << toToml(state);
+    EXPECT_THAT(inputError([&] { (void)runOf(state, Half::b); }), HasSubstr("no run draws this picture"));
+    EXPECT_FALSE(showsExact(stateOfCommandLine(commandLine(state, Half::a, "o"))));
+    ViewState wrong = state;
+    wrong.b->parameters["soft"] = "on";
+    EXPECT_THAT(inputError([&] { (void)normalised(wrong); }), HasSubstr("'soft', allowed: none"));
+    wrong = state;
+    wrong.a.method = exactPicture;
+    EXPECT_THAT(inputError([&] { (void)normalised(wrong); }), HasSubstr("half A: got 'exact'"));
+    const std::string toml = "[a]\nmethod = \"exact\"\n";
+    EXPECT_THAT(inputError([&] { (void)stateOfToml(toml, "x.toml"); }), HasSubstr("x.toml"));
+}
+
 }  // namespace
 }  // namespace dustbench::bench

@@ -59,6 +59,7 @@ HalfState readHalf(TomlReader& root, const char* name) {
     TomlReader table = root.table(name);
     HalfState half{table.text("method"), readParameters(table, "parameters")};
     table.finish();
+    if (half.method == exactPicture) return half;
     checked(table, [&] {
         const MethodInfo& method = findMethod(half.method);
         ParameterValues values(method.parameters);
@@ -104,7 +105,8 @@ ViewState stateOfToml(std::string_view text, const std::string& name) {
     state.a = readHalf(root, "a");
     if (root.has("b")) state.b = readHalf(root, "b");
     root.finish();
-    return normalised(state);
+    checked(root, [&] { state = normalised(state); });
+    return state;
 }
 
 }  // namespace dustbench::bench

@@ -25,19 +25,26 @@ std::string nextCamera(const ViewState& state) {
     return now + 1 < words.end() ? *(now + 1) : words.front();
 }
 
+/// The next of a table, after the last the first.
+template <typename Enumeration>
+Enumeration after(const Choices<Enumeration>& choices, Enumeration value) {
+    const auto all = choices.all();
+    const auto now = std::ranges::find(all, value, &Choice<Enumeration>::value);
+    return now + 1 < all.end() ? (now + 1)->value : all.front().value;
+}
+
 }  // namespace
 
 Viewer::Viewer(const ViewState& state, gpu::Device& device, std::filesystem::path folder)
-    : device_(device), folder_(std::move(folder)), session_(state, device), splitView_(device) {
+    : device_(device),
+      folder_(std::move(folder)),
+      session_(state, device),
+      splitView_(device),
+      maps_(device),
+      pixel_(gpu::Texture::make2D(device, "pixel", gpu::Format::rgba32F, 1, 1)),
+      pixelTarget_(device, "pixel", &pixel_, nullptr) {
     if (!session_.has(Half::b)) split.shown = Shown::a;
-    makeImage();
-}
-
-void Viewer::makeImage() {
-    const ImageSize size = session_.state().size;
-    if (image_.width() == size.width && image_.height() == size.height) return;
-    image_ = gpu::Texture::make2D(device_, "view", gpu::Format::rgba8, size.width, size.height);
-    target_ = gpu::Framebuffer(device_, "view", &image_, nullptr);
+    makeImage(split.shown);
 }
 
 void Viewer::press(Key key, bool control) {
@@ -116,6 +123,23 @@ void Viewer::perform(Action action) {
         case Action::difference:
             if (session_.has(Half::b)) split.shown = split.shown == Shown::difference ? Shown::wipe : Shown::difference;
             break;
+        case Action::nextShown:
+            if (session_.has(Half::b)) split.shown = after(shownChoices, split.shown);
+            break;
+        case Action::nextChannel:
+            split.channel = after(channelChoices, split.channel);
+            break;
+        case Action::exact:
+            if (!session_.isExact(Half::b)) {
+                message_ = "exact picture: choose it as half B";
+                break;
+            }
+            paused = exactAsked_ = true;
+            break;
+        case Action::wholePicture:
+            split.origin = {0, 0};
+            split.extent = {1, 1};
+            break;
         case Action::panels:
             showsPanels = !showsPanels;
             break;
@@ -153,7 +177,6 @@ void Viewer::apply(const ViewState& state) {
         session_.set(state);
         message_.clear();
         if (!session_.has(Half::b)) split.shown = Shown::a;
-        makeImage();
     });
 }
 
@@ -170,7 +193,8 @@ void Viewer::applyText(const std::string& text) {
 void Viewer::advance(double secondsForPreroll) {
     attempt([&] { goOn(secondsForPreroll); });
     session_.draw();
-    compose();
+    attempt([&] { drawExact(); });
+    attempt([&] { compose(settingsNow()); });
 }
 
 void Viewer::goOn(double secondsForPreroll) {
@@ -180,18 +204,6 @@ void Viewer::goOn(double secondsForPreroll) {
         while (session_.stepsToGo() > 0 && isEarly()) session_.step();
     else if (!paused)
         session_.step();
-}
-
-void Viewer::compose() {
-    SplitSettings settings = split;
-    const bool both = session_.has(Half::b);
-    if (!both) settings.shown = Shown::a;
-    for (const KeyBinding& binding : keyBindings())
-        if (both && binding.action == Action::flip && held_.at(static_cast<std::size_t>(binding.key)))
-            settings.shown = settings.shown == Shown::b ? Shown::a : Shown::b;
-    const ImageSize size = session_.state().size;
-    splitView_.draw(session_.picture(Half::a), session_.picture(both ? Half::b : Half::a), settings, target_,
-                    size.width, size.height);
 }
 
 template <typename Move>

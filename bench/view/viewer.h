@@ -13,10 +13,20 @@
 #include <vector>
 
 #include "bench/view/keys.h"
+#include "bench/view/moment_maps.h"
 #include "bench/view/split_view.h"
 #include "bench/view/view_session.h"
 
 namespace dustbench::bench {
+
+/// One pixel of a half, from the upper left corner.
+struct PixelValue {
+    Half half;
+    int x, y;
+    glm::vec3 light;    ///< linear
+    glm::vec3 display;  ///< encoded, 0..1
+    float alpha;        ///< of the layer
+};
 
 class Viewer {
  public:
@@ -36,6 +46,19 @@ class Viewer {
     void advance(double secondsForPreroll = 0.05);
     /// The composed picture of the last advance(), without panels, display-encoded.
     [[nodiscard]] const gpu::Texture& image() const { return image_; }
+    /// What it shows: its frame, the halves and the channel.
+    [[nodiscard]] const std::string& stamp() const { return stamp_; }
+    /// As `split`, but A alone as long as the other half is not of this moment, and flipped while the key is held.
+    [[nodiscard]] SplitSettings settingsNow() const;
+    [[nodiscard]] const MomentMaps& maps() const { return maps_; }
+    [[nodiscard]] const LayerFaults& faults(Half half) { return maps_.faults(session_, half); }
+    /// At a place of image(), shares from its upper left corner.
+    [[nodiscard]] PixelValue valueAt(glm::vec2 place);
+
+    /// Enlarges by a factor above 0; the place stays where it is. Not below the whole picture, nor above 8 pixels.
+    void zoom(glm::vec2 place, double factor);
+    /// Moves what is enlarged, by shares of image() to the right and down.
+    void pan(glm::vec2 shares);
 
     /// Moves the camera by hand (free_camera.h), which then stands in the world. Shares of the picture's height.
     void turnCamera(double right, double up);
@@ -52,6 +75,7 @@ class Viewer {
     [[nodiscard]] bool wantsToQuit() const { return quit_; }
 
     SplitSettings split;
+    bool exactEveryFrame = false;  ///< else the exact picture is drawn when nothing moves
     bool paused = false, showsPanels = true, showsHelp = false;
     bool walksPanel = false;  ///< the arrow keys belong to the panel
 
@@ -61,8 +85,12 @@ class Viewer {
     void perform(Action action);
     void drive();
     void goOn(double secondsForPreroll);
-    void compose();
-    void makeImage();
+    void drawExact();
+    void compose(const SplitSettings& settings);
+    [[nodiscard]] HalfTextures texturesOf(Half half, const SplitSettings& settings);
+    [[nodiscard]] std::string stampOf(const SplitSettings& settings) const;
+    [[nodiscard]] glm::vec3 onePixel(Half half, glm::ivec2 pixel, const SplitSettings& settings);
+    void makeImage(Shown shown);
     void save(const std::string& name, const std::string& text);
     void savePicture();
     template <typename Move>
@@ -72,8 +100,12 @@ class Viewer {
     std::filesystem::path folder_;
     ViewSession session_;
     SplitView splitView_;
-    gpu::Texture image_;
-    gpu::Framebuffer target_;
+    MomentMaps maps_;
+    gpu::Texture image_, pixel_;
+    gpu::Framebuffer target_, pixelTarget_;
+    std::int64_t momentBefore_ = -1;  ///< of the frame before
+    bool exactAsked_ = false;
+    std::string stamp_;
     std::array<bool, keyCount> held_{};
     std::vector<CameraKey> cameraKeys_;
     std::string message_, copied_;

@@ -37,20 +37,28 @@ std::optional<double> asNumber(const std::optional<int>& value) {
     return value ? std::optional<double>(*value) : std::nullopt;
 }
 
-}  // namespace
+/// The pictures of a moment as the metrics take them.
+struct PreparedMoment {
+    pictures::Image image, referenceImage;
+    Picture picture, reference;
+    Plane alpha, exactAlpha;
+};
 
-JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, const MomentFacts& facts) {
-    JudgedMoment judged;
-    judged.picture = overScene(drawn.layer, drawn.scene);
-    judged.reference = overScene(exact.layer, drawn.scene);
-    const Picture picture = preparePicture(judged.picture, "the method's picture");
-    const Picture reference = preparePicture(judged.reference, "the reference");
-    const Plane alpha = alphaOf(drawn.layer, "the method's layer");
-    const Plane alphaFree = alphaOf(drawn.layerWithoutScene, "the method's layer without the scene");
-    const Plane exactAlpha = alphaOf(exact.layer, "the reference's layer");
-    const Plane exactFree = alphaOf(exact.layerWithoutScene, "the reference's layer without the scene");
-    const Plane continuum = alphaOf(exact.continuum, "the continuum's layer");
+PreparedMoment prepare(const DrawnMoment& drawn, const ExactMoment& exact) {
+    PreparedMoment prepared;
+    prepared.image = overScene(drawn.layer, drawn.scene);
+    prepared.referenceImage = overScene(exact.layer, drawn.scene);
+    prepared.picture = preparePicture(prepared.image, "the method's picture");
+    prepared.reference = preparePicture(prepared.referenceImage, "the reference");
+    prepared.alpha = alphaOf(drawn.layer, "the method's layer");
+    prepared.exactAlpha = alphaOf(exact.layer, "the reference's layer");
+    return prepared;
+}
 
+/// The metrics of the two pictures alone.
+JudgedMoment compare(const PreparedMoment& prepared) {
+    const auto& [image, referenceImage, picture, reference, alpha, exactAlpha] = prepared;
+    JudgedMoment judged{{}, image, referenceImage, {}};
     MomentMetrics& metrics = judged.metrics;
     const PictureError error = pictureError(reference, picture);
     metrics.psnrDb = error.psnrDb;
@@ -69,6 +77,24 @@ JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, con
     metrics.flip = flipped.value;
     metrics.flipMask = meanWithin(flipped.map, mask);
     judged.difference = std::move(flipped.map);
+    return judged;
+}
+
+}  // namespace
+
+JudgedMoment comparePictures(const DrawnMoment& drawn, const ExactMoment& exact) {
+    return compare(prepare(drawn, exact));
+}
+
+JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, const MomentFacts& facts) {
+    const PreparedMoment prepared = prepare(drawn, exact);
+    const auto& [image, referenceImage, picture, reference, alpha, exactAlpha] = prepared;
+    const Plane alphaFree = alphaOf(drawn.layerWithoutScene, "the method's layer without the scene");
+    const Plane exactFree = alphaOf(exact.layerWithoutScene, "the reference's layer without the scene");
+    const Plane continuum = alphaOf(exact.continuum, "the continuum's layer");
+
+    JudgedMoment judged = compare(prepared);
+    MomentMetrics& metrics = judged.metrics;
     metrics.psnrContinuumDb =
         pictureError(preparePicture(overScene(exact.continuum, drawn.scene), "the continuum"), picture).psnrDb;
     metrics.gaps = gaps(alpha, continuum).value;

@@ -39,6 +39,8 @@ struct JudgedMoment {
     Plane difference;           ///< FLIP map
 };
 
+/// The metrics that need the two pictures and no more; all others are empty.
+[[nodiscard]] JudgedMoment comparePictures(const DrawnMoment& drawn, const ExactMoment& exact);
 /// All metrics except popping. `exact` must have all its layers.
 [[nodiscard]] JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, const MomentFacts& facts);
 

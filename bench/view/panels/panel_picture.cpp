@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "bench/view/panels/viewer_panels.h"
+#include "methods/contract/errors.h"
 #include "methods/kit/draw/read_back.h"
 
 namespace dustbench::bench {
@@ -11,14 +12,20 @@ namespace {
 constexpr float fontPixels = 15;
 /// ImGui knows the size of a table only from the frame before.
 constexpr int framesToSettle = 2;
+/// The exact picture is drawn when nothing has moved for a frame.
+constexpr int framesToRest = 2;
 
 }  // namespace
 
-pictures::Image panelPicture(const ViewState& state, int width, int height) {
+pictures::Image panelPicture(const ViewState& state, const SplitSettings& split, int width, int height) {
     gpu::Device device;
     Viewer viewer(state, device, "view");
     viewer.paused = true;
+    if (state.b) viewer.split = split;
+    viewer.split.channel = split.channel;
     viewer.advance(std::numeric_limits<double>::infinity());
+    for (int n = 0; n < framesToRest; ++n) viewer.advance();
+    if (!viewer.message().empty()) throw InputError("view: " + viewer.message());
     ViewerPanels panels(device, fontPixels);
     const gpu::Texture texture = gpu::Texture::make2D(device, "window", gpu::Format::rgba8, width, height);
     const gpu::Framebuffer target(device, "window", &texture, nullptr);

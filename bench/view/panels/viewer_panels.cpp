@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <cfloat>
-#include <cmath>
 
 #include "bench/measure/statistics.h"
+#include "bench/view/panels/panel_widgets.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/data_folder.h"
 
@@ -17,26 +16,6 @@ namespace {
 constexpr const char* none = "(none)";
 /// Frames of which the times are shown.
 constexpr std::size_t shownFrames = 120;
-
-/// Width of the panel for the text's size.
-float panelWidth() {
-    return ImGui::GetFontSize() * 24;
-}
-
-void text(const std::string& line) {
-    ImGui::TextUnformatted(line.c_str());
-}
-
-/// A list of words; the one that was chosen, if it is another.
-std::optional<std::string> list(const char* label, const std::string& now, const std::vector<std::string>& words) {
-    std::optional<std::string> chosen;
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 12);
-    if (!ImGui::BeginCombo(label, now.c_str())) return chosen;
-    for (const std::string& word : words)
-        if (ImGui::Selectable(word.c_str(), word == now) && word != now) chosen = word;
-    ImGui::EndCombo();
-    return chosen;
-}
 
 std::vector<std::string> methodIds() {
     std::vector<std::string> ids;
@@ -78,44 +57,13 @@ void ViewerPanels::draw(Viewer& viewer, const gpu::Framebuffer& target, int widt
     if (!takesKeyboard()) ofPanels.keys = {};
     ofPanels.keys[static_cast<std::size_t>(Key::tab)] = false;
     canvas_.draw(target, width, height, ofPanels, [&] {
-        showPicture(viewer, width, height);
+        picture_.showPicture(viewer, viewer.showsPanels ? panelWidth() : 0, width, height);
+        if (viewer.showsPanels) picture_.showStamp(viewer, input);
         if (viewer.showsPanels) showPanel(viewer, height);
         if (viewer.showsHelp) showHelp();
         showMessage(viewer, width, height);
+        picture_.useMouse(viewer, input);
     });
-    if (!canvas_.takesMouse()) useMouse(viewer, input);
-    before_ = input;
-}
-
-void ViewerPanels::showPicture(const Viewer& viewer, int width, int height) {
-    const gpu::Texture& image = viewer.image();
-    const float left = viewer.showsPanels ? panelWidth() : 0;
-    const glm::vec2 room(std::max(static_cast<float>(width) - left, 1.0f), static_cast<float>(height));
-    const glm::vec2 pixels(image.width(), image.height());
-    float scale = std::min(room.x / pixels.x, room.y / pixels.y);
-    if (scale > 1) scale = std::floor(scale);  // whole steps keep pixels alike
-    const glm::vec2 corner = glm::floor(glm::vec2(left, 0) + 0.5f * (room - scale * pixels));
-    picture_ = {corner, corner + scale * pixels};
-    // Rows of a texture begin at the bottom.
-    ImGui::GetBackgroundDrawList()->AddImage(
-        reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(image.name().get())),
-        ImVec2(picture_.minimum.x, picture_.minimum.y), ImVec2(picture_.maximum.x, picture_.maximum.y), ImVec2(0, 1),
-        ImVec2(1, 0));
-}
-
-void ViewerPanels::useMouse(Viewer& viewer, const PanelInput& input) {
-    const glm::vec2 extent = picture_.maximum - picture_.minimum;
-    const glm::vec2 place = (input.mouse - picture_.minimum) / extent;
-    const bool isInside =
-        glm::all(glm::greaterThanEqual(place, glm::vec2(0))) && glm::all(glm::lessThan(place, glm::vec2(1)));
-    if (!isInside || !before_ || before_->mouse.x < 0) return;
-    const glm::vec2 moved = (input.mouse - before_->mouse) / extent.y;
-    if (input.buttons[0] && viewer.split.shown == Shown::wipe) viewer.split.divider = place.x;
-    if (moved != glm::vec2(0)) {
-        if (input.buttons[1]) viewer.turnCamera(moved.x, moved.y);
-        if (input.buttons[2]) viewer.shiftCamera(moved.x, -moved.y);
-    }
-    if (input.wheel != 0) viewer.dollyCamera(std::pow(0.9, static_cast<double>(input.wheel)));
 }
 
 void ViewerPanels::showPanel(Viewer& viewer, int height) {
@@ -124,7 +72,7 @@ void ViewerPanels::showPanel(Viewer& viewer, int height) {
     ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
     showHalf(viewer, Half::a);
     showHalf(viewer, Half::b);
-    showPictures(viewer);
+    picture_.showChoices(viewer, widgets_);
     ImGui::Separator();
     showTime(viewer);
     ImGui::Separator();
@@ -140,8 +88,8 @@ void ViewerPanels::showHalf(Viewer& viewer, Half half) {
     const bool has = viewer.session().has(half);
     ViewState state = viewer.state();
     const std::string now = has ? bench::half(state, half).method : none;
-    const auto chosen = list(isA ? "A" : "B", now, isA ? methodIds() : with(none, methodIds()));
-    widgets_.note(isA ? "A" : "B");
+    const auto chosen =
+        showList(isA ? "A" : "B", now, isA ? methodIds() : with(none, with(exactPicture, methodIds())), widgets_);
     if (!chosen) return;
     if (isA)
         state.a = {*chosen, {}};
@@ -151,23 +99,6 @@ void ViewerPanels::showHalf(Viewer& viewer, Half half) {
         state.b = HalfState{*chosen, {}};
     viewer.apply(state);
     if (!isA && state.b && viewer.split.shown == Shown::a) viewer.split.shown = Shown::wipe;
-}
-
-void ViewerPanels::showPictures(Viewer& viewer) {
-    if (!viewer.session().has(Half::b)) return;
-    for (const auto& [word, shown] : shownChoices.all()) {
-        if (shown != Shown::a) ImGui::SameLine();
-        const std::string label =
-            shown == Shown::a || shown == Shown::b ? "only " + std::string(word) : std::string(word);
-        if (ImGui::RadioButton(label.c_str(), viewer.split.shown == shown)) viewer.split.shown = shown;
-        widgets_.note(label);
-    }
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 12);
-    if (viewer.split.shown == Shown::difference)
-        ImGui::SliderFloat("gain", &viewer.split.gain, 1, 64, "%.1f", ImGuiSliderFlags_Logarithmic);
-    else
-        ImGui::SliderFloat("divider", &viewer.split.divider, 0, 1, "%.2f");
-    widgets_.note(viewer.split.shown == Shown::difference ? "gain" : "divider");
 }
 
 void ViewerPanels::showTime(Viewer& viewer) {
@@ -184,17 +115,17 @@ void ViewerPanels::showTime(Viewer& viewer) {
     ImGui::SameLine();
     button("Help", Action::help);
     const double seconds = session.world().state().timeSeconds;
-    text(session.stepsToGo() > 0 ? fmt::format("preroll: {} steps to go", session.stepsToGo())
-                                 : fmt::format("frame {}, {:.2f} s, {:.1f} m/s, {} particles", session.frame(), seconds,
-                                               session.world().state().vehicle.speed, session.world().dust().size()));
+    showText(session.stepsToGo() > 0
+                 ? fmt::format("preroll: {} steps to go", session.stepsToGo())
+                 : fmt::format("frame {}, {:.2f} s, {:.1f} m/s, {} particles", session.frame(), seconds,
+                               session.world().state().vehicle.speed, session.world().dust().size()));
     ViewState state = viewer.state();
     const auto change = [&](const char* label, std::string& place, const std::string& initial,
                             const std::vector<std::string>& words) {
-        if (const auto chosen = list(label, place.empty() ? initial : place, words)) {
+        if (const auto chosen = showList(label, place.empty() ? initial : place, words, widgets_)) {
             place = *chosen == initial ? "" : *chosen;
             viewer.apply(state);
         }
-        widgets_.note(label);
     };
     static const std::vector<std::string> scenes = files::listData("scenes", ".toml");
     static const std::vector<std::string> drives =
@@ -203,26 +134,25 @@ void ViewerPanels::showTime(Viewer& viewer) {
     change("drive", state.drive, "(the scene's)", drives);
     std::string camera =
         state.cameraPath.empty() ? valuesOf(worldParameters(), state.world).choice("camera") : "by hand";
-    if (const auto chosen = list("camera", camera, cameraKinds.words())) {
+    if (const auto chosen = showList("camera", camera, cameraKinds.words(), widgets_)) {
         state.world["camera"] = *chosen;
         state.cameraPath.clear();
         viewer.apply(state);
     }
-    widgets_.note("camera");
 }
 
 void ViewerPanels::showCosts(const Viewer& viewer) {
     const ViewSession& session = viewer.session();
     for (const Half half : {Half::a, Half::b}) {
         const std::size_t index = half == Half::a ? 0 : 1;
-        if (!session.has(half)) {
+        if (!session.hasHost(half)) {
             history_[index].clear();
             continue;
         }
         const MethodHost& host = session.host(half);
         showHistory(index, session.cost(half));
-        text(fmt::format("     CPU {}, GPU {}, {} primitives", inMegabytes(host.cpuBytes()),
-                         inMegabytes(host.gpuBytes()), host.method().primitives()));
+        showText(fmt::format("     CPU {}, GPU {}, {} primitives", inMegabytes(host.cpuBytes()),
+                             inMegabytes(host.gpuBytes()), host.method().primitives()));
         if (!session.isSinceStart(half)) ImGui::TextDisabled("     joined later; Restart shows what a run does");
     }
     ImGui::TextDisabled("of this window, not a measurement");
@@ -232,12 +162,12 @@ void ViewerPanels::showHistory(std::size_t half, HalfCost cost) {
     std::vector<double>& history = history_[half];
     if (history.size() == shownFrames) history.erase(history.begin());
     history.push_back(cost.updateMs + cost.drawMs);
-    text(fmt::format("{}: median {:.1f} ms, 95 % within {:.1f} ms", half == 0 ? "A" : "B", median(history),
-                     quantile(history, 0.95)));
+    showText(fmt::format("{}: median {:.1f} ms, 95 % within {:.1f} ms", half == 0 ? "A" : "B", median(history),
+                         quantile(history, 0.95)));
     const std::vector<float> values(history.begin(), history.end());
     ImGui::PlotLines(half == 0 ? "##history of A" : "##history of B", values.data(), static_cast<int>(values.size()), 0,
                      nullptr, 0, FLT_MAX, ImVec2(ImGui::GetContentRegionAvail().x, 1.8f * ImGui::GetFontSize()));
-    text(fmt::format("     now: update {:.1f} ms, draw {:.1f} ms", cost.updateMs, cost.drawMs));
+    showText(fmt::format("     now: update {:.1f} ms, draw {:.1f} ms", cost.updateMs, cost.drawMs));
 }
 
 void ViewerPanels::showParameters(Viewer& viewer) {
@@ -253,7 +183,8 @@ void ViewerPanels::showParameters(Viewer& viewer) {
         }
     };
     section("Parameters of A", ofA_, findMethod(state.a.method).parameters, state.a.parameters);
-    if (state.b) section("Parameters of B", ofB_, findMethod(state.b->method).parameters, state.b->parameters);
+    if (viewer.session().hasHost(Half::b))
+        section("Parameters of B", ofB_, findMethod(state.b->method).parameters, state.b->parameters);
     section("World (a change restarts it)", ofWorld_, worldParameters(), state.world);
 }
 
@@ -288,14 +219,16 @@ void ViewerPanels::showHelp() {
         for (const KeyBinding& binding : keyBindings()) {
             if (binding.name.empty()) continue;
             ImGui::TableNextColumn();
-            text(std::string(binding.name));
+            showText(std::string(binding.name));
             ImGui::TableNextColumn();
-            text(std::string(binding.help));
+            showText(std::string(binding.help));
         }
         ImGui::EndTable();
     }
     ImGui::Separator();
-    text("mouse: left moves the divider, right turns the camera, middle shifts it, the wheel comes closer");
+    showText(
+        "mouse: left moves the divider, right turns the camera, middle shifts it, the wheel comes closer;\n"
+        "with Ctrl the wheel enlarges the picture and left moves it");
     ImGui::End();
 }
 

@@ -9,6 +9,7 @@
 
 #include "bench/view/panels/panel_canvas.h"
 #include "bench/view/panels/parameter_panel.h"
+#include "bench/view/panels/picture_panel.h"
 #include "bench/view/viewer.h"
 #include "methods/kit/pictures/image.h"
 
@@ -26,15 +27,13 @@ class ViewerPanels {
     /// The panels use the keys, Tab excepted, so the viewer should not get them.
     [[nodiscard]] bool takesKeyboard() const { return canvas_.takesKeyboard() || walks_; }
     [[nodiscard]] PanelCanvas& canvas() { return canvas_; }
-    /// Names of widgets are those of their labels; parameters are `a/NAME`, `b/NAME` and `world/NAME`.
+    /// Names of widgets are those of their labels; parameters are `a/NAME`, `b/NAME` and `world/NAME`, and the words of
+    /// an open list `LABEL/WORD`.
     [[nodiscard]] const WidgetMap& widgets() const { return widgets_; }
 
  private:
-    void showPicture(const Viewer& viewer, int width, int height);
-    void useMouse(Viewer& viewer, const PanelInput& input);
     void showPanel(Viewer& viewer, int height);
     void showHalf(Viewer& viewer, Half half);
-    void showPictures(Viewer& viewer);
     void showTime(Viewer& viewer);
     void showCosts(const Viewer& viewer);
     void showHistory(std::size_t half, HalfCost cost);
@@ -46,10 +45,9 @@ class ViewerPanels {
     PanelCanvas canvas_;
     WidgetMap widgets_;
     ParameterPanel ofA_{"a"}, ofB_{"b"}, ofWorld_{"world"};
-    PanelRectangle picture_;
+    PicturePanel picture_;
     std::array<std::vector<double>, 2> history_;  ///< milliseconds of the last frames of A and B
     bool walks_ = false;
-    std::optional<PanelInput> before_;
 };
 
 }  // namespace dustbench::bench

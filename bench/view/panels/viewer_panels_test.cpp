@@ -200,6 +200,71 @@ TEST_F(Panels, ButtonsDoWhatTheySay) {
     EXPECT_FALSE(std::filesystem::is_empty(folder_.path() / "saved"));
 }
 
+TEST_F(Panels, TheExactPictureIsChosenFromTheListAndHasItsNumbers) {
+    open(methods().front().id, "");
+    click("B");
+    click("B/exact");
+    ASSERT_EQ(viewer_->state().b, (HalfState{exactPicture, {}})) << viewer_->message();
+    EXPECT_EQ(viewer_->split.shown, Shown::wipe);
+    for (int n = 0; n < 2; ++n) viewer_->advance();
+    frames(2);
+    ASSERT_TRUE(viewer_->session().isCurrent(Half::b));
+    click("exact every frame");
+    EXPECT_TRUE(viewer_->exactEveryFrame);
+    for (const char* view : {"side by side", "FLIP", "difference", "only B", "wipe"}) {
+        const pictures::Image before = picture();
+        click(view);
+        viewer_->advance();
+        input_.mouse = glm::vec2(-1);
+        frames(2);
+        EXPECT_NE(picture().pixels, before.pixels) << view;
+        EXPECT_EQ(viewer_->message(), "") << view;
+    }
+}
+
+TEST_F(Panels, ChannelExposureAndZoomAreAtHand) {
+    open(methods().front().id, methods().front().id);
+    for (const auto& [word, channel] : channelChoices.all()) {
+        if (channel == Channel::picture) continue;
+        click("channel");
+        click("channel/" + std::string(word));
+        EXPECT_EQ(viewer_->split.channel, channel);
+        viewer_->advance();
+        frames(2);
+    }
+    slide("exposure", 1);
+    EXPECT_GT(viewer_->split.stops, 7);
+    slide("zoom", 1);
+    EXPECT_LT(viewer_->split.extent.x, 0.2f);
+    EXPECT_GT(viewer_->split.origin.x, 0.3f);
+}
+
+TEST_F(Panels, TheWheelWithCtrlEnlargesAroundTheCursor) {
+    open(methods().front().id, "");
+    const std::string line = viewer_->line(Half::a);
+    input_.mouse = {312 + (width - 312) / 2, height / 2};
+    frames(2);
+    input_.control = true;
+    input_.wheel = 5;
+    frames(1);
+    EXPECT_NEAR(viewer_->split.extent.x, std::pow(0.9, 5), 1e-5);
+    EXPECT_NEAR(viewer_->split.origin.x, (1 - std::pow(0.9, 5)) / 2, 0.02);
+    EXPECT_EQ(viewer_->line(Half::a), line);  // the camera stays
+    input_.buttons[0] = true;
+    frames(1);
+    input_.mouse.x -= 1000;
+    frames(1);
+    input_.mouse.x += 1020;
+    frames(1);
+    EXPECT_EQ(viewer_->line(Half::a), line);
+    input_.buttons[0] = input_.control = false;
+    const pictures::Image without = picture();
+    frames(1);
+    input_.wheel = 1;
+    frames(1);
+    EXPECT_NE(viewer_->line(Half::a), line);
+}
+
 TEST_F(Panels, KeysWalkThroughThePanelOnlyWhenAsked) {
     open(methods().front().id, "");
     const auto tap = [&](Key key) {
@@ -278,7 +343,7 @@ TEST(PanelPicture, ShowsTheStateThatItIsGiven) {
     state.size = {160, 120};
     state.world = {{"particles", "300"}, {"preroll", "0.2"}};
     state.a.method = methods().front().id;
-    const pictures::Image image = panelPicture(state, 640, 400);
+    const pictures::Image image = panelPicture(state, {}, 640, 400);
     EXPECT_EQ(image.width, 640);
     EXPECT_EQ(image.height, 400);
     EXPECT_GT(brightShare(image, 0, 300), 0.01);

@@ -1,0 +1,39 @@
+// The exact picture of one moment, as textures beside those of a method, and the judge's numbers for that method.
+//
+// Drawn by bench/reference, as the metrics of a run are (bench/reference/judge): it takes from a few milliseconds to
+// seconds. Owns: its textures. Threads: the device's, inside the oneTBB arena to be used.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bench/reference/judge/moment_metrics.h"
+#include "bench/view/split_view.h"
+#include "methods/kit/gpu/device.h"
+
+namespace dustbench::bench {
+
+class ExactHalf {
+ public:
+    ExactHalf(gpu::Device& device, int width, int height);
+
+    /// Draws the dust before the method's scene and compares the method's picture with it. `whyNotJudged`: why numbers
+    /// would say nothing; empty: they are computed.
+    void draw(const DrawnMoment& drawn, const scene::View& view, const Puffs& dust, std::string whyNotJudged);
+
+    [[nodiscard]] HalfTextures textures() const { return {display_, scene_, layer_, depth_}; }
+    /// The exact picture, and the method's: linear light, opaque.
+    [[nodiscard]] const JudgedMoment& judged() const { return judged_; }
+    /// Why `judged` has no metrics; empty if it has.
+    [[nodiscard]] const std::string& whyNotJudged() const { return whyNotJudged_; }
+    /// Of the last draw(), numbers included.
+    [[nodiscard]] double seconds() const { return seconds_; }
+
+ private:
+    gpu::Texture display_, scene_, layer_, depth_;
+    JudgedMoment judged_;
+    std::string whyNotJudged_;
+    double seconds_ = 0;
+};
+
+}  // namespace dustbench::bench

@@ -1,0 +1,61 @@
+// What is computed on the CPU of one moment: FLIP between the halves, the overdraw and the faults of each.
+//
+// Owns: the maps' textures. Threads: the device's, inside the oneTBB arena to be used.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "bench/view/view_session.h"
+#include "methods/kit/gpu/texture.h"
+
+namespace dustbench::bench {
+
+/// Pixels of a layer whose values a picture cannot have.
+struct LayerFaults {
+    std::int64_t notFinite = 0;
+    std::int64_t negative = 0;          ///< a colour
+    std::int64_t alpha = 0;             ///< outside [0, 1], beyond rounding
+    std::optional<glm::ivec2> first{};  ///< of them, from the upper left corner
+};
+[[nodiscard]] LayerFaults faultsOf(const pictures::Image& layer);
+
+class MomentMaps {
+ public:
+    explicit MomentMaps(gpu::Device& device) : device_(device) {}
+
+    /// FLIP of A's picture, B's being the reference, in heat colours from 0 to 1. Computed once for a moment. Throws
+    /// InputError for pictures with values that are not finite.
+    [[nodiscard]] const gpu::Texture& flip(const ViewSession& session);
+    /// Mean of the last map, and how long it took; empty before the first.
+    [[nodiscard]] std::optional<double> flipMean() const { return flipMean_; }
+    [[nodiscard]] double flipSeconds() const { return flipSeconds_; }
+
+    /// Primitives over each pixel in heat colours from 0 to `overdrawLimit`, of both halves by one scale. A half
+    /// without primitives is black.
+    [[nodiscard]] const gpu::Texture& overdraw(ViewSession& session, Half half);
+    [[nodiscard]] double overdrawLimit() const { return overdrawLimit_; }
+
+    /// Of a half that is current.
+    [[nodiscard]] const LayerFaults& faults(const ViewSession& session, Half half);
+
+ private:
+    static constexpr std::int64_t never = -1;
+
+    void makeFlip(const ViewSession& session);
+    void makeOverdraw(ViewSession& session);
+    void fit(gpu::Texture& texture, const char* label, const ViewSession& session);
+
+    gpu::Device& device_;
+    gpu::Texture flip_;
+    std::array<gpu::Texture, 2> overdraw_;
+    std::int64_t flipMoment_ = never, overdrawMoment_ = never;
+    std::array<std::int64_t, 2> faultsMoment_{never, never};
+    std::array<LayerFaults, 2> faults_;
+    std::optional<double> flipMean_;
+    double flipSeconds_ = 0, overdrawLimit_ = 1;
+};
+
+}  // namespace dustbench::bench

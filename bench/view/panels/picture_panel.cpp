@@ -1,0 +1,171 @@
+#include "bench/view/panels/picture_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/view/panels/panel_widgets.h"
+
+namespace dustbench::bench {
+namespace {
+
+std::string number(const std::optional<double>& value, int digits) {
+    return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+std::string faultsText(const char* half, const LayerFaults& faults) {
+    std::string text = fmt::format("{}: {} not finite, {} negative, {} with a wrong alpha", half, faults.notFinite,
+                                   faults.negative, faults.alpha);
+    if (faults.first) text += fmt::format("; first at {}, {}", faults.first->x, faults.first->y);
+    return text;
+}
+
+std::string labelOf(Shown shown, std::string_view word) {
+    if (shown == Shown::a || shown == Shown::b) return "only " + std::string(word);
+    if (shown == Shown::beside) return "side by side";
+    return shown == Shown::flip ? "FLIP" : std::string(word);
+}
+
+/// The numbers of this frame under their names in reports/METRICS.md.
+void showNumbers(const MomentMetrics& metrics) {
+    if (!beginTable("numbers", 3)) return;
+    const auto row = [](const std::string& name, const std::string& whole, const std::string& masked) {
+        for (const std::string* cell : {&name, &whole, &masked}) {
+            ImGui::TableNextColumn();
+            showText(*cell);
+        }
+    };
+    row("A against exact", "picture", "within mask");
+    const bool identical = metrics.identical.value_or(false);
+    row("psnr_db", identical ? "identical" : number(metrics.psnrDb, 2), number(metrics.psnrMaskDb, 2));
+    row("ssim", number(metrics.ssim, 4), number(metrics.ssimMask, 4));
+    row("flip", number(metrics.flip, 4), number(metrics.flipMask, 4));
+    row("rmse_linear", number(metrics.rmseLinear, 5), number(metrics.rmseLinearMask, 5));
+    row("error_max", "", number(metrics.errorMax, 4));
+    ImGui::EndTable();
+}
+
+/// Text over a picture, readable on any.
+void showCaption(glm::vec2 corner, const std::string& line) {
+    const ImVec2 size = ImGui::CalcTextSize(line.c_str());
+    const float margin = 0.3f * ImGui::GetFontSize();
+    const ImVec2 from(corner.x + margin, corner.y + margin);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled(ImVec2(from.x - margin, from.y - margin),
+                       ImVec2(from.x + size.x + margin, from.y + size.y + margin), IM_COL32(0, 0, 0, 150));
+    list.AddText(from, IM_COL32(255, 255, 255, 255), line.c_str());
+}
+
+}  // namespace
+
+void PicturePanel::showPicture(const Viewer& viewer, float left, int width, int height) {
+    const gpu::Texture& image = viewer.image();
+    const glm::vec2 room(std::max(static_cast<float>(width) - left, 1.0f), static_cast<float>(height));
+    const glm::vec2 pixels(image.width(), image.height());
+    float scale = std::min(room.x / pixels.x, room.y / pixels.y);
+    if (scale > 1) scale = std::floor(scale);  // whole steps keep pixels alike
+    const glm::vec2 corner = glm::floor(glm::vec2(left, 0) + 0.5f * (room - scale * pixels));
+    picture_ = {corner, corner + scale * pixels};
+    // Rows of a texture begin at the bottom.
+    ImGui::GetBackgroundDrawList()->AddImage(
+        reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(image.name().get())),
+        ImVec2(picture_.minimum.x, picture_.minimum.y), ImVec2(picture_.maximum.x, picture_.maximum.y), ImVec2(0, 1),
+        ImVec2(1, 0));
+}
+
+void PicturePanel::showStamp(Viewer& viewer, const PanelInput& input) const {
+    showCaption(picture_.minimum, viewer.stamp());
+    const auto place = placeOf(input.mouse);
+    if (!place || ImGui::GetIO().WantCaptureMouse) return;
+    const PixelValue value = viewer.valueAt(*place);
+    const glm::ivec3 bytes = glm::ivec3(glm::round(255.0f * value.display));
+    const float below = ImGui::GetFontSize() * 1.6f;
+    showCaption({picture_.minimum.x, picture_.maximum.y - below},
+                fmt::format("{} at {}, {}: light {:.4f} {:.4f} {:.4f}, display {} {} {}, alpha {:.4f}",
+                            value.half == Half::a ? "A" : "B", value.x, value.y, value.light.r, value.light.g,
+                            value.light.b, bytes.r, bytes.g, bytes.b, value.alpha));
+}
+
+std::optional<glm::vec2> PicturePanel::placeOf(glm::vec2 mouse) const {
+    const glm::vec2 place = (mouse - picture_.minimum) / (picture_.maximum - picture_.minimum);
+    const bool isInside =
+        glm::all(glm::greaterThanEqual(place, glm::vec2(0))) && glm::all(glm::lessThan(place, glm::vec2(1)));
+    return isInside ? std::optional(place) : std::nullopt;
+}
+
+void PicturePanel::useMouse(Viewer& viewer, const PanelInput& input) {
+    const std::optional<PanelInput> before = std::exchange(before_, input);
+    const auto place = placeOf(input.mouse);
+    if (!place || !before || before->mouse.x < 0 || ImGui::GetIO().WantCaptureMouse) return;
+    const glm::vec2 extent = picture_.maximum - picture_.minimum;
+    const glm::vec2 pixels = input.mouse - before->mouse;
+    if (input.buttons[0] && viewer.split.shown == Shown::wipe && !input.control) viewer.split.divider = place->x;
+    if (pixels != glm::vec2(0)) {
+        const glm::vec2 moved = pixels / extent.y;
+        if (input.buttons[0] && input.control) viewer.pan(pixels / extent);
+        if (input.buttons[1]) viewer.turnCamera(moved.x, moved.y);
+        if (input.buttons[2]) viewer.shiftCamera(moved.x, -moved.y);
+    }
+    if (input.wheel == 0) return;
+    const double factor = std::pow(0.9, static_cast<double>(input.wheel));
+    input.control ? viewer.zoom(*place, 1 / factor) : viewer.dollyCamera(factor);
+}
+
+void PicturePanel::showChoices(Viewer& viewer, WidgetMap& widgets) {
+    if (viewer.session().has(Half::b)) showHalves(viewer, widgets);
+    showChannel(viewer, widgets);
+    showSlider("exposure", viewer.split.stops, -8, 8, "%+.1f stops", widgets);
+    float zoom = 1 / viewer.split.extent.x;
+    if (showSlider("zoom", zoom, 1, 64, "%.1f", widgets, true))
+        viewer.zoom({0.5f, 0.5f}, static_cast<double>(zoom * viewer.split.extent.x));
+    if (viewer.session().isExact(Half::b)) showExact(viewer, widgets);
+}
+
+void PicturePanel::showHalves(Viewer& viewer, WidgetMap& widgets) {
+    constexpr int inRow = 3;
+    int shownSoFar = 0;
+    for (const auto& [word, shown] : shownChoices.all()) {
+        if (shownSoFar++ % inRow != 0) ImGui::SameLine();
+        const std::string label = labelOf(shown, word);
+        if (ImGui::RadioButton(label.c_str(), viewer.split.shown == shown)) viewer.split.shown = shown;
+        widgets.note(label);
+    }
+    if (viewer.split.shown == Shown::difference) showSlider("gain", viewer.split.gain, 1, 64, "%.1f", widgets, true);
+    if (viewer.split.shown == Shown::wipe) showSlider("divider", viewer.split.divider, 0, 1, "%.2f", widgets);
+    if (const auto mean = viewer.maps().flipMean(); mean && viewer.settingsNow().shown == Shown::flip)
+        showRemark(fmt::format("FLIP: mean {:.4f}, map from 0 (black) to 1 (yellow) in {:.2f} s", *mean,
+                               viewer.maps().flipSeconds()));
+}
+
+void PicturePanel::showChannel(Viewer& viewer, WidgetMap& widgets) {
+    Channel& channel = viewer.split.channel;
+    if (const auto word =
+            showList("channel", std::string(channelChoices.wordOf(channel)), channelChoices.words(), widgets))
+        channel = channelChoices.valueOf(*word);
+    if (channel == Channel::alpha) showRemark("alpha of the layer: 0 black, 1 white");
+    if (channel == Channel::depth) showRemark("depth of the opaque scene: 1 m white, 1 km and beyond black");
+    if (channel == Channel::overdraw)
+        showRemark(fmt::format("primitives over a pixel: 0 black, {:.0f} yellow", viewer.maps().overdrawLimit()));
+    if (channel != Channel::faults) return;
+    showRemark("not finite magenta, negative cyan, alpha outside 0..1 yellow");
+    for (const Half half : {Half::a, Half::b})
+        if (viewer.session().isCurrent(half)) showText(faultsText(half == Half::a ? "A" : "B", viewer.faults(half)));
+}
+
+void PicturePanel::showExact(Viewer& viewer, WidgetMap& widgets) {
+    showSwitch("exact every frame", viewer.exactEveryFrame, widgets);
+    if (!viewer.session().isCurrent(Half::b)) {
+        showRemark(
+            "The exact picture is drawn when nothing moves: Space pauses, E pauses and draws it. Until then A is "
+            "shown alone.");
+        return;
+    }
+    const ExactHalf& exact = viewer.session().exact();
+    exact.whyNotJudged().empty() ? showNumbers(exact.judged().metrics) : showRemark(exact.whyNotJudged());
+    showRemark(fmt::format("exact picture and numbers of frame {} in {:.2f} s", viewer.session().drawnFrame(),
+                           exact.seconds()));
+}
+
+}  // namespace dustbench::bench

@@ -1,0 +1,129 @@
+// How a viewer makes its picture, and what it says of it.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/view/viewer.h"
+#include "methods/kit/draw/read_back.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr float minimumPixels = 8;  ///< shown of a picture's width and height
+
+std::string nameOf(const ViewState& state, Half half) {
+    return fmt::format("{} {}", half == Half::a ? "A" : "B", bench::half(state, half).method);
+}
+
+}  // namespace
+
+void Viewer::makeImage(Shown shown) {
+    ImageSize size = session_.state().size;
+    if (shown == Shown::beside) size.width *= 2;
+    if (image_.width() == size.width && image_.height() == size.height) return;
+    image_ = gpu::Texture::make2D(device_, "view", gpu::Format::rgba8, size.width, size.height);
+    target_ = gpu::Framebuffer(device_, "view", &image_, nullptr);
+}
+
+/// It may take seconds: while the world or the camera moves, only if it is asked for.
+void Viewer::drawExact() {
+    const bool isAtRest = paused && session_.drawnMoment() == momentBefore_;
+    momentBefore_ = session_.drawnMoment();
+    if (!session_.isExact(Half::b) || session_.isCurrent(Half::b) || session_.stepsToGo() > 0) return;
+    if (isAtRest || exactEveryFrame || std::exchange(exactAsked_, false)) session_.drawExact();
+}
+
+SplitSettings Viewer::settingsNow() const {
+    SplitSettings settings = split;
+    const bool both = session_.has(Half::b) && session_.isCurrent(Half::b);
+    if (!both) settings.shown = Shown::a;
+    for (const KeyBinding& binding : keyBindings())
+        if (both && binding.action == Action::flip && held_.at(static_cast<std::size_t>(binding.key)))
+            settings.shown = settings.shown == Shown::b ? Shown::a : Shown::b;
+    return settings;
+}
+
+void Viewer::compose(const SplitSettings& settings) {
+    const Half second = session_.has(Half::b) && session_.isCurrent(Half::b) ? Half::b : Half::a;
+    const HalfTextures a = texturesOf(Half::a, settings), b = texturesOf(second, settings);
+    makeImage(settings.shown);
+    splitView_.draw(a, b, settings, session_.view().camera.nearMetres, target_, image_.width(), image_.height());
+    stamp_ = stampOf(settings);
+}
+
+HalfTextures Viewer::texturesOf(Half half, const SplitSettings& settings) {
+    const HalfTextures drawn = session_.textures(half);
+    if (settings.shown == Shown::flip) return {maps_.flip(session_), drawn.scene, drawn.layer, drawn.depth};
+    if (settings.channel == Channel::overdraw)
+        return {maps_.overdraw(session_, half), drawn.scene, drawn.layer, drawn.depth};
+    return drawn;
+}
+
+std::string Viewer::stampOf(const SplitSettings& settings) const {
+    const ViewState state = session_.state();
+    const std::string a = nameOf(state, Half::a), b = state.b ? nameOf(state, Half::b) : "";
+    std::string halves = a + " | " + b;
+    if (settings.shown == Shown::a) halves = a;
+    if (settings.shown == Shown::b) halves = b;
+    if (settings.shown == Shown::difference) halves = fmt::format("{:g} x ({} - {})", settings.gain, b, a);
+    if (settings.shown == Shown::flip) halves = fmt::format("FLIP of {}, {} being the reference", a, b);
+    std::string text = fmt::format("frame {}: {}", session_.drawnFrame(), halves);
+    if (settings.shown == Shown::flip) return text;
+    if (settings.channel != Channel::picture) text += fmt::format(", {}", channelChoices.wordOf(settings.channel));
+    if (settings.channel == Channel::picture && settings.stops != 0)
+        text += fmt::format(", {:+.1f} stops", settings.stops);
+    return text;
+}
+
+PixelValue Viewer::valueAt(glm::vec2 place) {
+    const SplitSettings settings = settingsNow();
+    const ImageSize size = session_.state().size;
+    glm::vec2 at(place.x, 1 - place.y);
+    bool isB = settings.shown == Shown::b || (settings.shown == Shown::wipe && at.x >= settings.divider);
+    if (settings.shown == Shown::beside) {
+        isB = at.x >= 0.5f;
+        at.x = glm::fract(2 * at.x);
+    }
+    const glm::ivec2 last(size.width - 1, size.height - 1);
+    const glm::vec2 texel = (settings.origin + settings.extent * at) * glm::vec2(size.width, size.height);
+    const glm::ivec2 pixel = glm::clamp(glm::ivec2(glm::floor(texel)), glm::ivec2(0), last);
+    const Half half = isB ? Half::b : Half::a;
+    SplitSettings light, display, alpha;
+    light.encoded = false;
+    alpha.channel = Channel::alpha;
+    return {half,
+            pixel.x,
+            last.y - pixel.y,
+            onePixel(half, pixel, light),
+            onePixel(half, pixel, display),
+            onePixel(half, pixel, alpha).r};
+}
+
+/// `pixel` from the lower left corner.
+glm::vec3 Viewer::onePixel(Half half, glm::ivec2 pixel, const SplitSettings& settings) {
+    const ImageSize size = session_.state().size;
+    SplitSettings one = settings;
+    one.shown = Shown::a;
+    one.extent = 1.0f / glm::vec2(size.width, size.height);
+    one.origin = glm::vec2(pixel) * one.extent;
+    const HalfTextures drawn = session_.textures(half);
+    splitView_.draw(drawn, drawn, one, session_.view().camera.nearMetres, pixelTarget_, 1, 1);
+    return glm::vec3(draw::readBack(pixel_).pixels.front());
+}
+
+void Viewer::zoom(glm::vec2 place, double factor) {
+    const ImageSize size = session_.state().size;
+    const glm::vec2 at(split.shown == Shown::beside ? glm::fract(2 * place.x) : place.x, 1 - place.y);
+    const glm::vec2 minimum = glm::min(minimumPixels / glm::vec2(size.width, size.height), glm::vec2(1));
+    const glm::vec2 fixed = split.origin + split.extent * at;
+    const float extent = std::clamp(split.extent.x / static_cast<float>(factor), std::max(minimum.x, minimum.y), 1.0f);
+    split.extent = glm::vec2(extent);
+    split.origin = glm::clamp(fixed - split.extent * at, glm::vec2(0), 1.0f - split.extent);
+}
+
+void Viewer::pan(glm::vec2 shares) {
+    split.origin =
+        glm::clamp(split.origin - split.extent * glm::vec2(shares.x, -shares.y), glm::vec2(0), 1.0f - split.extent);
+}
+
+}  // namespace dustbench::bench
