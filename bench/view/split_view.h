@@ -43,6 +43,8 @@ struct SplitSettings {
     Channel channel = Channel::picture;
     float stops = 0;      ///< exposure: light is multiplied by 2^stops before it is encoded
     bool encoded = true;  ///< for display; else linear light as it is, of the channel `picture` only
+
+    friend bool operator==(const SplitSettings&, const SplitSettings&) = default;
 };
 
 /// What a half has drawn, all of one size.

@@ -97,8 +97,15 @@ void Viewer::perform(Action action) {
         case Action::step:
             if (paused) session_.step();
             break;
+        case Action::slower:
+            slowness = slowness == slownesses.back() ? slownesses.front() : 2 * slowness;
+            break;
+        case Action::pauseDrawing:
+            drawingPaused = !drawingPaused;
+            break;
         case Action::restart:
             session_.restart();
+            mustDraw_ = true;
             drive();
             break;
         case Action::nextCamera: {
@@ -175,6 +182,7 @@ void Viewer::perform(Action action) {
 void Viewer::apply(const ViewState& state) {
     attempt([&] {
         session_.set(state);
+        mustDraw_ = true;
         message_.clear();
         if (!session_.has(Half::b)) split.shown = Shown::a;
     });
@@ -192,9 +200,7 @@ void Viewer::applyText(const std::string& text) {
 
 void Viewer::advance(double secondsForPreroll) {
     attempt([&] { goOn(secondsForPreroll); });
-    session_.draw();
-    attempt([&] { drawExact(); });
-    attempt([&] { compose(settingsNow()); });
+    draw();
 }
 
 void Viewer::goOn(double secondsForPreroll) {
@@ -202,8 +208,10 @@ void Viewer::goOn(double secondsForPreroll) {
     const auto isEarly = [&] { return static_cast<double>(steadyNow() - start) < 1e9 * secondsForPreroll; };
     if (session_.stepsToGo() > 0)
         while (session_.stepsToGo() > 0 && isEarly()) session_.step();
-    else if (!paused)
+    else if (!paused && ++framesSinceStep_ >= slowness) {
+        framesSinceStep_ = 0;
         session_.step();
+    }
 }
 
 template <typename Move>

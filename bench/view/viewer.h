@@ -19,6 +19,9 @@
 
 namespace dustbench::bench {
 
+/// Slow motion: full speed, half, a quarter, an eighth.
+inline constexpr std::array<int, 4> slownesses{1, 2, 4, 8};
+
 /// One pixel of a half, from the upper left corner.
 struct PixelValue {
     Half half;
@@ -42,7 +45,8 @@ class Viewer {
     /// `run` line or TOML, as pasted.
     void applyText(const std::string& text);
 
-    /// A frame of the window: steps unless paused (the preroll for at most `secondsForPreroll`), draws and composes.
+    /// A frame of the window: steps unless paused (the preroll for at most `secondsForPreroll`), draws and composes
+    /// unless drawing is paused.
     void advance(double secondsForPreroll = 0.05);
     /// The composed picture of the last advance(), without panels, display-encoded.
     [[nodiscard]] const gpu::Texture& image() const { return image_; }
@@ -76,6 +80,8 @@ class Viewer {
 
     SplitSettings split;
     bool exactEveryFrame = false;  ///< else the exact picture is drawn when nothing moves
+    int slowness = 1;              ///< frames of the window for one step of the world: one of `slownesses`
+    bool drawingPaused = false;    ///< the world goes on; a frame is drawn only when state or view changes
     bool paused = false, showsPanels = true, showsHelp = false;
     bool walksPanel = false;  ///< the arrow keys belong to the panel
 
@@ -85,6 +91,7 @@ class Viewer {
     void perform(Action action);
     void drive();
     void goOn(double secondsForPreroll);
+    void draw();
     void drawExact();
     void compose(const SplitSettings& settings);
     [[nodiscard]] HalfTextures texturesOf(Half half, const SplitSettings& settings);
@@ -104,7 +111,9 @@ class Viewer {
     gpu::Texture image_, pixel_;
     gpu::Framebuffer target_, pixelTarget_;
     std::int64_t momentBefore_ = -1;  ///< of the frame before
-    bool exactAsked_ = false;
+    bool exactAsked_ = false, mustDraw_ = true;
+    SplitSettings composed_;  ///< what image() shows
+    std::int64_t framesSinceStep_ = 0;
     std::string stamp_;
     std::array<bool, keyCount> held_{};
     std::vector<CameraKey> cameraKeys_;

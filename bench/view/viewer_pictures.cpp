@@ -25,6 +25,16 @@ void Viewer::makeImage(Shown shown) {
     target_ = gpu::Framebuffer(device_, "view", &image_, nullptr);
 }
 
+void Viewer::draw() {
+    const bool lacksExact = session_.isExact(Half::b) && !session_.isCurrent(Half::b) && paused;
+    const bool isAsked = mustDraw_ || exactAsked_ || lacksExact || !(settingsNow() == composed_);
+    if (drawingPaused && !isAsked) return;
+    mustDraw_ = false;
+    session_.draw();
+    attempt([&] { drawExact(); });
+    attempt([&] { compose(settingsNow()); });
+}
+
 /// It may take seconds: while the world or the camera moves, only if it is asked for.
 void Viewer::drawExact() {
     const bool isAtRest = paused && session_.drawnMoment() == momentBefore_;
@@ -49,6 +59,7 @@ void Viewer::compose(const SplitSettings& settings) {
     makeImage(settings.shown);
     splitView_.draw(a, b, settings, session_.view().camera.nearMetres, target_, image_.width(), image_.height());
     stamp_ = stampOf(settings);
+    composed_ = settings;
 }
 
 HalfTextures Viewer::texturesOf(Half half, const SplitSettings& settings) {

@@ -96,6 +96,51 @@ TEST_F(ViewerTest, PausesStepsAndBeginsAnew) {
     EXPECT_TRUE(viewer.wantsToQuit());
 }
 
+TEST_F(ViewerTest, SlowMotionIsAStepInTwoFourAndEightFrames) {
+    Viewer viewer(small(), device_, saved());
+    viewer.advance(1e9);
+    for (const int slowness : {2, 4, 8, 1}) {
+        viewer.press(Key::comma, false);
+        EXPECT_EQ(viewer.slowness, slowness);
+        const std::int64_t frame = viewer.session().frame();
+        for (int n = 0; n < 16; ++n) viewer.advance();
+        EXPECT_EQ(viewer.session().frame(), frame + 16 / slowness);
+    }
+    Viewer atOnce(small(), device_, saved());  // the same states, only later
+    atOnce.advance(1e9);
+    while (atOnce.session().frame() < viewer.session().frame()) atOnce.advance();
+    EXPECT_EQ(atOnce.session().world().stateHash(), viewer.session().world().stateHash());
+}
+
+TEST_F(ViewerTest, DrawingIsPausedApartFromTheWorld) {
+    Viewer viewer(small(), device_, saved());
+    viewer.advance(1e9);
+    const std::vector<glm::vec4> first = draw::readBack(viewer.image()).pixels;
+    viewer.press(Key::space, true);
+    EXPECT_TRUE(viewer.drawingPaused);
+    EXPECT_FALSE(viewer.paused);
+    for (int n = 0; n < 5; ++n) viewer.advance();
+    EXPECT_EQ(viewer.session().frame(), 5);
+    EXPECT_EQ(viewer.session().drawnFrame(), 0);
+    EXPECT_THAT(viewer.stamp(), HasSubstr("frame 0:"));
+    EXPECT_EQ(draw::readBack(viewer.image()).pixels, first);
+    viewer.turnCamera(0.3, 0);  // is to be seen
+    viewer.advance();
+    EXPECT_EQ(viewer.session().drawnFrame(), 6);
+    viewer.press(Key::n, false);
+    viewer.advance();
+    EXPECT_THAT(viewer.stamp(), HasSubstr("frame 7:"));
+    viewer.advance();
+    EXPECT_EQ(viewer.session().drawnFrame(), 7);
+    viewer.press(Key::space, true);
+    viewer.advance();
+    EXPECT_EQ(viewer.session().drawnFrame(), viewer.session().frame());
+    viewer.press(Key::space, false);  // the other pause draws on
+    viewer.press(Key::n, false);
+    viewer.advance();
+    EXPECT_EQ(viewer.session().drawnFrame(), 9);
+}
+
 TEST_F(ViewerTest, AFileThatBreaksMeanwhileIsAMessage) {
     const auto scene = folder_.path() / "mine.toml";
     std::filesystem::copy_file(files::dataPath("scenes/wind_tunnel.toml"), scene);

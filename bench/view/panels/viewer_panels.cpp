@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cfloat>
 
 #include "bench/measure/statistics.h"
@@ -39,6 +40,10 @@ void edit(ParameterTexts& given, const ParameterEdit& change) {
         given[change.name] = *change.text;
     else
         given.erase(change.name);
+}
+
+std::string speedText(int slowness) {
+    return slowness == 1 ? "full" : fmt::format("1/{}", slowness);
 }
 
 std::string inMegabytes(std::int64_t bytes) {
@@ -101,6 +106,16 @@ void ViewerPanels::showHalf(Viewer& viewer, Half half) {
     if (!isA && state.b && viewer.split.shown == Shown::a) viewer.split.shown = Shown::wipe;
 }
 
+void ViewerPanels::showPace(Viewer& viewer) {
+    std::vector<std::string> words;
+    for (const int slowness : slownesses) words.push_back(speedText(slowness));
+    if (const auto chosen = showList("speed", speedText(viewer.slowness), words, widgets_))
+        viewer.slowness = slownesses.at(static_cast<std::size_t>(std::ranges::find(words, *chosen) - words.begin()));
+    ImGui::SameLine();
+    bool isDrawn = !viewer.drawingPaused;
+    if (showSwitch("draw", isDrawn, widgets_)) viewer.drawingPaused = !isDrawn;
+}
+
 void ViewerPanels::showTime(Viewer& viewer) {
     const ViewSession& session = viewer.session();
     const auto button = [&](const char* label, Action action) {
@@ -114,6 +129,7 @@ void ViewerPanels::showTime(Viewer& viewer) {
     button("Restart", Action::restart);
     ImGui::SameLine();
     button("Help", Action::help);
+    showPace(viewer);
     const double seconds = session.world().state().timeSeconds;
     showText(session.stepsToGo() > 0
                  ? fmt::format("preroll: {} steps to go", session.stepsToGo())

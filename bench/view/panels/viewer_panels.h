@@ -35,6 +35,7 @@ class ViewerPanels {
     void showPanel(Viewer& viewer, int height);
     void showHalf(Viewer& viewer, Half half);
     void showTime(Viewer& viewer);
+    void showPace(Viewer& viewer);
     void showCosts(const Viewer& viewer);
     void showHistory(std::size_t half, HalfCost cost);
     void showParameters(Viewer& viewer);

@@ -239,6 +239,17 @@ TEST_F(Panels, ChannelExposureAndZoomAreAtHand) {
     EXPECT_GT(viewer_->split.origin.x, 0.3f);
 }
 
+TEST_F(Panels, SpeedAndDrawingAreAtHand) {
+    open(methods().front().id, "");
+    click("speed");
+    click("speed/1/4");
+    EXPECT_EQ(viewer_->slowness, 4);
+    click("draw");
+    EXPECT_TRUE(viewer_->drawingPaused);
+    click("draw");
+    EXPECT_FALSE(viewer_->drawingPaused);
+}
+
 TEST_F(Panels, TheWheelWithCtrlEnlargesAroundTheCursor) {
     open(methods().front().id, "");
     const std::string line = viewer_->line(Half::a);

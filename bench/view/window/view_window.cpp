@@ -59,6 +59,7 @@ const std::map<int, Key>& keysOfGlfw() {
                                          {GLFW_KEY_ESCAPE, Key::escape},
                                          {GLFW_KEY_SPACE, Key::space},
                                          {GLFW_KEY_PERIOD, Key::period},
+                                         {GLFW_KEY_COMMA, Key::comma},
                                          {GLFW_KEY_F1, Key::f1},
                                          {GLFW_KEY_A, Key::a},
                                          {GLFW_KEY_B, Key::b},
