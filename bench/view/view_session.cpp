@@ -44,13 +44,14 @@ void aim(World& world, const ViewState& state) {
         world.followPath(state.cameraPath);
 }
 
-double millisecondsSince(std::int64_t startNs) {
-    return static_cast<double>(steadyNow() - startNs) / 1e6;
+double milliseconds(std::int64_t ns) {
+    return static_cast<double>(ns) / 1e6;
 }
 
 }  // namespace
 
 ViewSession::ViewSession(const ViewState& state, gpu::Device& device) : device_(device) {
+    recorder_.setFence([&device] { device.finish(); });
     begin(normalised(state));
 }
 
@@ -133,17 +134,28 @@ void ViewSession::replaceHalves(const ViewState& state) {
     if (!showsExact(state) || state.size != state_.size) exact_.reset();
 }
 
+StageMs ViewSession::recordedMs() const {
+    StageMs stages{};
+    std::ranges::transform(recorder_.stageNs(), stages.begin(), [](std::int64_t ns) { return milliseconds(ns); });
+    return stages;
+}
+
 void ViewSession::updateHalf(ShownHalf& shown) {
-    const StageClock untimed;
-    const std::int64_t start = steadyNow();
-    shown.host->update(shown.host->see(frame(), untimed));
-    device_.finish();
-    shown.cost.updateMs = millisecondsSince(start);
+    recorder_.clear();
+    {
+        const StageClock clock(&recorder_);
+        const Frame now = shown.host->see(frame(), clock);
+        const auto timing = clock.measure(Stage::build);
+        shown.host->update(now);
+    }
+    shown.cost.update = recordedMs();
 }
 
 void ViewSession::step() {
     const bool isOfDrive = world_->state().timeSeconds > -0.5 * stepSeconds;
+    const std::int64_t start = steadyNow();
     world_->step();
+    worldMs_ = milliseconds(steadyNow() - start);
     ++next_;
     ++moment_;
     if (state_.drive == keyboardDrive && isOfDrive) recording_.add(world_->controls());
@@ -153,13 +165,12 @@ void ViewSession::step() {
 }
 
 void ViewSession::draw() {
-    const StageClock untimed;
     for (ShownHalf& shown : halves_) {
         if (!shown.host) continue;
-        const std::int64_t start = steadyNow();
-        shown.host->draw(shown.host->see(frame(), untimed));
-        device_.finish();
-        shown.cost.drawMs = millisecondsSince(start);
+        recorder_.clear();
+        const StageClock clock(&recorder_);
+        shown.host->draw(shown.host->see(frame(), clock));
+        shown.cost.draw = recordedMs();
     }
     noteDrawn();
 }

@@ -9,9 +9,11 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 
+#include "bench/measure/stage_recorder.h"
 #include "bench/run/method_host.h"
 #include "bench/scene/control_recording.h"
 #include "bench/scene/keyboard_controls.h"
@@ -22,9 +24,17 @@
 
 namespace dustbench::bench {
 
-/// Time of one half's last step and last picture, the GPU's work included.
+/// Milliseconds by stage (methods/contract/stage_clock.h). A wait for the GPU follows each stage, so that queued work
+/// counts where it was queued.
+using StageMs = std::array<double, stageNames.size()>;
+[[nodiscard]] inline double sum(const StageMs& stages) {
+    return std::accumulate(stages.begin(), stages.end(), 0.0);
+}
+
+/// Of one half's last step and last picture.
 struct HalfCost {
-    double updateMs = 0, drawMs = 0;
+    StageMs update{}, draw{};
+    [[nodiscard]] double totalMs() const { return sum(update) + sum(draw); }
 };
 
 class ViewSession {
@@ -77,6 +87,8 @@ class ViewSession {
     /// Of half B; isExact() must be true.
     [[nodiscard]] const ExactHalf& exact() const { return *exact_; }
     [[nodiscard]] HalfCost cost(Half half) const { return halves_.at(indexOf(half)).cost; }
+    /// Of the last step of the world, which both halves show: input and simulation.
+    [[nodiscard]] double worldMs() const { return worldMs_; }
     /// False for a half that joined later: if its method remembers earlier frames, a run shows another picture.
     [[nodiscard]] bool isSinceStart(Half half) const { return halves_.at(indexOf(half)).sinceStart; }
 
@@ -103,6 +115,7 @@ class ViewSession {
     void replaceHalves(const ViewState& state);
     void updateHalf(ShownHalf& shown);
     void noteDrawn();
+    [[nodiscard]] StageMs recordedMs() const;
 
     gpu::Device& device_;
     ViewState state_;
@@ -114,6 +127,8 @@ class ViewSession {
     std::int64_t next_ = 0;
     std::int64_t moment_ = 0, drawnMoment_ = -1, exactMoment_ = -1;
     std::int64_t drawnFrame_ = 0;
+    StageRecorder recorder_;
+    double worldMs_ = 0;
 };
 
 }  // namespace dustbench::bench

@@ -93,7 +93,14 @@ TEST_F(Session, AHalfIsWhatItIsAlone) {
     EXPECT_GT(maximumDifference(two.host(Half::a).picture(), two.host(Half::b).picture()), 0.01f);
     EXPECT_EQ(one.host(Half::a).gpuBytes(), two.host(Half::a).gpuBytes());
     EXPECT_EQ(one.world().stateHash(), two.world().stateHash());
-    EXPECT_GT(two.cost(Half::b).drawMs, 0);
+    const HalfCost cost = two.cost(Half::b);
+    for (const Stage stage : {Stage::scene, Stage::draw}) {
+        EXPECT_GT(cost.draw[static_cast<std::size_t>(stage)], 0);
+        EXPECT_EQ(cost.update[static_cast<std::size_t>(stage)], 0);
+    }
+    EXPECT_GT(cost.update[static_cast<std::size_t>(Stage::build)], 0);
+    EXPECT_EQ(sum(cost.update) + sum(cost.draw), cost.totalMs());
+    EXPECT_GT(two.worldMs(), 0);
 }
 
 TEST_F(Session, AMethodAgainstItselfIsTheSamePicture) {

@@ -199,8 +199,29 @@ void Viewer::applyText(const std::string& text) {
 }
 
 void Viewer::advance(double secondsForPreroll) {
+    const std::int64_t start = steadyNow();
+    if (isCosted_) costs_.back().window = static_cast<double>(start - frameStart_) / 1e6 - costs_.back().methodsMs();
+    frameStart_ = start;
+    const bool isPreroll = session_.stepsToGo() > 0;
+    const std::int64_t before = session_.frame();
     attempt([&] { goOn(secondsForPreroll); });
-    draw();
+    const bool wasDrawn = draw();
+    isCosted_ = !isPreroll;
+    if (isCosted_) noteCost(session_.frame() > before, wasDrawn);
+}
+
+void Viewer::noteCost(bool wasStepped, bool wasDrawn) {
+    FrameCost cost;
+    if (wasStepped) cost.world = session_.worldMs();
+    for (const Half half : {Half::a, Half::b}) {
+        if (!session_.hasHost(half)) continue;
+        HalfCost& ofHalf = cost.halves.at(half == Half::a ? 0 : 1);
+        ofHalf = session_.cost(half);
+        if (!wasStepped) ofHalf.update = {};
+        if (!wasDrawn) ofHalf.draw = {};
+    }
+    if (costs_.size() == keptFrames) costs_.erase(costs_.begin());
+    costs_.push_back(cost);
 }
 
 void Viewer::goOn(double secondsForPreroll) {

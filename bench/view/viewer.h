@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,14 @@ namespace dustbench::bench {
 
 /// Slow motion: full speed, half, a quarter, an eighth.
 inline constexpr std::array<int, 4> slownesses{1, 2, 4, 8};
+
+/// Milliseconds of a frame of the window: from one advance() to the next.
+struct FrameCost {
+    double world = 0;                  ///< the step that both halves share
+    std::array<HalfCost, 2> halves{};  ///< of A and B: only what this frame did, nothing of an exact picture
+    double window = 0;                 ///< all the rest: composing, maps, the exact picture, panels, the display
+    [[nodiscard]] double methodsMs() const { return world + halves[0].totalMs() + halves[1].totalMs(); }
+};
 
 /// One pixel of a half, from the upper left corner.
 struct PixelValue {
@@ -69,6 +78,10 @@ class Viewer {
     void shiftCamera(double right, double up);
     void dollyCamera(double factor);
 
+    /// Of the last frames after the preroll, the latest last. The window's share of a frame is known when it is over.
+    [[nodiscard]] std::span<const FrameCost> costs() const { return costs_; }
+    static constexpr std::size_t keptFrames = 120;
+
     [[nodiscard]] const ViewSession& session() const { return session_; }
     [[nodiscard]] ViewState state() const { return session_.state(); }
     /// The command that makes a half's picture; its error where there is none.
@@ -91,7 +104,9 @@ class Viewer {
     void perform(Action action);
     void drive();
     void goOn(double secondsForPreroll);
-    void draw();
+    /// False if drawing is paused.
+    bool draw();
+    void noteCost(bool wasStepped, bool wasDrawn);
     void drawExact();
     void compose(const SplitSettings& settings);
     [[nodiscard]] HalfTextures texturesOf(Half half, const SplitSettings& settings);
@@ -114,6 +129,9 @@ class Viewer {
     bool exactAsked_ = false, mustDraw_ = true;
     SplitSettings composed_;  ///< what image() shows
     std::int64_t framesSinceStep_ = 0;
+    std::vector<FrameCost> costs_;
+    std::int64_t frameStart_ = 0;  ///< of the last advance(), ns
+    bool isCosted_ = false;        ///< the last advance() has an entry in costs_
     std::string stamp_;
     std::array<bool, keyCount> held_{};
     std::vector<CameraKey> cameraKeys_;

@@ -25,14 +25,15 @@ void Viewer::makeImage(Shown shown) {
     target_ = gpu::Framebuffer(device_, "view", &image_, nullptr);
 }
 
-void Viewer::draw() {
+bool Viewer::draw() {
     const bool lacksExact = session_.isExact(Half::b) && !session_.isCurrent(Half::b) && paused;
     const bool isAsked = mustDraw_ || exactAsked_ || lacksExact || !(settingsNow() == composed_);
-    if (drawingPaused && !isAsked) return;
+    if (drawingPaused && !isAsked) return false;
     mustDraw_ = false;
     session_.draw();
     attempt([&] { drawExact(); });
     attempt([&] { compose(settingsNow()); });
+    return true;
 }
 
 /// It may take seconds: while the world or the camera moves, only if it is asked for.

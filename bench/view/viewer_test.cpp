@@ -7,6 +7,7 @@
 #include <fstream>
 #include <set>
 
+#include "bench/measure/clock.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/draw/read_back.h"
 #include "methods/kit/files/data_folder.h"
@@ -139,6 +140,41 @@ TEST_F(ViewerTest, DrawingIsPausedApartFromTheWorld) {
     viewer.press(Key::n, false);
     viewer.advance();
     EXPECT_EQ(viewer.session().drawnFrame(), 9);
+}
+
+TEST_F(ViewerTest, CostsAreThoseOfWhatAFrameDid) {
+    ViewState state = small();
+    state.b = HalfState{methods().back().id, {}};
+    Viewer viewer(state, device_, saved());
+    viewer.advance(1e9);
+    EXPECT_TRUE(viewer.costs().empty());  // the preroll
+    const std::int64_t start = steadyNow();
+    for (int n = 0; n < 4; ++n) viewer.advance();
+    ASSERT_EQ(viewer.costs().size(), 4u);
+    double whole = 0;
+    for (const FrameCost& frame : viewer.costs()) {
+        EXPECT_GT(frame.world, 0);
+        for (const HalfCost& half : frame.halves) {
+            EXPECT_GT(sum(half.update), 0);
+            EXPECT_GT(sum(half.draw), 0);
+        }
+        whole += frame.methodsMs() + frame.window;
+    }
+    EXPECT_LE(whole, static_cast<double>(steadyNow() - start) / 1e6);
+    EXPECT_EQ(viewer.costs().back().window, 0);  // not over yet
+    for (std::size_t n = 0; n < 3; ++n) EXPECT_GT(viewer.costs()[n].window, 0) << n;
+    viewer.paused = true;
+    viewer.advance();
+    EXPECT_EQ(viewer.costs().back().world, 0);
+    EXPECT_EQ(sum(viewer.costs().back().halves[1].update), 0);
+    EXPECT_GT(sum(viewer.costs().back().halves[1].draw), 0);
+    viewer.paused = false;
+    viewer.drawingPaused = true;
+    viewer.advance();
+    EXPECT_EQ(sum(viewer.costs().back().halves[0].draw), 0);
+    EXPECT_GT(sum(viewer.costs().back().halves[0].update), 0);
+    for (std::size_t n = 0; n < 2 * Viewer::keptFrames; ++n) viewer.advance();
+    EXPECT_EQ(viewer.costs().size(), Viewer::keptFrames);
 }
 
 TEST_F(ViewerTest, AFileThatBreaksMeanwhileIsAMessage) {

@@ -4,9 +4,8 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cfloat>
 
-#include "bench/measure/statistics.h"
+#include "bench/view/panels/cost_panel.h"
 #include "bench/view/panels/panel_widgets.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/files/data_folder.h"
@@ -15,8 +14,6 @@ namespace dustbench::bench {
 namespace {
 
 constexpr const char* none = "(none)";
-/// Frames of which the times are shown.
-constexpr std::size_t shownFrames = 120;
 
 std::vector<std::string> methodIds() {
     std::vector<std::string> ids;
@@ -44,10 +41,6 @@ void edit(ParameterTexts& given, const ParameterEdit& change) {
 
 std::string speedText(int slowness) {
     return slowness == 1 ? "full" : fmt::format("1/{}", slowness);
-}
-
-std::string inMegabytes(std::int64_t bytes) {
-    return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
 }
 
 }  // namespace
@@ -81,7 +74,7 @@ void ViewerPanels::showPanel(Viewer& viewer, int height) {
     ImGui::Separator();
     showTime(viewer);
     ImGui::Separator();
-    showCosts(viewer);
+    showCosts(viewer, widgets_);
     ImGui::Separator();
     showFiles(viewer);
     showParameters(viewer);
@@ -155,35 +148,6 @@ void ViewerPanels::showTime(Viewer& viewer) {
         state.cameraPath.clear();
         viewer.apply(state);
     }
-}
-
-void ViewerPanels::showCosts(const Viewer& viewer) {
-    const ViewSession& session = viewer.session();
-    for (const Half half : {Half::a, Half::b}) {
-        const std::size_t index = half == Half::a ? 0 : 1;
-        if (!session.hasHost(half)) {
-            history_[index].clear();
-            continue;
-        }
-        const MethodHost& host = session.host(half);
-        showHistory(index, session.cost(half));
-        showText(fmt::format("     CPU {}, GPU {}, {} primitives", inMegabytes(host.cpuBytes()),
-                             inMegabytes(host.gpuBytes()), host.method().primitives()));
-        if (!session.isSinceStart(half)) ImGui::TextDisabled("     joined later; Restart shows what a run does");
-    }
-    ImGui::TextDisabled("of this window, not a measurement");
-}
-
-void ViewerPanels::showHistory(std::size_t half, HalfCost cost) {
-    std::vector<double>& history = history_[half];
-    if (history.size() == shownFrames) history.erase(history.begin());
-    history.push_back(cost.updateMs + cost.drawMs);
-    showText(fmt::format("{}: median {:.1f} ms, 95 % within {:.1f} ms", half == 0 ? "A" : "B", median(history),
-                         quantile(history, 0.95)));
-    const std::vector<float> values(history.begin(), history.end());
-    ImGui::PlotLines(half == 0 ? "##history of A" : "##history of B", values.data(), static_cast<int>(values.size()), 0,
-                     nullptr, 0, FLT_MAX, ImVec2(ImGui::GetContentRegionAvail().x, 1.8f * ImGui::GetFontSize()));
-    showText(fmt::format("     now: update {:.1f} ms, draw {:.1f} ms", cost.updateMs, cost.drawMs));
 }
 
 void ViewerPanels::showParameters(Viewer& viewer) {

@@ -3,10 +3,6 @@
 // Owns: the canvas. Threads: the device's.
 #pragma once
 
-#include <array>
-#include <optional>
-#include <vector>
-
 #include "bench/view/panels/panel_canvas.h"
 #include "bench/view/panels/parameter_panel.h"
 #include "bench/view/panels/picture_panel.h"
@@ -36,8 +32,6 @@ class ViewerPanels {
     void showHalf(Viewer& viewer, Half half);
     void showTime(Viewer& viewer);
     void showPace(Viewer& viewer);
-    void showCosts(const Viewer& viewer);
-    void showHistory(std::size_t half, HalfCost cost);
     void showParameters(Viewer& viewer);
     void showFiles(Viewer& viewer);
     static void showMessage(const Viewer& viewer, int width, int height);
@@ -47,7 +41,6 @@ class ViewerPanels {
     WidgetMap widgets_;
     ParameterPanel ofA_{"a"}, ofB_{"b"}, ofWorld_{"world"};
     PicturePanel picture_;
-    std::array<std::vector<double>, 2> history_;  ///< milliseconds of the last frames of A and B
     bool walks_ = false;
 };
 

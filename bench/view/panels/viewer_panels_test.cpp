@@ -239,6 +239,30 @@ TEST_F(Panels, ChannelExposureAndZoomAreAtHand) {
     EXPECT_GT(viewer_->split.origin.x, 0.3f);
 }
 
+/// Pixels of a rectangle that have this colour.
+int countOf(const pictures::Image& image, const PanelRectangle& where, glm::ivec3 colour) {
+    int count = 0;
+    for (int y = static_cast<int>(where.minimum.y); y < static_cast<int>(where.maximum.y); ++y)
+        for (int x = static_cast<int>(where.minimum.x); x < static_cast<int>(where.maximum.x); ++x)
+            count += glm::ivec3(glm::round(255.0f * glm::vec3(image.at(x, y)))) == colour;
+    return count;
+}
+
+TEST_F(Panels, CostsAreStackedByStageAndMemoryByStructure) {
+    open(methods().front().id, methods().front().id);
+    for (std::size_t n = 0; n < Viewer::keptFrames; ++n) viewer_->advance();
+    frames(2);
+    const PanelRectangle costs = at("Costs");
+    const PanelRectangle below{{0, costs.maximum.y}, {290, at("Memory").minimum.y}};
+    const glm::ivec3 scene(86, 180, 233), draw(213, 94, 0);
+    for (const glm::ivec3& colour : {scene, draw}) EXPECT_GT(countOf(picture(), below, colour), 400);
+    click("Costs");
+    EXPECT_LT(at("Memory").minimum.y, costs.maximum.y + 30);
+    const float before = at("Parameters of A").minimum.y;
+    click("Memory");
+    EXPECT_GT(at("Parameters of A").minimum.y, before + 60);
+}
+
 TEST_F(Panels, SpeedAndDrawingAreAtHand) {
     open(methods().front().id, "");
     click("speed");

@@ -1,0 +1,178 @@
+#include "bench/view/panels/cost_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "bench/measure/statistics.h"
+#include "bench/view/panels/panel_widgets.h"
+
+namespace dustbench::bench {
+namespace {
+
+/// By stage; told apart by colour-blind readers as well.
+constexpr std::array<ImU32, stageNames.size()> stageColours{
+    IM_COL32(150, 150, 150, 255), IM_COL32(204, 121, 167, 255), IM_COL32(230, 159, 0, 255), IM_COL32(240, 228, 66, 255),
+    IM_COL32(0, 158, 115, 255),   IM_COL32(86, 180, 233, 255),  IM_COL32(213, 94, 0, 255),  IM_COL32(0, 114, 178, 255)};
+
+double stageOf(const HalfCost& cost, std::size_t stage) {
+    return cost.update[stage] + cost.draw[stage];
+}
+
+template <typename Value>
+std::vector<double> valuesOf(const Viewer& viewer, const Value& value) {
+    std::vector<double> values;
+    for (const FrameCost& frame : viewer.costs()) values.push_back(value(frame));
+    return values;
+}
+
+std::vector<double> totalsOf(const Viewer& viewer, std::size_t half) {
+    return valuesOf(viewer, [half](const FrameCost& frame) { return frame.halves[half].totalMs(); });
+}
+
+std::vector<double> ofWindow(const Viewer& viewer) {
+    std::vector<double> values = valuesOf(viewer, [](const FrameCost& frame) { return frame.window; });
+    if (values.size() > 1) values.pop_back();  // the last frame is not over yet
+    return values;
+}
+
+std::vector<std::size_t> halvesOf(const Viewer& viewer) {
+    return viewer.session().hasHost(Half::b) ? std::vector<std::size_t>{0, 1} : std::vector<std::size_t>{0};
+}
+
+void showRow(std::initializer_list<std::string> cells) {
+    for (const std::string& cell : cells) {
+        ImGui::TableNextColumn();
+        showText(cell);
+    }
+}
+
+/// Milliseconds of halves, world and window.
+void showPercentiles(const Viewer& viewer) {
+    if (!beginTable("percentiles", 4)) return;
+    const auto row = [](const char* name, const std::vector<double>& values) {
+        const auto text = [&values](double p) { return fmt::format("{:.1f}", quantile(values, p)); };
+        showRow({name, text(0.5), text(0.95), text(0.99)});
+    };
+    showRow({"ms", "median", "p95", "p99"});
+    for (const std::size_t half : halvesOf(viewer)) row(half == 0 ? "A" : "B", totalsOf(viewer, half));
+    row("world", valuesOf(viewer, [](const FrameCost& frame) { return frame.world; }));
+    row("window", ofWindow(viewer));
+    ImGui::EndTable();
+}
+
+std::string inMegabytes(std::size_t bytes) {
+    return bytes == 0 ? "" : fmt::format("{:.2f}", static_cast<double>(bytes) / 1e6);
+}
+
+/// One column a frame, the latest at the right; its stages lie upon each other.
+void showStack(const Viewer& viewer, std::size_t half, double maximumMs) {
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const ImVec2 size(ImGui::GetContentRegionAvail().x, 3 * ImGui::GetFontSize());
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(from, ImVec2(from.x + size.x, from.y + size.y), ImGui::GetColorU32(ImGuiCol_FrameBg));
+    const float width = size.x / static_cast<float>(Viewer::keptFrames);
+    float left = from.x + size.x - width * static_cast<float>(viewer.costs().size());
+    for (const FrameCost& frame : viewer.costs()) {
+        float bottom = from.y + size.y;
+        for (std::size_t stage = 0; stage < stageNames.size(); ++stage) {
+            const auto height = static_cast<float>(stageOf(frame.halves[half], stage) / maximumMs) * size.y;
+            list.AddRectFilled(ImVec2(left, bottom - height), ImVec2(left + width, bottom), stageColours[stage]);
+            bottom -= height;
+        }
+        left += width;
+    }
+    ImGui::Dummy(size);
+}
+
+void showSwatch(ImU32 colour) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float size = ImGui::GetFontSize();
+    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, at.y + 0.2f * size),
+                                              ImVec2(at.x + 0.6f * size, at.y + 0.8f * size), colour);
+    ImGui::Dummy(ImVec2(0.6f * size, size));
+    ImGui::SameLine();
+}
+
+/// The median of every stage that either half has; its colours are the key to the stacks.
+void showStages(const Viewer& viewer, const std::vector<std::size_t>& halves) {
+    if (!beginTable("stages", 3)) return;
+    for (const char* title : {"median of", "A ms", "B ms"}) {
+        ImGui::TableNextColumn();
+        ImGui::TextDisabled("%s", title);
+    }
+    for (std::size_t stage = 0; stage < stageNames.size(); ++stage) {
+        std::array<std::string, 2> medians;
+        for (const std::size_t half : halves) {
+            const auto values = valuesOf(viewer, [&](const FrameCost& f) { return stageOf(f.halves[half], stage); });
+            if (std::ranges::max(values) > 0) medians[half] = fmt::format("{:.2f}", median(values));
+        }
+        if (medians[0].empty() && medians[1].empty()) continue;
+        ImGui::TableNextColumn();
+        showSwatch(stageColours[stage]);
+        showText(std::string(stageNames[stage]));
+        for (const std::string& text : medians) {
+            ImGui::TableNextColumn();
+            showText(text);
+        }
+    }
+    ImGui::EndTable();
+}
+
+void showTimes(const Viewer& viewer) {
+    if (viewer.costs().empty()) return showRemark("no frame yet");
+    const std::vector<std::size_t> halves = halvesOf(viewer);
+    showPercentiles(viewer);
+    double maximumMs = 1e-3;
+    for (const std::size_t half : halves) maximumMs = std::max(maximumMs, maximum(totalsOf(viewer, half)));
+    for (const std::size_t half : halves) {
+        showRemark(fmt::format("{}, stacked, up to {:.1f} ms{}", half == 0 ? "A" : "B", maximumMs,
+                               viewer.session().isSinceStart(half == 0 ? Half::a : Half::b)
+                                   ? ""
+                                   : "; joined later, Restart shows what a run does"));
+        showStack(viewer, half, maximumMs);
+    }
+    showStages(viewer, halves);
+    showRemark(fmt::format("{} frames of this window, not a measurement", viewer.costs().size()));
+}
+
+/// `Costs: A 3.1 ms, B 5.2 ms`: what is seen of them while they are closed.
+std::string titleOf(const Viewer& viewer) {
+    std::string title = "Costs";
+    if (viewer.costs().empty()) return title;
+    for (const std::size_t half : halvesOf(viewer))
+        title += fmt::format("{} {} {:.1f} ms", half == 0 ? ":" : ",", half == 0 ? "A" : "B",
+                             median(totalsOf(viewer, half)));
+    return title;
+}
+
+void showMemoryOf(const MethodHost& host, const char* title) {
+    if (!beginTable(title, 3)) return;
+    showRow({title, "CPU MB", "GPU MB"});
+    for (const MemoryUse& use : host.method().memory()) showRow({use.structure, inMegabytes(use.cpuBytes), ""});
+    for (const auto& [structure, bytes] : host.gpuLedger().entries()) showRow({structure, "", inMegabytes(bytes)});
+    showRow({"together", inMegabytes(static_cast<std::size_t>(host.cpuBytes())),
+             inMegabytes(static_cast<std::size_t>(host.gpuBytes()))});
+    ImGui::EndTable();
+    showText(fmt::format("{} primitives", host.method().primitives()));
+}
+
+/// A section that is closed at first, noted by `name`.
+bool isOpen(const std::string& title, const std::string& name, WidgetMap& widgets) {
+    const bool open = ImGui::CollapsingHeader((title + "###" + name).c_str());
+    widgets.note(name);
+    return open;
+}
+
+}  // namespace
+
+void showCosts(const Viewer& viewer, WidgetMap& widgets) {
+    if (isOpen(titleOf(viewer), "Costs", widgets)) showTimes(viewer);
+    if (!isOpen("Memory", "Memory", widgets)) return;
+    for (const Half half : {Half::a, Half::b})
+        if (viewer.session().hasHost(half))
+            showMemoryOf(viewer.session().host(half), half == Half::a ? "of A" : "of B");
+}
+
+}  // namespace dustbench::bench
