@@ -7,6 +7,7 @@
 
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
+#include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/world_options.h"
 #include "bench/run/thread_limit.h"
@@ -102,7 +103,7 @@ int view(const ViewOptions& options) {
 #endif
     }
 #ifdef DUSTBENCH_WINDOW
-    bench::withThreads(state.threads, [&] { bench::showWindow(state, options.out); });
+    bench::withThreads(state.threads, [&] { bench::showWindow(state, options.out, childExecution()); });
     return exitOk;
 #else
     throw missing("a window");

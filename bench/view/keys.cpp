@@ -36,6 +36,7 @@ constexpr std::array bindings{
     KeyBinding{Key::p, false, Action::savePicture, "P", "save the picture, without the panel"},
     KeyBinding{Key::s, true, Action::saveState, "Ctrl+S", "save all settings as TOML"},
     KeyBinding{Key::r, false, Action::saveDrive, "R", "save what was driven as a drive"},
+    KeyBinding{Key::m, false, Action::measure, "M", "measure A against B in processes of their own; Escape cancels"},
     KeyBinding{Key::c, true, Action::copyLine, "Ctrl+C", "copy the command that makes picture A"},
     KeyBinding{Key::f1, false, Action::help, "F1", "this help"},
     KeyBinding{Key::q, true, Action::quit, "Ctrl+Q", "quit"},

@@ -33,6 +33,7 @@ enum class Key {
     g,
     h,
     k,
+    m,
     n,
     p,
     q,
@@ -71,6 +72,7 @@ enum class Action {
     savePicture,
     saveState,
     saveDrive,
+    measure,
     copyLine,
     quit,
 };

@@ -169,6 +169,9 @@ void Viewer::perform(Action action) {
             else
                 save("drive.csv", session_.recordedDrive());
             break;
+        case Action::measure:
+            measureAsked_ = true;
+            break;
         case Action::copyLine:
             copied_ = line(Half::a);
             message_ = "copied: " + copied_;
@@ -199,6 +202,7 @@ void Viewer::applyText(const std::string& text) {
 }
 
 void Viewer::advance(double secondsForPreroll) {
+    if (std::exchange(measureAsked_, false)) attempt([&] { measureShown(); });
     const std::int64_t start = steadyNow();
     if (isCosted_) costs_.back().window = static_cast<double>(start - frameStart_) / 1e6 - costs_.back().methodsMs();
     frameStart_ = start;
@@ -208,6 +212,21 @@ void Viewer::advance(double secondsForPreroll) {
     const bool wasDrawn = draw();
     isCosted_ = !isPreroll;
     if (isCosted_) noteCost(session_.frame() > before, wasDrawn);
+}
+
+/// Nothing is drawn meanwhile but the progress between two runs.
+void Viewer::measureShown() {
+    if (!measurement_) throw InputError("measure: no runs can be started from here");
+    const Suite suite = measurementOf(session_.state());
+    isCosted_ = false;  // the window's share would be the measurement
+    device_.finish();
+    MeasurementHooks hooks = *measurement_;
+    hooks.between = [this](const std::string& progress) {
+        message_ = progress;
+        if (measurement_->between) measurement_->between(progress);
+    };
+    measured_ = measure(suite, folder_ / "measured", hooks);
+    message_.clear();
 }
 
 void Viewer::noteCost(bool wasStepped, bool wasDrawn) {

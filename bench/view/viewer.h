@@ -9,12 +9,14 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bench/view/keys.h"
 #include "bench/view/moment_maps.h"
+#include "bench/view/shown_measurement.h"
 #include "bench/view/split_view.h"
 #include "bench/view/view_session.h"
 
@@ -82,6 +84,12 @@ class Viewer {
     [[nodiscard]] std::span<const FrameCost> costs() const { return costs_; }
     static constexpr std::size_t keptFrames = 120;
 
+    /// What Action::measure needs to start runs; without it, it is an error. It starts with the next advance(), which
+    /// then takes minutes; message() tells how far it is.
+    void setMeasurement(MeasurementHooks hooks) { measurement_ = std::move(hooks); }
+    /// Of the last measurement: its verdicts, as sentences.
+    [[nodiscard]] const std::vector<std::string>& measured() const { return measured_; }
+
     [[nodiscard]] const ViewSession& session() const { return session_; }
     [[nodiscard]] ViewState state() const { return session_.state(); }
     /// The command that makes a half's picture; its error where there is none.
@@ -105,6 +113,7 @@ class Viewer {
     void drive();
     void goOn(double secondsForPreroll);
     /// False if drawing is paused.
+    void measureShown();
     bool draw();
     void noteCost(bool wasStepped, bool wasDrawn);
     void drawExact();
@@ -126,7 +135,9 @@ class Viewer {
     gpu::Texture image_, pixel_;
     gpu::Framebuffer target_, pixelTarget_;
     std::int64_t momentBefore_ = -1;  ///< of the frame before
-    bool exactAsked_ = false, mustDraw_ = true;
+    bool exactAsked_ = false, measureAsked_ = false, mustDraw_ = true;
+    std::optional<MeasurementHooks> measurement_;
+    std::vector<std::string> measured_;
     SplitSettings composed_;  ///< what image() shows
     std::int64_t framesSinceStep_ = 0;
     std::vector<FrameCost> costs_;

@@ -177,6 +177,11 @@ void ViewerPanels::showFiles(Viewer& viewer) {
     ImGui::SameLine();
     if (ImGui::Button("Save picture")) viewer.act(Action::savePicture);
     widgets_.note("Save picture");
+    if (ImGui::Button("Measure this")) viewer.act(Action::measure);
+    widgets_.note("Measure this");
+    ImGui::SameLine();
+    ImGui::TextDisabled("%d runs each, minutes", measuredRepetitions);
+    for (const std::string& sentence : viewer.measured()) ImGui::TextWrapped("%s", sentence.c_str());
 }
 
 void ViewerPanels::showMessage(const Viewer& viewer, int width, int height) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -70,6 +71,7 @@ const std::map<int, Key>& keysOfGlfw() {
                                          {GLFW_KEY_G, Key::g},
                                          {GLFW_KEY_H, Key::h},
                                          {GLFW_KEY_K, Key::k},
+                                         {GLFW_KEY_M, Key::m},
                                          {GLFW_KEY_N, Key::n},
                                          {GLFW_KEY_P, Key::p},
                                          {GLFW_KEY_Q, Key::q},
@@ -166,17 +168,22 @@ std::string contentOf(const std::string& file) {
 /// The window's frames.
 class Loop {
  public:
-    Loop(GLFWwindow* window, const ViewState& state, const std::filesystem::path& folder)
+    Loop(GLFWwindow* window, const ViewState& state, const std::filesystem::path& folder,
+         const ExecutionOptions& execution)
         : window_(window),
+          isInterrupted_(execution.interrupted),
           device_(gpu::Device::adoptCurrent()),
           viewer_(state, device_, folder),
           panels_(device_, fontPixels * contentScale()) {
         glfwSetWindowUserPointer(window, &reported_);
         listen(window);
+        viewer_.setMeasurement(
+            {execution, [this](const std::string&) { showProgress(); }, [this] { return cancels(); }});
     }
 
     void run() {
-        while (glfwWindowShouldClose(window_) == GLFW_FALSE && !viewer_.wantsToQuit()) {
+        while (glfwWindowShouldClose(window_) == GLFW_FALSE && !viewer_.wantsToQuit() &&
+               !(isInterrupted_ && isInterrupted_())) {
             glfwPollEvents();
             useInput();
             if (makeTarget())
@@ -221,16 +228,32 @@ class Loop {
         before_ = now;
         viewer_.advance();
         const std::string clipboard = panels_.canvas().clipboard();
-        panels_.draw(viewer_, target_, texture_.width(), texture_.height(), reported_.input);
+        showPanels(reported_.input);
         if (panels_.canvas().clipboard() != clipboard)
             glfwSetClipboardString(window_, panels_.canvas().clipboard().c_str());
         reported_.input.text.clear();
         reported_.input.wheel = 0;
+    }
+    void showPanels(const PanelInput& input) {
+        panels_.draw(viewer_, target_, texture_.width(), texture_.height(), input);
         target_.copyToWindow();
         glfwSwapBuffers(window_);
     }
+    /// Between two runs of a measurement, without input.
+    void showProgress() {
+        if (makeTarget()) showPanels({});
+    }
+    /// While a run may be timed.
+    bool cancels() {
+        glfwPollEvents();
+        const auto isEscape = [](const KeyEvent& event) { return event.pressed && event.key == Key::escape; };
+        const bool cancelled = std::ranges::any_of(reported_.keys, isEscape);
+        std::erase_if(reported_.keys, [](const KeyEvent& event) { return event.pressed; });
+        return cancelled || glfwWindowShouldClose(window_) == GLFW_TRUE;
+    }
 
     GLFWwindow* window_;
+    std::function<bool()> isInterrupted_;
     gpu::Device device_;
     Viewer viewer_;
     ViewerPanels panels_;
@@ -242,10 +265,10 @@ class Loop {
 
 }  // namespace
 
-void showWindow(const ViewState& state, const std::filesystem::path& folder) {
+void showWindow(const ViewState& state, const std::filesystem::path& folder, const ExecutionOptions& execution) {
     const Library library;
     const WindowOwner window = openWindow();
-    Loop(window.get(), state, folder).run();
+    Loop(window.get(), state, folder, execution).run();
 }
 
 }  // namespace dustbench::bench

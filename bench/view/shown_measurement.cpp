@@ -1,0 +1,102 @@
+#include "bench/view/shown_measurement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/measure/statistics.h"
+#include "bench/results/method_time.h"
+#include "bench/suite/cell_results.h"
+#include "bench/suite/suite_verdicts.h"
+#include "methods/contract/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+PlannedRun cellOf(const ViewState& state, Half half) {
+    PlannedRun cell{runOf(state, half), half == Half::a ? "A" : "B"};
+    cell.spec.frames = std::max(cell.spec.frames, minimumMeasuredFrames);
+    cell.spec.warmup = std::max(cell.spec.warmup, RunSpec().warmup);
+    cell.spec.imagesEvery = 0;
+    requireChangesWithinRun(cell.spec);
+    return cell;
+}
+
+ComparedSide sideOf(const PlannedRun& cell) {
+    return {cell.spec.method, cell.spec.parameters, cell.label + " (" + cell.spec.method + ")"};
+}
+
+/// Tells of the runs; between them it lets the window draw.
+class Teller : public ExecutionListener {
+ public:
+    explicit Teller(const MeasurementHooks& hooks) : hooks_(hooks) {}
+
+    void started(std::size_t position, std::size_t total, const PlannedRun& run, int repetitions, double eta) override {
+        std::string progress = fmt::format("measuring: run {} of {}, {}, repetition {} of {}", position, total,
+                                           run.spec.method, run.spec.repetition, repetitions);
+        if (eta >= 0) progress += fmt::format(", about {:.0f} s left", eta);
+        if (hooks_.between) hooks_.between(progress + "; Escape cancels");
+    }
+    void ended(const PlannedRun& run, RunStatus status, const std::string& reason) override {
+        if (status != RunStatus::done && whyNot_.empty()) whyNot_ = fmt::format("{}: {}", run.spec.method, reason);
+    }
+    /// Of the first run that gave no result; empty if all did.
+    [[nodiscard]] const std::string& whyNot() const { return whyNot_; }
+
+ private:
+    const MeasurementHooks& hooks_;
+    std::string whyNot_;
+};
+
+std::string timesOf(const PlannedRun& cell, const Suite& suite, const StoredRuns& runs) {
+    const auto times = numbersIn(doneRuns(cell, suite.repetitions, runs), "frame_ms_median");
+    if (times.empty()) return fmt::format("{}: no times", sideOf(cell).label);
+    return fmt::format("frame_ms_median: {} takes {:.3f} ms, {:.3f} to {:.3f} in {} runs", sideOf(cell).label,
+                       median(times), minimum(times), maximum(times), times.size());
+}
+
+}  // namespace
+
+Suite measurementOf(const ViewState& state) {
+    Suite suite;
+    suite.id = "view";
+    suite.title = "what the window showed";
+    suite.repetitions = measuredRepetitions;
+    suite.baseline = true;
+    suite.cells.push_back(cellOf(state, Half::a));
+    if (!state.b || showsExact(state)) return suite;
+    suite.cells.push_back(cellOf(state, Half::b));
+    if (runId(suite.cells[0].spec) == runId(suite.cells[1].spec))
+        throw InputError("measure: A and B are the same run, expected methods or parameters that differ");
+    PlannedComparison comparison{sideOf(suite.cells[1]), sideOf(suite.cells[0]), {"frame_ms_median"}, ""};
+    if (std::ranges::none_of(suite.cells, [](const PlannedRun& cell) { return cell.spec.method == baselineMethod; }))
+        comparison.columns.emplace_back("method_ms_median");
+    suite.comparisons.push_back(std::move(comparison));
+    return suite;
+}
+
+std::vector<std::string> measure(const Suite& suite, const std::filesystem::path& folder,
+                                 const MeasurementHooks& hooks) {
+    ResultsFolder results(folder);
+    ExecutionOptions execution = hooks.execution;
+    execution.force = true;
+    execution.timeoutSeconds = suite.timeoutSeconds;
+    execution.interrupted = [&] {
+        return (hooks.cancelled && hooks.cancelled()) || (hooks.execution.interrupted && hooks.execution.interrupted());
+    };
+    Teller teller(hooks);
+    const auto plan = planRuns(suite);
+    const ExecutionResult result = execute(plan, suite.repetitions, results, execution, teller);
+    if (result.aborted)
+        return {fmt::format("measurement cancelled after {} of {} runs", result.done + result.skipped + result.failed,
+                            plan.size())};
+    std::vector<std::string> sentences;
+    for (const PlannedRun& cell : suite.cells) sentences.push_back(timesOf(cell, suite, results.runs()));
+    for (const ComparisonResult& comparison : suiteVerdicts(suite, results.runs()))
+        for (std::string& sentence : conclusions(comparison)) sentences.push_back(std::move(sentence));
+    if (!teller.whyNot().empty()) sentences.push_back(teller.whyNot());
+    sentences.push_back("results: " + folder.string());
+    return sentences;
+}
+
+}  // namespace dustbench::bench
