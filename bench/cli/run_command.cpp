@@ -1,18 +1,21 @@
 // `dustbench run`: one method in one scene; lists and ranges in -P give several runs.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
 
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
+#include "bench/cli/film.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/text_table.h"
 #include "bench/cli/volume_options.h"
 #include "bench/cli/world_options.h"
 #include "bench/suite/cell_results.h"
+#include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 #include "methods/contract/stage_clock.h"
 #include "methods/kit/files/printable.h"
@@ -26,13 +29,14 @@ struct RunOptions {
     std::int64_t frames = bench::RunSpec().frames, images = 0;
     bool metrics = false;
     std::string sync = "frame", out;
+    FilmFiles films;
 };
 
 bench::RunSpec toSpec(const RunOptions& options) {
     bench::RunSpec spec = options.world.toSpec();
     spec.frames = options.frames;
     spec.sync = bench::syncs.parse("sync", options.sync);
-    spec.imagesEvery = options.images;
+    spec.imagesEvery = options.films.wanted() ? std::max<std::int64_t>(options.images, 1) : options.images;
     spec.volumes = options.volumes.over({});
     if (options.metrics) spec.judging.emplace();
     bench::requireFramesWithinRun(spec);
@@ -68,6 +72,10 @@ int run(const RunOptions& options) {
     const bench::RunSpec spec = toSpec(options);
     const auto plan = bench::expandParameters(spec, findMethod(spec.method), options.world.parameterLists());
     for (const bench::PlannedRun& each : plan) bench::requireChangesWithinRun(each.spec);
+    if (options.films.wanted() && plan.size() > 1)
+        throw InputError(fmt::format("{}: got {} runs, allowed: 1 (a film shows one run)",
+                                     options.films.video.empty() ? "--gif" : "--video", plan.size()));
+    requireFilm(options.films);
     checkWorlds(plan);
     requireOpenGl();
     bench::ResultsFolder results(options.out);
@@ -77,6 +85,8 @@ int run(const RunOptions& options) {
     const int code = runPlan(plan, 1, results, planOptions);
     for (const bench::PlannedRun& each : plan)
         if (results.runs().contains(bench::runId(each.spec)) && code != exitAborted) printRun(each, results);
+    if (code == exitOk && options.films.wanted() && bench::doneRun(plan.front(), 1, results.runs()))
+        writeFilms(options.films, results.runFolder(bench::runId(plan.front().spec)) / "images", spec.imagesEvery);
     return code;
 }
 
@@ -95,6 +105,11 @@ Command runCommand() {
                                options->sync);
                 arguments.integer("--images", "save every N-th frame from frame 0 on as PNG and EXR; 0: none",
                                   options->images, 0);
+                arguments.text(
+                    "--video", "FILE",
+                    "a film of the run (.mp4, .mkv, .mov, .webm) by ffmpeg, after it; saves the pictures too",
+                    options->films.video);
+                arguments.text("--gif", "FILE", "the same as GIF", options->films.gif);
                 options->volumes.declareOptional(arguments);
                 arguments.flag("--metrics",
                                "afterwards, compare five frames and the last 31 with exact pictures "

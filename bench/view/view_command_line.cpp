@@ -76,8 +76,8 @@ class LineReader {
             {"--warmup", [this](const std::string& value) { state_.warmup = integer("--warmup", value, 0); }},
             {"--frames", [this](const std::string& value) { frames_ = integer("--frames", value, 1); }},
         };
-        for (const char* other :
-             {"--out", "--sync", "--images", "--volumes", "--format", "--resolution", "--region", "--vdb-precision"})
+        for (const char* other : {"--out", "--sync", "--images", "--video", "--gif", "--volumes", "--format",
+                                  "--resolution", "--region", "--vdb-precision"})
             options_[other] = [](const std::string&) {};
     }
 

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/export/whole_file.h"
 #include "bench/measure/clock.h"
 #include "bench/results/shell_words.h"
 #include "bench/view/free_camera.h"
 #include "methods/contract/errors.h"
-#include "methods/kit/draw/read_back.h"
 
 namespace dustbench::bench {
 namespace {
@@ -160,6 +158,9 @@ void Viewer::perform(Action action) {
         case Action::savePicture:
             savePicture();
             break;
+        case Action::saveVolume:
+            saveVolume();
+            break;
         case Action::saveState:
             save("state.toml", toToml(session_.state()));
             break;
@@ -277,27 +278,6 @@ void Viewer::shiftCamera(double right, double up) {
 
 void Viewer::dollyCamera(double factor) {
     moveCamera([&](const CameraKey& key) { return dollied(key, factor); });
-}
-
-std::string Viewer::line(Half half) const {
-    try {
-        return commandLine(session_.state(), half, (folder_ / "run").string());
-    } catch (const InputError& error) {
-        return error.what();
-    }
-}
-
-void Viewer::save(const std::string& name, const std::string& text) {
-    std::filesystem::create_directories(folder_);
-    writeWhole(folder_ / name, text);
-    message_ = "saved: " + (folder_ / name).string();
-}
-
-void Viewer::savePicture() {
-    std::filesystem::create_directories(folder_);
-    const auto file = folder_ / fmt::format("f{:06}.png", std::max<std::int64_t>(session_.frame(), 0));
-    pictures::writeImage(pictures::decoded(draw::readBack(image_)), file);
-    message_ = "saved: " + file.string();
 }
 
 }  // namespace dustbench::bench

@@ -124,6 +124,12 @@ class Viewer {
     void makeImage(Shown shown);
     void save(const std::string& name, const std::string& text);
     void savePicture();
+    void saveVolume();
+    [[nodiscard]] std::string frameName() const;
+    /// What image() shows, before it is encoded for display.
+    [[nodiscard]] pictures::Image lightOfImage();
+    /// Half B if it can be shown, else A.
+    [[nodiscard]] Half secondHalf() const;
     template <typename Move>
     void moveCamera(const Move& move);
 

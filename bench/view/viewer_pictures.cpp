@@ -44,9 +44,13 @@ void Viewer::drawExact() {
     if (isAtRest || exactEveryFrame || std::exchange(exactAsked_, false)) session_.drawExact();
 }
 
+Half Viewer::secondHalf() const {
+    return session_.isCurrent(Half::b) ? Half::b : Half::a;
+}
+
 SplitSettings Viewer::settingsNow() const {
     SplitSettings settings = split;
-    const bool both = session_.has(Half::b) && session_.isCurrent(Half::b);
+    const bool both = secondHalf() == Half::b;
     if (!both) settings.shown = Shown::a;
     for (const KeyBinding& binding : keyBindings())
         if (both && binding.action == Action::flip && held_.at(static_cast<std::size_t>(binding.key)))
@@ -55,8 +59,7 @@ SplitSettings Viewer::settingsNow() const {
 }
 
 void Viewer::compose(const SplitSettings& settings) {
-    const Half second = session_.has(Half::b) && session_.isCurrent(Half::b) ? Half::b : Half::a;
-    const HalfTextures a = texturesOf(Half::a, settings), b = texturesOf(second, settings);
+    const HalfTextures a = texturesOf(Half::a, settings), b = texturesOf(secondHalf(), settings);
     makeImage(settings.shown);
     splitView_.draw(a, b, settings, session_.view().camera.nearMetres, target_, image_.width(), image_.height());
     stamp_ = stampOf(settings);

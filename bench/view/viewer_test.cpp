@@ -265,5 +265,51 @@ TEST_F(ViewerTest, SavesThePictureThatItShows) {
         ASSERT_NEAR(pictures::encodeSrgb(file.pixels[i].g), shown.pixels[i].g, 0.5 / 255);
 }
 
+TEST_F(ViewerTest, SavesTheLightOfThePictureBesideIt) {
+    ViewState state = small();
+    state.b = HalfState{methods().back().id, {}};
+    Viewer viewer(state, device_, saved());
+    viewer.paused = true;
+    viewer.advance(1e9);
+    for (const Shown shown : {Shown::a, Shown::b, Shown::beside}) {
+        viewer.split.shown = shown;
+        viewer.split.stops = 1;  // of the view alone
+        viewer.advance();
+        viewer.press(Key::p, false);
+        const pictures::Image light = pictures::readImage(saved() / "f000000.exr");
+        const pictures::Image a = viewer.session().image(Half::a), b = viewer.session().image(Half::b);
+        ASSERT_EQ(light.width, shown == Shown::beside ? 128 : 64);
+        for (int y = 0; y < light.height; ++y)
+            for (int x = 0; x < light.width; ++x) {
+                const bool isB = shown == Shown::b || x >= 64;
+                for (int channel = 0; channel < 3; ++channel)
+                    ASSERT_NEAR(light.at(x, y)[channel], (isB ? b : a).at(x % 64, y)[channel], 1e-5f);
+            }
+        std::filesystem::remove(saved() / "f000000.exr");
+    }
+    viewer.split.shown = Shown::difference;
+    viewer.advance();
+    viewer.press(Key::p, false);
+    EXPECT_FALSE(std::filesystem::exists(saved() / "f000000.exr"));
+}
+
+TEST_F(ViewerTest, SavesTheVolumeOfTheMoment) {
+    if (std::ranges::none_of(methods(), [](const MethodInfo& info) { return info.id == "octree_search"; }))
+        GTEST_SKIP() << "no octree here";
+    ViewState state = small();
+    state.frame = 3;
+    state.a.method = "octree_search";
+    Viewer viewer(state, device_, saved());
+    viewer.paused = true;
+    viewer.advance(1e9);
+    viewer.press(Key::o, false);
+    EXPECT_THAT(viewer.message(), HasSubstr("volumes/f000003 ("));
+    const auto folder = saved() / "volumes" / "f000003";
+    for (const char* file : {"f000003.vti", "f000003.htg", "f000003.vdb"})
+        EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+    viewer.press(Key::o, false);  // again
+    EXPECT_THAT(viewer.message(), HasSubstr("saved: "));
+}
+
 }  // namespace
 }  // namespace dustbench::bench

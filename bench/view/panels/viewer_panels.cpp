@@ -177,6 +177,9 @@ void ViewerPanels::showFiles(Viewer& viewer) {
     ImGui::SameLine();
     if (ImGui::Button("Save picture")) viewer.act(Action::savePicture);
     widgets_.note("Save picture");
+    ImGui::SameLine();
+    if (ImGui::Button("volume")) viewer.act(Action::saveVolume);
+    widgets_.note("volume");
     if (ImGui::Button("Measure this")) viewer.act(Action::measure);
     widgets_.note("Measure this");
     ImGui::SameLine();

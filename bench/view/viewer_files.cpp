@@ -1,0 +1,89 @@
+// What a viewer saves, and the command that it stands for.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/export/volume_exporter.h"
+#include "bench/export/whole_file.h"
+#include "bench/view/viewer.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/draw/read_back.h"
+
+namespace dustbench::bench {
+namespace {
+
+/// Every format that can hold the volume; all of them if none can.
+std::vector<VolumeFormat> formatsOf(const CollectedVolume& volume) {
+    std::vector<VolumeFormat> all, possible;
+    for (const auto& [word, format] : volumeFormats.all()) {
+        all.push_back(format);
+        if (whyNotWritable(volume, format).empty()) possible.push_back(format);
+    }
+    return possible.empty() ? all : possible;
+}
+
+/// Light that a picture can be made of again: not a comparison, nor a map.
+bool isLight(const SplitSettings& settings) {
+    return settings.channel == Channel::picture && settings.shown != Shown::difference && settings.shown != Shown::flip;
+}
+
+}  // namespace
+
+std::string Viewer::line(Half half) const {
+    try {
+        return commandLine(session_.state(), half, (folder_ / "run").string());
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+std::string Viewer::frameName() const {
+    return fmt::format("f{:06}", std::max<std::int64_t>(session_.drawnFrame(), 0));
+}
+
+void Viewer::save(const std::string& name, const std::string& text) {
+    std::filesystem::create_directories(folder_);
+    writeWhole(folder_ / name, text);
+    message_ = "saved: " + (folder_ / name).string();
+}
+
+void Viewer::savePicture() {
+    std::filesystem::create_directories(folder_);
+    const std::filesystem::path file = folder_ / (frameName() + ".png");
+    pictures::writeImage(pictures::decoded(draw::readBack(image_)), file);
+    message_ = "saved: " + file.string();
+    if (!isLight(composed_)) return;
+    const std::filesystem::path light = folder_ / (frameName() + ".exr");
+    pictures::writeImage(lightOfImage(), light);
+    message_ += ", " + light.string();
+}
+
+pictures::Image Viewer::lightOfImage() {
+    SplitSettings settings = composed_;
+    settings.encoded = false;
+    settings.stops = 0;
+    const gpu::Texture light =
+        gpu::Texture::make2D(device_, "light of the view", gpu::Format::rgba32F, image_.width(), image_.height());
+    const gpu::Framebuffer target(device_, "light of the view", &light, nullptr);
+    splitView_.draw(session_.textures(Half::a), session_.textures(secondHalf()), settings,
+                    session_.view().camera.nearMetres, target, image_.width(), image_.height());
+    return draw::readBack(light);
+}
+
+void Viewer::saveVolume() {
+    CollectedVolume volume;
+    session_.volume(Half::a, volume);
+    const ViewState state = session_.state();
+    VolumeSettings settings;
+    settings.frames = {session_.frame(), session_.frame(), 1};
+    settings.formats = formatsOf(volume);
+    requireWritable(volume, settings.formats, state.a.method);
+    const std::filesystem::path folder = folder_ / "volumes" / fmt::format("f{:06}", session_.frame());
+    std::filesystem::create_directories(folder.parent_path());
+    VolumeExporter exporter(settings, folder);
+    const World& world = session_.world();
+    exporter.write({session_.frame(), state.a.method, volume, world.scene(), world.state(), world.dust()});
+    message_ = fmt::format("saved: {} ({})", folder.string(), formatsText(settings.formats));
+}
+
+}  // namespace dustbench::bench
