@@ -44,7 +44,22 @@ constexpr std::array bindings{
     KeyBinding{Key::q, true, Action::quit, "Ctrl+Q", "quit"},
 };
 
+constexpr std::array padButtons{
+    PadBinding{PadButton::south, Action::flip, "A (below)", "while held: B in place of A"},
+    PadBinding{PadButton::east, Action::nextChannel, "B (right)", "next channel"},
+    PadBinding{PadButton::west, Action::difference, "X (left)", "difference of A and B, and back"},
+    PadBinding{PadButton::north, Action::nextShown, "Y (above)", "next view"},
+    PadBinding{PadButton::leftBumper, Action::savePicture, "left bumper", "save the picture"},
+    PadBinding{PadButton::rightBumper, Action::nextCamera, "right bumper", "next camera"},
+    PadBinding{PadButton::back, Action::restart, "back", "from the beginning"},
+    PadBinding{PadButton::start, Action::pause, "start", "pause and go on"},
+};
+
 }  // namespace
+
+std::span<const PadBinding> padBindings() {
+    return padButtons;
+}
 
 std::span<const KeyBinding> keyBindings() {
     return bindings;

@@ -1,6 +1,8 @@
-// The keys of the window and what they do: one table for the input and for the help.
+// The keys of the window and the buttons of a gamepad, and what they do: tables for the input and for the help.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -90,5 +92,25 @@ struct KeyBinding {
 /// In the order of the help. Driving is for as long as the key is held, as is flipping.
 [[nodiscard]] std::span<const KeyBinding> keyBindings();
 [[nodiscard]] std::optional<Action> actionOf(Key key, bool control);
+
+/// Buttons of a gamepad by their place, as on one for an Xbox.
+enum class PadButton { south, east, west, north, leftBumper, rightBumper, back, start };
+inline constexpr std::size_t padButtonCount = static_cast<std::size_t>(PadButton::start) + 1;
+
+struct PadBinding {
+    PadButton button;
+    Action action;
+    std::string_view name, help;
+};
+
+/// As keyBindings(). The stick and the triggers drive.
+[[nodiscard]] std::span<const PadBinding> padBindings();
+
+/// What a gamepad reports.
+struct PadState {
+    float stickRight = 0;                     ///< of the left stick, −1..1
+    float rightTrigger = 0, leftTrigger = 0;  ///< 0..1
+    std::array<bool, padButtonCount> buttons{};
+};
 
 }  // namespace dustbench::bench

@@ -94,6 +94,7 @@ class ViewSession {
 
     /// What the driver holds; only read if the drive is keyboardDrive.
     [[nodiscard]] DrivingInput& input() { return *input_; }
+    [[nodiscard]] const DrivingInput& input() const { return *input_; }
     /// The drive so far as a drive file, and the state whose drive it is: `file` is its name. Throws std::logic_error
     /// unless the drive is keyboardDrive and has begun.
     [[nodiscard]] std::string recordedDrive() const { return recording_.csv(); }

@@ -14,6 +14,7 @@ namespace dustbench::bench {
 namespace {
 
 constexpr double turnPerHeight = 3;  ///< radians for a drag over the picture's height
+constexpr float stickPlay = 0.08f;   ///< of a gamepad's stick at rest
 
 std::string nextCamera(const ViewState& state) {
     const std::vector<std::string> words = cameraKinds.words();
@@ -56,14 +57,35 @@ void Viewer::release(Key key) {
     drive();
 }
 
+void Viewer::usePad(const PadState& pad) {
+    const PadState before = std::exchange(pad_, pad);
+    for (const PadBinding& binding : padBindings()) {
+        const auto button = static_cast<std::size_t>(binding.button);
+        if (pad.buttons.at(button) && !before.buttons.at(button)) act(binding.action);
+    }
+    drive();
+}
+
+bool Viewer::holds(Action action) const {
+    return std::ranges::any_of(keyBindings(),
+                               [&](const KeyBinding& binding) {
+                                   return binding.action == action && held_.at(static_cast<std::size_t>(binding.key));
+                               }) ||
+           std::ranges::any_of(padBindings(), [&](const PadBinding& binding) {
+               return binding.action == action && pad_.buttons.at(static_cast<std::size_t>(binding.button));
+           });
+}
+
+/// Of keys and gamepad what is pressed further.
 void Viewer::drive() {
-    const auto holds = [this](Action action) {
-        return std::ranges::any_of(keyBindings(), [&](const KeyBinding& binding) {
-            return binding.action == action && held_.at(static_cast<std::size_t>(binding.key));
-        });
+    const auto pressed = [](float value) {
+        return std::isfinite(value) && std::abs(value) > stickPlay ? std::clamp(static_cast<double>(value), -1.0, 1.0)
+                                                                   : 0.0;
     };
-    session_.input() = {holds(Action::throttle) ? 1.0 : 0.0, holds(Action::brake) ? 1.0 : 0.0,
-                        (holds(Action::steerLeft) ? 1.0 : 0.0) - (holds(Action::steerRight) ? 1.0 : 0.0)};
+    const double left = -pressed(pad_.stickRight);
+    const double keys = (holds(Action::steerLeft) ? 1.0 : 0.0) - (holds(Action::steerRight) ? 1.0 : 0.0);
+    session_.input() = {holds(Action::throttle) ? 1.0 : std::max(pressed(pad_.rightTrigger), 0.0),
+                        holds(Action::brake) ? 1.0 : std::max(pressed(pad_.leftTrigger), 0.0), keys != 0 ? keys : left};
 }
 
 void Viewer::attempt(const std::function<void()>& work) {

@@ -49,6 +49,8 @@ class Viewer {
 
     void press(Key key, bool control);
     void release(Key key);
+    /// What a gamepad reports now; buttons act when they go down.
+    void usePad(const PadState& pad);
     void act(Action action);
 
     /// Sets the state or, if it cannot be shown, a message.
@@ -110,6 +112,7 @@ class Viewer {
     /// Turns errors into the message; a simulation that breaks down is paused.
     void attempt(const std::function<void()>& work);
     void perform(Action action);
+    [[nodiscard]] bool holds(Action action) const;
     void drive();
     void goOn(double secondsForPreroll);
     /// False if drawing is paused.
@@ -151,6 +154,7 @@ class Viewer {
     bool isCosted_ = false;        ///< the last advance() has an entry in costs_
     std::string stamp_;
     std::array<bool, keyCount> held_{};
+    PadState pad_;
     std::vector<CameraKey> cameraKeys_;
     std::string message_, copied_;
     bool quit_ = false;

@@ -52,9 +52,7 @@ SplitSettings Viewer::settingsNow() const {
     SplitSettings settings = split;
     const bool both = secondHalf() == Half::b;
     if (!both) settings.shown = Shown::a;
-    for (const KeyBinding& binding : keyBindings())
-        if (both && binding.action == Action::flip && held_.at(static_cast<std::size_t>(binding.key)))
-            settings.shown = settings.shown == Shown::b ? Shown::a : Shown::b;
+    if (both && holds(Action::flip)) settings.shown = settings.shown == Shown::b ? Shown::a : Shown::b;
     return settings;
 }
 

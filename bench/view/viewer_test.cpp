@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <set>
 
 #include "bench/measure/clock.h"
@@ -74,6 +75,51 @@ TEST_F(ViewerTest, DrivesByHeldKeysAndSavesADriveThatIsTheSame) {
     again.advance(1e9);
     EXPECT_EQ(again.session().frame(), viewer.session().frame());
     EXPECT_EQ(again.session().world().stateHash(), viewer.session().world().stateHash());
+}
+
+TEST(Pad, EachButtonHasOneMeaning) {
+    std::set<PadButton> seen;
+    for (const PadBinding& binding : padBindings()) EXPECT_TRUE(seen.insert(binding.button).second) << binding.name;
+    EXPECT_EQ(seen.size(), padButtonCount);
+}
+
+TEST_F(ViewerTest, AGamepadDrivesAndItsButtonsActOnce) {
+    ViewState state = small();
+    state.drive = keyboardDrive;
+    state.b = HalfState{methods().back().id, {}};
+    Viewer viewer(state, device_, saved());
+    viewer.advance(1e9);
+    PadState pad;
+    pad.rightTrigger = 0.5f;
+    pad.stickRight = 0.05f;  // at rest
+    viewer.usePad(pad);
+    EXPECT_EQ(viewer.session().input().throttle, 0.5);
+    EXPECT_EQ(viewer.session().input().steer, 0);
+    pad.stickRight = -0.75f;
+    viewer.usePad(pad);
+    EXPECT_EQ(viewer.session().input().steer, 0.75);
+    viewer.press(Key::right, false);  // the keys come first
+    EXPECT_EQ(viewer.session().input().steer, -1);
+    viewer.release(Key::right);
+    for (int n = 0; n < 60; ++n) viewer.advance();
+    EXPECT_GT(viewer.session().world().state().vehicle.speed, 1);
+    EXPECT_GT(viewer.session().world().state().vehicle.heading, 0.01);
+    pad.buttons[static_cast<std::size_t>(PadButton::start)] = true;
+    for (int n = 0; n < 4; ++n) viewer.usePad(pad);
+    EXPECT_TRUE(viewer.paused);
+    pad.buttons = {};
+    viewer.usePad(pad);
+    EXPECT_TRUE(viewer.paused);
+    viewer.split.shown = Shown::a;
+    pad.buttons[static_cast<std::size_t>(PadButton::south)] = true;
+    viewer.usePad(pad);
+    EXPECT_EQ(viewer.settingsNow().shown, Shown::b);
+    viewer.usePad({});
+    EXPECT_EQ(viewer.settingsNow().shown, Shown::a);
+    EXPECT_EQ(viewer.session().input().throttle, 0);
+    pad.stickRight = std::numeric_limits<float>::quiet_NaN();
+    viewer.usePad(pad);
+    EXPECT_EQ(viewer.session().input().steer, 0);
 }
 
 TEST_F(ViewerTest, PausesStepsAndBeginsAnew) {

@@ -204,13 +204,16 @@ void ViewerPanels::showHelp() {
     ImGui::SetNextWindowBgAlpha(1);
     ImGui::Begin("Keys", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
     if (ImGui::BeginTable("keys", 2)) {
-        for (const KeyBinding& binding : keyBindings()) {
-            if (binding.name.empty()) continue;
+        const auto row = [](std::string_view name, std::string_view help) {
             ImGui::TableNextColumn();
-            showText(std::string(binding.name));
+            showText(std::string(name));
             ImGui::TableNextColumn();
-            showText(std::string(binding.help));
-        }
+            showText(std::string(help));
+        };
+        for (const KeyBinding& binding : keyBindings())
+            if (!binding.name.empty()) row(binding.name, binding.help);
+        row("gamepad", "left stick steers, right trigger accelerates, left trigger brakes");
+        for (const PadBinding& binding : padBindings()) row(binding.name, binding.help);
         ImGui::EndTable();
     }
     ImGui::Separator();

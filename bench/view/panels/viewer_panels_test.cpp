@@ -4,102 +4,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <random>
-
 #include "bench/scene/world.h"
 #include "bench/view/panels/panel_picture.h"
+#include "bench/view/panels/panels_fixture.h"
 #include "methods/contract/registry.h"
-#include "methods/kit/draw/read_back.h"
-#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr int width = 900, height = 700;
-
-class Panels : public testing::Test {
- protected:
-    Panels()
-        : texture_(gpu::Texture::make2D(device_, "window", gpu::Format::rgba8, width, height)),
-          target_(device_, "window", &texture_, nullptr) {}
-
-    static bool hasMethod(std::string_view id) {
-        return std::ranges::any_of(methods(), [id](const MethodInfo& info) { return info.id == id; });
-    }
-    /// Opens the viewer at frame 1 of a small state.
-    void open(const std::string& a, const std::string& b) {
-        ViewState state;
-        state.size = {96, 72};
-        state.world = {{"particles", "300"}, {"preroll", "0.2"}};
-        state.frame = 1;
-        state.a.method = a;
-        if (!b.empty()) state.b = HalfState{b, {}};
-        panels_.reset();  // one canvas at a time
-        viewer_ = std::make_unique<Viewer>(state, device_, folder_.path() / "saved");
-        viewer_->paused = true;
-        viewer_->advance(1e9);
-        panels_ = std::make_unique<ViewerPanels>(device_, 13.0f);
-        frames(2);
-    }
-    /// Of the panels; the viewer's picture stays as it is.
-    void frames(int count) {
-        for (int n = 0; n < count; ++n) {
-            panels_->draw(*viewer_, target_, width, height, input_);
-            input_.text.clear();
-            input_.wheel = 0;
-        }
-    }
-    [[nodiscard]] PanelRectangle at(const std::string& widget) const {
-        const auto found = panels_->widgets().all().find(widget);
-        if (found == panels_->widgets().all().end()) {
-            ADD_FAILURE() << "no widget '" << widget << "'";
-            return {};
-        }
-        return found->second;
-    }
-    void clickAt(glm::vec2 place) {
-        input_.mouse = place;
-        frames(2);
-        input_.buttons[0] = true;
-        frames(2);
-        input_.buttons[0] = false;
-        frames(2);
-    }
-    void click(const std::string& widget) { clickAt(at(widget).centre()); }
-    /// A slider's edge, from its middle: 0 left, 1 right.
-    void slide(const std::string& widget, float share) {
-        const PanelRectangle place = at(widget);
-        input_.mouse = place.centre();
-        frames(2);
-        input_.buttons[0] = true;
-        frames(1);
-        input_.mouse.x = glm::mix(place.minimum.x, place.maximum.x, share);
-        frames(2);
-        input_.buttons[0] = false;
-        frames(2);
-    }
-    [[nodiscard]] pictures::Image picture() const { return draw::readBack(texture_); }
-
-    gpu::Device device_;
-    gpu::Texture texture_;
-    gpu::Framebuffer target_;
-    TestFolder folder_;
-    std::unique_ptr<Viewer> viewer_;
-    std::unique_ptr<ViewerPanels> panels_;
-    PanelInput input_;
-};
-
-/// Share of the pixels of a rectangle that are bright, as text is.
-double brightShare(const pictures::Image& image, int left, int right) {
-    double bright = 0, all = 0;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = left; x < right; ++x, ++all) bright += image.at(x, y).g > 0.6f;
-    return bright / all;
-}
 
 TEST_F(Panels, AreNotEmptyAndHide) {
     open(methods().front().id, methods().back().id);
@@ -200,106 +114,6 @@ TEST_F(Panels, ButtonsDoWhatTheySay) {
     EXPECT_FALSE(std::filesystem::is_empty(folder_.path() / "saved"));
 }
 
-TEST_F(Panels, TheExactPictureIsChosenFromTheListAndHasItsNumbers) {
-    open(methods().front().id, "");
-    click("B");
-    click("B/exact");
-    ASSERT_EQ(viewer_->state().b, (HalfState{exactPicture, {}})) << viewer_->message();
-    EXPECT_EQ(viewer_->split.shown, Shown::wipe);
-    for (int n = 0; n < 2; ++n) viewer_->advance();
-    frames(2);
-    ASSERT_TRUE(viewer_->session().isCurrent(Half::b));
-    click("exact every frame");
-    EXPECT_TRUE(viewer_->exactEveryFrame);
-    for (const char* view : {"side by side", "FLIP", "difference", "only B", "wipe"}) {
-        const pictures::Image before = picture();
-        click(view);
-        viewer_->advance();
-        input_.mouse = glm::vec2(-1);
-        frames(2);
-        EXPECT_NE(picture().pixels, before.pixels) << view;
-        EXPECT_EQ(viewer_->message(), "") << view;
-    }
-}
-
-TEST_F(Panels, ChannelExposureAndZoomAreAtHand) {
-    open(methods().front().id, methods().front().id);
-    for (const auto& [word, channel] : channelChoices.all()) {
-        if (channel == Channel::picture) continue;
-        click("channel");
-        click("channel/" + std::string(word));
-        EXPECT_EQ(viewer_->split.channel, channel);
-        viewer_->advance();
-        frames(2);
-    }
-    slide("exposure", 1);
-    EXPECT_GT(viewer_->split.stops, 7);
-    slide("zoom", 1);
-    EXPECT_LT(viewer_->split.extent.x, 0.2f);
-    EXPECT_GT(viewer_->split.origin.x, 0.3f);
-}
-
-/// Pixels of a rectangle that have this colour.
-int countOf(const pictures::Image& image, const PanelRectangle& where, glm::ivec3 colour) {
-    int count = 0;
-    for (int y = static_cast<int>(where.minimum.y); y < static_cast<int>(where.maximum.y); ++y)
-        for (int x = static_cast<int>(where.minimum.x); x < static_cast<int>(where.maximum.x); ++x)
-            count += glm::ivec3(glm::round(255.0f * glm::vec3(image.at(x, y)))) == colour;
-    return count;
-}
-
-TEST_F(Panels, CostsAreStackedByStageAndMemoryByStructure) {
-    open(methods().front().id, methods().front().id);
-    for (std::size_t n = 0; n < Viewer::keptFrames; ++n) viewer_->advance();
-    frames(2);
-    const PanelRectangle costs = at("Costs");
-    const PanelRectangle below{{0, costs.maximum.y}, {290, at("Memory").minimum.y}};
-    const glm::ivec3 scene(86, 180, 233), draw(213, 94, 0);
-    for (const glm::ivec3& colour : {scene, draw}) EXPECT_GT(countOf(picture(), below, colour), 400);
-    click("Costs");
-    EXPECT_LT(at("Memory").minimum.y, costs.maximum.y + 30);
-    const float before = at("Parameters of A").minimum.y;
-    click("Memory");
-    EXPECT_GT(at("Parameters of A").minimum.y, before + 60);
-}
-
-TEST_F(Panels, SpeedAndDrawingAreAtHand) {
-    open(methods().front().id, "");
-    click("speed");
-    click("speed/1/4");
-    EXPECT_EQ(viewer_->slowness, 4);
-    click("draw");
-    EXPECT_TRUE(viewer_->drawingPaused);
-    click("draw");
-    EXPECT_FALSE(viewer_->drawingPaused);
-}
-
-TEST_F(Panels, TheWheelWithCtrlEnlargesAroundTheCursor) {
-    open(methods().front().id, "");
-    const std::string line = viewer_->line(Half::a);
-    input_.mouse = {312 + (width - 312) / 2, height / 2};
-    frames(2);
-    input_.control = true;
-    input_.wheel = 5;
-    frames(1);
-    EXPECT_NEAR(viewer_->split.extent.x, std::pow(0.9, 5), 1e-5);
-    EXPECT_NEAR(viewer_->split.origin.x, (1 - std::pow(0.9, 5)) / 2, 0.02);
-    EXPECT_EQ(viewer_->line(Half::a), line);  // the camera stays
-    input_.buttons[0] = true;
-    frames(1);
-    input_.mouse.x -= 1000;
-    frames(1);
-    input_.mouse.x += 1020;
-    frames(1);
-    EXPECT_EQ(viewer_->line(Half::a), line);
-    input_.buttons[0] = input_.control = false;
-    const pictures::Image without = picture();
-    frames(1);
-    input_.wheel = 1;
-    frames(1);
-    EXPECT_NE(viewer_->line(Half::a), line);
-}
-
 TEST_F(Panels, KeysWalkThroughThePanelOnlyWhenAsked) {
     open(methods().front().id, "");
     const auto tap = [&](Key key) {
@@ -353,24 +167,6 @@ TEST_F(Panels, TheMouseOverThePictureMovesDividerAndCamera) {
     EXPECT_EQ(viewer_->split.divider, divider);
     viewer_->press(Key::c, false);
     EXPECT_THAT(viewer_->line(Half::a), Not(HasSubstr("--camera-path")));
-}
-
-TEST_F(Panels, RandomInputDoesNotBreakThem) {
-    open(methods().front().id, methods().back().id);
-    std::mt19937 random(17);
-    const auto below = [&](int limit) { return static_cast<int>(random() % static_cast<unsigned>(limit)); };
-    for (int n = 0; n < 400; ++n) {
-        input_.mouse = {below(width), below(280)};  // above the parameters, which can ask for ten million particles
-        for (bool& button : input_.buttons) button = below(3) == 0;
-        input_.wheel = static_cast<float>(below(5) - 2);
-        const Key key = static_cast<Key>(below(static_cast<int>(keyCount)));
-        input_.keys[static_cast<std::size_t>(key)] = below(2) == 0;
-        if (below(4) == 0) input_.text = "1x.";
-        if (key != Key::q) below(2) == 0 ? viewer_->press(key, below(4) == 0) : viewer_->release(key);
-        frames(1);
-        if (n % 8 == 0) viewer_->advance(0.01);
-        ASSERT_FALSE(viewer_->wantsToQuit());
-    }
 }
 
 TEST(PanelPicture, ShowsTheStateThatItIsGiven) {

@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -122,6 +123,27 @@ void readMouse(GLFWwindow* window, PanelInput& input) {
         input.buttons[static_cast<std::size_t>(button)] = glfwGetMouseButton(window, button) == GLFW_PRESS;
 }
 
+/// The first gamepad that is connected.
+PadState readPad() {
+    PadState pad;
+    GLFWgamepadstate state;
+    int id = GLFW_JOYSTICK_1;
+    while (id <= GLFW_JOYSTICK_LAST && glfwGetGamepadState(id, &state) == GLFW_FALSE) ++id;
+    if (id > GLFW_JOYSTICK_LAST) return pad;
+    // Triggers rest at −1.
+    const auto trigger = [&](int axis) { return 0.5f * (state.axes[axis] + 1); };
+    pad.stickRight = state.axes[GLFW_GAMEPAD_AXIS_LEFT_X];
+    pad.rightTrigger = trigger(GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER);
+    pad.leftTrigger = trigger(GLFW_GAMEPAD_AXIS_LEFT_TRIGGER);
+    constexpr std::array buttons{GLFW_GAMEPAD_BUTTON_A,           GLFW_GAMEPAD_BUTTON_B,
+                                 GLFW_GAMEPAD_BUTTON_X,           GLFW_GAMEPAD_BUTTON_Y,
+                                 GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER,
+                                 GLFW_GAMEPAD_BUTTON_BACK,        GLFW_GAMEPAD_BUTTON_START};
+    static_assert(buttons.size() == padButtonCount);
+    for (std::size_t i = 0; i < buttons.size(); ++i) pad.buttons[i] = state.buttons[buttons[i]] == GLFW_PRESS;
+    return pad;
+}
+
 using WindowOwner = std::unique_ptr<GLFWwindow, decltype(&glfwDestroyWindow)>;
 
 WindowOwner openWindow() {
@@ -188,6 +210,7 @@ class Loop {
         if (std::exchange(reported_.gotFocus, false))
             if (const char* text = glfwGetClipboardString(window_)) panels_.canvas().setClipboard(text);
         readMouse(window_, reported_.input);
+        viewer_.usePad(readPad());
     }
     /// False if the window has no area.
     bool makeTarget() {

@@ -1,0 +1,174 @@
+// Views, costs and pace in the panel, random input, and windows of many sizes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "bench/view/panels/panels_fixture.h"
+#include "methods/contract/registry.h"
+
+namespace dustbench::bench {
+namespace {
+
+TEST_F(Panels, TheExactPictureIsChosenFromTheListAndHasItsNumbers) {
+    open(methods().front().id, "");
+    click("B");
+    click("B/exact");
+    ASSERT_EQ(viewer_->state().b, (HalfState{exactPicture, {}})) << viewer_->message();
+    EXPECT_EQ(viewer_->split.shown, Shown::wipe);
+    for (int n = 0; n < 2; ++n) viewer_->advance();
+    frames(2);
+    ASSERT_TRUE(viewer_->session().isCurrent(Half::b));
+    click("exact every frame");
+    EXPECT_TRUE(viewer_->exactEveryFrame);
+    for (const char* view : {"side by side", "FLIP", "difference", "only B", "wipe"}) {
+        const pictures::Image before = picture();
+        click(view);
+        viewer_->advance();
+        input_.mouse = glm::vec2(-1);
+        frames(2);
+        EXPECT_NE(picture().pixels, before.pixels) << view;
+        EXPECT_EQ(viewer_->message(), "") << view;
+    }
+}
+
+TEST_F(Panels, ChannelExposureAndZoomAreAtHand) {
+    open(methods().front().id, methods().front().id);
+    for (const auto& [word, channel] : channelChoices.all()) {
+        if (channel == Channel::picture) continue;
+        click("channel");
+        click("channel/" + std::string(word));
+        EXPECT_EQ(viewer_->split.channel, channel);
+        viewer_->advance();
+        frames(2);
+    }
+    slide("exposure", 1);
+    EXPECT_GT(viewer_->split.stops, 7);
+    slide("zoom", 1);
+    EXPECT_LT(viewer_->split.extent.x, 0.2f);
+    EXPECT_GT(viewer_->split.origin.x, 0.3f);
+}
+
+/// Pixels of a rectangle that have this colour.
+int countOf(const pictures::Image& image, const PanelRectangle& where, glm::ivec3 colour) {
+    int count = 0;
+    for (int y = static_cast<int>(where.minimum.y); y < static_cast<int>(where.maximum.y); ++y)
+        for (int x = static_cast<int>(where.minimum.x); x < static_cast<int>(where.maximum.x); ++x)
+            count += glm::ivec3(glm::round(255.0f * glm::vec3(image.at(x, y)))) == colour;
+    return count;
+}
+
+TEST_F(Panels, CostsAreStackedByStageAndMemoryByStructure) {
+    open(methods().front().id, methods().front().id);
+    for (std::size_t n = 0; n < Viewer::keptFrames; ++n) viewer_->advance();
+    frames(2);
+    EXPECT_LT(at("Memory").minimum.y, at("Costs").maximum.y + 30);
+    click("Costs");
+    const PanelRectangle costs = at("Costs");
+    const PanelRectangle below{{0, costs.maximum.y}, {290, at("Memory").minimum.y}};
+    const glm::ivec3 scene(86, 180, 233), draw(213, 94, 0);
+    for (const glm::ivec3& colour : {scene, draw}) EXPECT_GT(countOf(picture(), below, colour), 400);
+    click("Costs");
+    EXPECT_LT(at("Memory").minimum.y, costs.maximum.y + 30);
+    const float before = at("Parameters of A").minimum.y;
+    click("Memory");
+    EXPECT_GT(at("Parameters of A").minimum.y, before + 60);
+}
+
+TEST_F(Panels, SpeedAndDrawingAreAtHand) {
+    open(methods().front().id, "");
+    click("speed");
+    click("speed/1/4");
+    EXPECT_EQ(viewer_->slowness, 4);
+    click("draw");
+    EXPECT_TRUE(viewer_->drawingPaused);
+    click("draw");
+    EXPECT_FALSE(viewer_->drawingPaused);
+}
+
+TEST_F(Panels, TheWheelWithCtrlEnlargesAroundTheCursor) {
+    open(methods().front().id, "");
+    const std::string line = viewer_->line(Half::a);
+    input_.mouse = {312 + (width - 312) / 2, height / 2};
+    frames(2);
+    input_.control = true;
+    input_.wheel = 5;
+    frames(1);
+    EXPECT_NEAR(viewer_->split.extent.x, std::pow(0.9, 5), 1e-5);
+    EXPECT_NEAR(viewer_->split.origin.x, (1 - std::pow(0.9, 5)) / 2, 0.02);
+    EXPECT_EQ(viewer_->line(Half::a), line);  // the camera stays
+    input_.buttons[0] = true;
+    frames(1);
+    input_.mouse.x -= 1000;
+    frames(1);
+    input_.mouse.x += 1020;
+    frames(1);
+    EXPECT_EQ(viewer_->line(Half::a), line);
+    input_.buttons[0] = input_.control = false;
+    const pictures::Image without = picture();
+    frames(1);
+    input_.wheel = 1;
+    frames(1);
+    EXPECT_NE(viewer_->line(Half::a), line);
+}
+
+/// Few by default; `DUSTBENCH_RANDOM_INPUTS=10000` for all.
+int randomInputs() {
+    const char* const text = std::getenv("DUSTBENCH_RANDOM_INPUTS");
+    return text ? std::stoi(text) : 500;
+}
+
+TEST_F(Panels, RandomInputDoesNotBreakThem) {
+    open(methods().front().id, methods().back().id);
+    std::mt19937 random(17);
+    const auto below = [&](int limit) { return static_cast<int>(random() % static_cast<unsigned>(limit)); };
+    const int inputs = randomInputs();
+    for (int n = 0; n < inputs; ++n) {
+        // Above the parameters, which can ask for ten million particles, or over the picture.
+        input_.mouse =
+            below(2) == 0 ? glm::vec2(below(width), below(200)) : glm::vec2(320 + below(width - 320), below(height));
+        for (bool& button : input_.buttons) button = below(3) == 0;
+        input_.wheel = static_cast<float>(below(5) - 2);
+        input_.control = below(4) == 0;
+        const Key key = static_cast<Key>(below(static_cast<int>(keyCount)));
+        input_.keys[static_cast<std::size_t>(key)] = below(2) == 0;
+        if (below(4) == 0) input_.text = "1x.";
+        if (key != Key::q) below(2) == 0 ? viewer_->press(key, below(4) == 0) : viewer_->release(key);
+        if (n % 50 == 0) {
+            ViewState state = viewer_->state();  // half B in turn: a method, the exact picture, none
+            state.b = HalfState{methods().back().id, {}};
+            if (n % 150 == 50) state.b = HalfState{exactPicture, {}};
+            if (n % 150 == 100) state.b.reset();
+            viewer_->apply(state);
+        }
+        frames(1);
+        if (n % 8 == 0) viewer_->advance(0.01);
+        ASSERT_FALSE(viewer_->wantsToQuit());
+    }
+}
+
+TEST_F(Panels, FitWindowsFromTinyToFourThousandPixels) {
+    open(methods().front().id, methods().front().id);
+    for (const glm::ivec2 size :
+         {glm::ivec2(320, 200), glm::ivec2(1, 1), glm::ivec2(1280, 720), glm::ivec2(3840, 2160)}) {
+        const gpu::Texture texture = gpu::Texture::make2D(device_, "window", gpu::Format::rgba8, size.x, size.y);
+        const gpu::Framebuffer target(device_, "window", &texture, nullptr);
+        for (int n = 0; n < 2; ++n) panels_->draw(*viewer_, target, size.x, size.y, input_);
+        const pictures::Image image = draw::readBack(texture);
+        if (size.x > 1) {
+            EXPECT_GT(brightShare(image, 0, 290), 0.01) << size.x;
+        }
+        viewer_->showsPanels =
+            false;  // then the picture reaches two edges, if it is enlarged by whole steps or reduced
+        for (int n = 0; n < 2; ++n) panels_->draw(*viewer_, target, size.x, size.y, input_);
+        if (size.x > 1) {
+            EXPECT_GT(brightShare(draw::readBack(texture), 0, size.x), 0.05) << size.x;
+        }
+        viewer_->showsPanels = true;
+    }
+}
+
+}  // namespace
+}  // namespace dustbench::bench
