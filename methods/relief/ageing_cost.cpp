@@ -33,8 +33,8 @@ std::vector<Impact> randomImpacts(const CostSweep& sweep, int side, int hits, in
 double secondsToAge(WornSurface& surface, Search search, const std::vector<Impact>& impacts) {
     double shortest = std::numeric_limits<double>::infinity(), total = 0;
     while (total < enoughSeconds) {
-        const double took = findings::secondsOf(
-            [&] { search == Search::gather ? surface.gather(impacts) : surface.scatter(impacts); });
+        const double took =
+            findings::secondsOf([&] { search == Search::gather ? surface.gather(impacts) : surface.scatter(impacts); });
         surface.takeOff();
         shortest = std::min(shortest, took);
         total += std::max(took, enoughSeconds / 100);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "methods/kit/findings/findings.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/findings/findings.h"
 #include "methods/voxel_shape/shape_builder.h"
 #include "methods/voxel_shape/shape_file.h"
 #include "methods/voxel_shape/voxel_shape.h"
