@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -95,7 +96,10 @@ int view(const ViewOptions& options) {
         const bench::ImageSize size = bench::parseSize(options.windowSize);
         const bench::SplitSettings split = splitOf(options);
         bench::withThreads(state.threads, [&] {
-            pictures::writeImage(bench::panelPicture(state, split, size.width, size.height), options.picture);
+            const pictures::Image picture = bench::panelPicture(state, split, size.width, size.height);
+            const std::filesystem::path file(options.picture);
+            if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+            pictures::writeImage(picture, file);
         });
         return exitOk;
 #else
