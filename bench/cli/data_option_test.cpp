@@ -102,7 +102,8 @@ TEST_F(Data, LieBesideTheProgramWhereverBothAreMoved) {
     }
     fs::create_directories(folder_ / "tree/reports");
     fs::copy(source / "reports" / "report", folder_ / "tree/reports/report", fs::copy_options::recursive);
-    fs::copy_file(source / "reports" / "SCHEMA.md", folder_ / "tree/reports/SCHEMA.md");
+    for (const char* document : {"SCHEMA.md", "METRICS.md"})
+        fs::copy_file(source / "reports" / document, folder_ / "tree/reports" / document);
     fs::rename(folder_ / "tree", folder_ / "moved");
     writeScene("moved/data/scenes/only_here.toml");
     writeScene("prefix/share/dustbench/scenes/only_here.toml");

@@ -159,7 +159,8 @@ std::set<std::string> controlsOf(const std::string& paper) {
 void listFiles(const fs::path& folder, ReportData& data) {
     for (const char* name : {"summary.csv", "claims.csv", "experiments.csv", "machine.csv", "cinema.cdb/data.csv"})
         // The page writes claims.csv itself.
-        if (fs::exists(folder / name) || (name == std::string_view("claims.csv") && !data.claims.empty()))
+        if (std::error_code none;
+            fs::exists(folder / name, none) || (name == std::string_view("claims.csv") && !data.claims.empty()))
             data.files.emplace_back(name);
 }
 

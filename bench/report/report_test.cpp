@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include <set>
 
 #include "bench/report/chart_file.h"
+#include "bench/report/folder_fixture.h"
 #include "bench/report/frame_times.h"
 #include "bench/report/page.h"
 #include "bench/report/papers_page.h"
@@ -29,26 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An empty folder that goes with the object.
-class Folder {
- public:
-    Folder() : path_(fs::path(testing::TempDir()) / fmt::format("report-{}-{}", getpid(), ++made)) {
-        fs::create_directories(path_);
-    }
-    ~Folder() { fs::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    [[nodiscard]] const fs::path& path() const { return path_; }
-    void write(const std::string& name, const std::string& text) const {
-        fs::create_directories((path_ / name).parent_path());
-        std::ofstream(path_ / name) << text;
-    }
-
- private:
-    inline static int made = 0;
-    fs::path path_;
-};
-
 StoredRun run(const std::string& method, int particles, int repetition, double ms, const std::string& sort = "") {
     StoredRun made;
     made.runId = fmt::format("{}-{}-{}-{}", method, particles, sort, repetition);
@@ -60,10 +39,6 @@ StoredRun run(const std::string& method, int particles, int repetition, double m
                   {"frames", "30"},
                   {"frame_ms_median", fmt::format("{}", ms)}};
     return made;
-}
-
-std::string unreasonable(const ReportData& data) {
-    return fmt::format("{}", fmt::join(data.problems, "\n"));
 }
 
 }  // namespace
@@ -171,7 +146,7 @@ TEST(ReportJson, LetsNoTextBecomeMarkup) {
 TEST(ReportPage, ComesWithoutAnyRunAndSaysSo) {
     const Folder folder;
     const ReportData data = readReport(folder.path(), 0);
-    ASSERT_EQ(data.problems.size(), 1u) << unreasonable(data);
+    ASSERT_EQ(data.problems.size(), 1u) << problemsOf(data);
     EXPECT_NE(data.problems[0].find("no folder 'runs'"), std::string::npos);
     EXPECT_TRUE(fs::exists(writePage(folder.path(), data)));
     EXPECT_TRUE(fs::exists(writePage(folder.path(), data))) << "a page of ours is written over";
@@ -182,62 +157,6 @@ TEST(ReportPage, LeavesAPageOfSomebodyElseAlone) {
     const Folder folder;
     folder.write("index.html", "<html>my garden</html>");
     EXPECT_THROW(writePage(folder.path(), readReport(folder.path(), 0)), InputError);
-}
-
-TEST(ReportPage, NamesWhatIsDamagedAndGoesOn) {
-    const Folder folder;
-    folder.write("runs/broken/run.json", "{\"run_id\": ");
-    folder.write("runs/other/run.json",
-                 R"({"run_id": "mine", "status": "failed", "reason": "it rained", "parameters": {},
-        "summary": {"method": "haze", "moon_phase": 3}, "warnings": [], "state_hash": "", "method_hash": null,
-        "provenance": {"cpu": "one", "inputs": []}})");
-    fs::rename(folder.path() / "runs/other", folder.path() / "runs/mine");
-    folder.write("runs/stray/run.json", "[]");
-    const ReportData data = readReport(folder.path(), 0);
-    EXPECT_EQ(data.runs.size(), 1u);
-    const std::string said = unreasonable(data);
-    for (const char* part : {"broken", "stray", "1 of 1 runs are not done", "moon_phase"})
-        EXPECT_NE(said.find(part), std::string::npos) << part << " in\n" << said;
-    ASSERT_EQ(data.notDone.size(), 1u);
-    EXPECT_EQ(data.notDone[0].reason, "it rained");
-}
-
-/// A run.json of a run that is done, with these cells of its summary and this warning.
-std::string runJson(const std::string& id, const std::string& cells, const std::string& warning = "slow") {
-    return fmt::format(
-        R"({{"run_id": "{}", "status": "done", "reason": "", "parameters": {{}}, "summary": {{"method": "haze", {}}},
-        "warnings": ["{}"], "state_hash": "", "method_hash": null, "provenance": {{"cpu": "one", "inputs": []}}}})",
-        id, cells, warning);
-}
-
-TEST(ReportPage, NamesEveryKindOfDamageAndIsWritten) {
-    const Folder folder;
-    const fs::path runs = folder.path() / "runs";
-    folder.write("runs/good/run.json", runJson("good", "\"frame_ms_median\": 1e-310, \"repetition\": 1"));
-    folder.write("runs/words/run.json", runJson("words", "\"frame_ms_median\": \"abc\""));
-    folder.write("runs/many/run.json", runJson("many", "\"repetition\": 2147483647"));
-    folder.write("runs/digits/run.json",
-                 runJson("digits", "\"frame_ms_median\": 2, \"invalid\": \"" + std::string(50'000, '7') + "\"",
-                         std::string(50'000, '7')));
-    folder.write("runs/names/run.json", runJson("names", "\"frame_ms_median\": 2, \"drive\": \"__proto__\""));
-    folder.write("runs/pipes/notes", "");
-    ASSERT_EQ(mkfifo((runs / "pipes/run.json").c_str(), 0600), 0);
-    fs::create_symlink("round", runs / "round");
-    folder.write("runs/looped/notes", "");
-    fs::create_symlink("run.json", runs / "looped/run.json");
-    fs::create_symlink("summary.csv", folder.path() / "summary.csv");
-    fs::create_symlink("experiments.csv", folder.path() / "experiments.csv");
-    fs::create_symlink("/dev/zero", runs / "good/frames.csv");
-    fs::create_symlink("images", runs / "good/images");
-    const ReportData data = readReport(folder.path(), 1'000'000);
-    EXPECT_EQ(data.runs.size(), 3u);
-    const std::string said = unreasonable(data);
-    for (const char* part : {"words/run.json", "summary.frame_ms_median: got 'abc'", "many/run.json",
-                             "allowed: 1..1000", "pipes/run.json: is a pipe", "runs/round: Too many levels",
-                             "looped/run.json: cannot be read", "frame times of 2 runs cannot be read"})
-        EXPECT_NE(said.find(part), std::string::npos) << part << " in\n" << said;
-    EXPECT_EQ(data.warnings.size(), 3u);  // slow, the digits, and invalid
-    EXPECT_TRUE(fs::exists(writePage(folder.path(), data)));
 }
 
 TEST(ReportPictures, AreBase64) {
@@ -310,7 +229,7 @@ TEST(ReportPictures, AreMissedAndNamedWhereTheyAreDamaged) {
     ReportData gone = pictured(folder);
     fs::remove_all(folder.path() / "runs");
     collectPictures(folder.path(), 100'000, gone);
-    EXPECT_NE(unreasonable(gone).find("the pictures of 1 run are missing"), std::string::npos);
+    EXPECT_NE(problemsOf(gone).find("the pictures of 1 run are missing"), std::string::npos);
 }
 
 TEST(Report, ChartsOfASettingNeedMoreThanItsSeeds) {
