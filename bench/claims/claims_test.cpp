@@ -144,15 +144,17 @@ TEST(Claims, EveryColumnOfTheCsvIsDescribed) {
 TEST(PublishedNumbers, StandBesideTheSumOfOurColumns) {
     const std::string head = "what,suite,of,columns,published,formula\n";
     const auto summary = files::CsvTable::parseText(
-        "run_id,status,method,scene,repetition,p.particles,cpu_bytes,gpu_bytes\n"
-        "a,done,haze,plain,1,100,30,12\nb,failed,haze,plain,1,200,7,7\n",
+        "run_id,status,method,scene,repetition,p.particles,cpu_bytes,gpu_bytes,fps_avg\n"
+        "a,done,haze,plain,1,100,30,12,83.06441630751632\nb,failed,haze,plain,1,200,7,7,\n",
         "summary.csv");
     const TextRows table =
         tabulatePrinted(files::CsvTable::parseText(head + "small,,haze particles=100,cpu_bytes gpu_bytes,about 40,40\n"
-                                                          "failed,,haze particles=200,cpu_bytes,7,7\n",
+                                                          "failed,,haze particles=200,cpu_bytes,7,7\n"
+                                                          "rate,,haze particles=100,fps_avg,++,\n",
                                                    "numbers.csv"),
                         summary);
-    ASSERT_EQ(table.rows.size(), 2u);
+    ASSERT_EQ(table.rows.size(), 3u);
+    EXPECT_EQ(table.rows[2], (std::vector<std::string>{"rate", "++", "", "83.06", ""}));
     EXPECT_EQ(table.rows[0], (std::vector<std::string>{"small", "about 40", "40", "42", "1.050"}));
     EXPECT_EQ(table.rows[1], (std::vector<std::string>{"failed", "7", "7", "", ""}));
     for (const char* wrong : {"x,,haze,cpu_byte,1,1\n", "x,,haze =3,cpu_bytes,1,1\n"})

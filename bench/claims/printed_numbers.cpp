@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -46,8 +47,9 @@ TextRows tabulatePrinted(const files::CsvTable& published, const files::CsvTable
         const std::string& formula = published.cell(line, "formula");
         std::string measured, ratio;
         if (!sums.empty()) {
-            measured = files::csvNumber(median(sums));
-            if (!formula.empty()) ratio = fmt::format("{:.3f}", median(sums) / published.number(line, "formula"));
+            const double found = median(sums);
+            measured = found == std::floor(found) ? files::csvNumber(found) : fmt::format("{:.4g}", found);
+            if (!formula.empty()) ratio = fmt::format("{:.3f}", found / published.number(line, "formula"));
         }
         table.rows.push_back(
             {published.cell(line, "what"), published.cell(line, "published"), formula, measured, ratio});
