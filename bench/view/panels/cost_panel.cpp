@@ -66,23 +66,26 @@ std::string inMegabytes(std::size_t bytes) {
     return bytes == 0 ? "" : fmt::format("{:.2f}", static_cast<double>(bytes) / 1e6);
 }
 
-/// One column a frame, the latest at the right; its stages lie upon each other.
-void showStack(const Viewer& viewer, std::size_t half, double maximumMs) {
+/// One column a frame, the latest at the right; its stages lie upon each other. What is above the scale is cut off.
+void showStack(const Viewer& viewer, std::size_t half, double scaleMs) {
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const ImVec2 size(ImGui::GetContentRegionAvail().x, 3 * ImGui::GetFontSize());
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(from, ImVec2(from.x + size.x, from.y + size.y), ImGui::GetColorU32(ImGuiCol_FrameBg));
+    const ImVec2 to(from.x + size.x, from.y + size.y);
+    list.AddRectFilled(from, to, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    list.PushClipRect(from, to, true);
     const float width = size.x / static_cast<float>(Viewer::keptFrames);
-    float left = from.x + size.x - width * static_cast<float>(viewer.costs().size());
+    float left = to.x - width * static_cast<float>(viewer.costs().size());
     for (const FrameCost& frame : viewer.costs()) {
-        float bottom = from.y + size.y;
+        float bottom = to.y;
         for (std::size_t stage = 0; stage < stageNames.size(); ++stage) {
-            const auto height = static_cast<float>(stageOf(frame.halves[half], stage) / maximumMs) * size.y;
+            const auto height = static_cast<float>(stageOf(frame.halves[half], stage) / scaleMs) * size.y;
             list.AddRectFilled(ImVec2(left, bottom - height), ImVec2(left + width, bottom), stageColours[stage]);
             bottom -= height;
         }
         left += width;
     }
+    list.PopClipRect();
     ImGui::Dummy(size);
 }
 
@@ -120,18 +123,19 @@ void showStages(const Viewer& viewer, const std::vector<std::size_t>& halves) {
     ImGui::EndTable();
 }
 
-void showTimes(const Viewer& viewer) {
+void showTimes(const Viewer& viewer, WidgetMap& widgets) {
     if (viewer.costs().empty()) return showRemark("no frame yet");
     const std::vector<std::size_t> halves = halvesOf(viewer);
     showPercentiles(viewer);
-    double maximumMs = 1e-3;
-    for (const std::size_t half : halves) maximumMs = std::max(maximumMs, maximum(totalsOf(viewer, half)));
+    const double scaleMs = stackScaleMs(viewer);
     for (const std::size_t half : halves) {
-        showRemark(fmt::format("{}, stacked, up to {:.1f} ms{}", half == 0 ? "A" : "B", maximumMs,
+        showRemark(fmt::format("{}, stacked: scale {:.1f} ms, slowest frame {:.1f} ms{}", half == 0 ? "A" : "B",
+                               scaleMs, maximum(totalsOf(viewer, half)),
                                viewer.session().isSinceStart(half == 0 ? Half::a : Half::b)
                                    ? ""
                                    : "; joined later, Restart shows what a run does"));
-        showStack(viewer, half, maximumMs);
+        showStack(viewer, half, scaleMs);
+        widgets.note(half == 0 ? "Costs/stack of A" : "Costs/stack of B");
     }
     showStages(viewer, halves);
     showRemark(fmt::format("{} frames of this window, not a measurement", viewer.costs().size()));
@@ -167,8 +171,15 @@ bool isOpen(const std::string& title, const std::string& name, WidgetMap& widget
 
 }  // namespace
 
+double stackScaleMs(const Viewer& viewer) {
+    double scaleMs = 1e-3;
+    for (const std::size_t half : halvesOf(viewer))
+        scaleMs = std::max(scaleMs, 1.25 * quantile(totalsOf(viewer, half), 0.95));
+    return scaleMs;
+}
+
 void showCosts(const Viewer& viewer, WidgetMap& widgets) {
-    if (isOpen(titleOf(viewer), "Costs", widgets)) showTimes(viewer);
+    if (isOpen(titleOf(viewer), "Costs", widgets)) showTimes(viewer, widgets);
     if (!isOpen("Memory", "Memory", widgets)) return;
     for (const Half half : {Half::a, Half::b})
         if (viewer.session().hasHost(half))

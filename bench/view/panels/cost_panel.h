@@ -8,6 +8,10 @@
 
 namespace dustbench::bench {
 
+/// Milliseconds of the stacks' full height, for both halves: 1.25 times the slower half's 95th percentile, so that one
+/// slow frame does not flatten the others.
+[[nodiscard]] double stackScaleMs(const Viewer& viewer);
+
 /// Sections `Costs` and `Memory`.
 void showCosts(const Viewer& viewer, WidgetMap& widgets);
 
