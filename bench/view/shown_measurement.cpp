@@ -90,8 +90,9 @@ std::vector<std::string> measure(const Suite& suite, const std::filesystem::path
     if (result.aborted)
         return {fmt::format("measurement cancelled after {} of {} runs", result.done + result.skipped + result.failed,
                             plan.size())};
-    std::vector<std::string> sentences;
-    for (const PlannedRun& cell : suite.cells) sentences.push_back(timesOf(cell, suite, results.runs()));
+    std::vector<std::string> sentences(suite.cells.size());
+    std::ranges::transform(suite.cells, sentences.begin(),
+                           [&](const PlannedRun& cell) { return timesOf(cell, suite, results.runs()); });
     for (const ComparisonResult& comparison : suiteVerdicts(suite, results.runs()))
         for (std::string& sentence : conclusions(comparison)) sentences.push_back(std::move(sentence));
     if (!teller.whyNot().empty()) sentences.push_back(teller.whyNot());

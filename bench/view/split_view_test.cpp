@@ -132,7 +132,7 @@ TEST_F(Split, ExposureMultipliesTheLightOfSceneAndLayer) {
         const std::vector<float> values = linear.readFloats();
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
-                if (std::abs(x + 0.5f - width / 2) <= 1) continue;  // the divider's line
+                if (std::abs(x + 0.5f - 0.5f * static_cast<float>(width)) <= 1) continue;  // the divider's line
                 const std::size_t i = 4 * static_cast<std::size_t>(y * width + x);
                 for (std::size_t channel = 0; channel < 3; ++channel) {
                     const float expected =

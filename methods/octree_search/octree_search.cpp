@@ -19,9 +19,9 @@ MethodInfo describe() {
                           "as it is printed, or "
                           "one of today: bricks of 16³ cells, a small grid each, in parallel");
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
-        const std::string layout = values.choice("layout");
         return std::make_unique<octree::OctreeDust>(
-            octree::dustSettings(values), [layout](MemoryLedger& ledger) -> std::unique_ptr<octree::OctreeBuilder> {
+            octree::dustSettings(values),
+            [layout = values.choice("layout")](MemoryLedger& ledger) -> std::unique_ptr<octree::OctreeBuilder> {
                 if (layout == "paper") return std::make_unique<PaperBuilder>(ledger);
                 if (layout == "faithful") return std::make_unique<InsertionBuilder>(ledger);
                 return std::make_unique<octree::BrickBuilder<GridReducer>>(ledger);

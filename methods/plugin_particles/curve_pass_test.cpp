@@ -103,8 +103,9 @@ class Canvas : public TestMoment {
 /// Pixels from the middle of the picture, y upwards.
 glm::vec2 placeOf(const pictures::Image& image, std::size_t pixel) {
     const auto width = static_cast<std::size_t>(image.width);
-    return {static_cast<float>(pixel % width) + 0.5f - static_cast<float>(image.width) / 2,
-            static_cast<float>(image.height) / 2 - static_cast<float>(pixel / width) - 0.5f};
+    const std::size_t column = pixel % width, row = pixel / width;
+    return {static_cast<float>(column) + 0.5f - static_cast<float>(image.width) / 2,
+            static_cast<float>(image.height) / 2 - static_cast<float>(row) - 0.5f};
 }
 
 /// A body thrown under a constant acceleration: its positions at the steps, and between them by the same formula. In

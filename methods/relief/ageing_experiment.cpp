@@ -32,8 +32,8 @@ std::string cellName(const char* search, const CostCell& cell) {
 /// The time of each cell, or why it was skipped.
 void addTimes(const char* search, const std::vector<CostCell>& cells, std::vector<Finding>& findings) {
     for (const CostCell& cell : cells) {
-        std::vector<double> milliseconds;
-        for (const double seconds : cell.seconds) milliseconds.push_back(1e3 * seconds);
+        std::vector<double> milliseconds = cell.seconds;
+        for (double& time : milliseconds) time *= 1e3;
         if (!milliseconds.empty()) {
             findings.push_back(meanOf(cellName(search, cell), milliseconds));
             continue;

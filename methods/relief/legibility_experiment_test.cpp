@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -42,8 +43,9 @@ double similarityAt(const std::vector<double>& r, const std::vector<double>& i, 
 
 TEST(Legibility, SimilarityIsThatOfThePlainFormula) {
     const auto grey = [](const pictures::Image& image) {
-        std::vector<double> values;
-        for (const glm::vec4& pixel : image.pixels) values.push_back(static_cast<double>(maths::encodeSrgb(pixel.r)));
+        std::vector<double> values(image.pixels.size());
+        std::ranges::transform(image.pixels, values.begin(),
+                               [](const glm::vec4& pixel) { return static_cast<double>(maths::encodeSrgb(pixel.r)); });
         return values;
     };
     const pictures::Image a = noise(3, 1), b = noise(4, 0.4f, &a);

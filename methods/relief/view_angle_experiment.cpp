@@ -43,6 +43,7 @@ Finding findingOf(const std::string& quantity, const std::vector<Seen>& seen) {
 std::vector<Finding> measured(ExperimentContext& context) {
     const auto world = context.world("relief_wall", {}, width, height);
     std::vector<std::pair<std::string, ReliefStyle>> ways;
+    ways.reserve(std::size(steps) + 2);
     for (const int each : steps)
         ways.emplace_back(std::to_string(each), ReliefStyle{March::paper, each, 5, false, false});
     ways.emplace_back("safe", ReliefStyle{.march = March::safe, .shadow = false});

@@ -120,9 +120,10 @@ TEST(DenseOctree, TheTreeNeedsMoreBytesThanTheGridWhereAllIsFull) {
     TestMoment full(4096, 40, 30, {0, 0, 100}, {0, 0, -1});
     for (std::size_t i = 0; i < 4096; ++i) {
         full.dust.serial[i] = i;
-        full.dust.x[i] = -60 + 8 * static_cast<float>(i % 16);
-        full.dust.y[i] = -60 + 8 * static_cast<float>(i / 16 % 16);
-        full.dust.z[i] = -60 + 8 * static_cast<float>(i / 256);
+        const std::size_t column = i % 16, row = i / 16 % 16, slab = i / 256;
+        full.dust.x[i] = -60 + 8 * static_cast<float>(column);
+        full.dust.y[i] = -60 + 8 * static_cast<float>(row);
+        full.dust.z[i] = -60 + 8 * static_cast<float>(slab);
         full.dust.radius[i] = full.dust.lifetime[i] = 1;
         full.dust.age[i] = 0;
         full.dust.opacity[i] = 0.1f;

@@ -100,8 +100,8 @@ void ViewerPanels::showHalf(Viewer& viewer, Half half) {
 }
 
 void ViewerPanels::showPace(Viewer& viewer) {
-    std::vector<std::string> words;
-    for (const int slowness : slownesses) words.push_back(speedText(slowness));
+    std::vector<std::string> words(slownesses.size());
+    std::ranges::transform(slownesses, words.begin(), speedText);
     if (const auto chosen = showList("speed", speedText(viewer.slowness), words, widgets_))
         viewer.slowness = slownesses.at(static_cast<std::size_t>(std::ranges::find(words, *chosen) - words.begin()));
     ImGui::SameLine();

@@ -63,7 +63,7 @@ TEST(StlFile, RefusesAnAsciiFileCutAtAnyByte) {
 }
 
 TEST(StlFile, NamesTheLineOfWhatIsWrong) {
-    const auto with = [](std::string from, const std::string& to) {
+    const auto with = [](const std::string& from, const std::string& to) {
         std::string text = ascii;
         return text.replace(text.find(from), from.size(), to);
     };

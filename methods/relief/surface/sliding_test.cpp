@@ -68,10 +68,10 @@ TEST(Sliding, TenThousandHitsKeepTheVolumeToTheLastBit) {
     std::mt19937 random(8);
     std::uniform_real_distribution<float> share(0, 1);
     for (int round = 0; round < 100; ++round) {
-        std::vector<Impact> impacts;
-        for (int n = 0; n < 100; ++n)
-            impacts.push_back({128 * share(random), 96 * share(random), 1.5f,
-                               static_cast<std::uint32_t>(share(random) * DepthMap::bottom / 100)});
+        std::vector<Impact> impacts(100);
+        for (Impact& impact : impacts)
+            impact = {128 * share(random), 96 * share(random), 1.5f,
+                      static_cast<std::uint32_t>(share(random) * DepthMap::bottom / 100)};
         surface.scatter(impacts);
         round % 4 == 3 ? surface.takeOff() : surface.layOn(repose);
         ASSERT_EQ(surface.presentVolume(), surface.initialVolume() - surface.takenOffVolume() + surface.laidOnVolume());
