@@ -7,6 +7,8 @@ const costChart = (() => {
     /// Instead of a load: each setting is a bar.
     const bars = 'bars';
 
+    /// By this a chart groups the points of a line: Vega keeps groups as properties of an object, which has some already.
+    const lineOf = series => `line ${series}`;
     const fitCurves = (experiment, x, column, theSeries, thePanel, min, max) => {
         const rows = [];
         const of = column === 'fps_avg' ? 'frame_ms_median' : column;
@@ -14,7 +16,7 @@ const costChart = (() => {
             for (let step = 0; step <= 40; ++step) {
                 const load = min > 0 ? min * (max / min) ** (step / 40) : min + (max - min) * step / 40;
                 const ms = fit.a[0] + fit.b[0] * load ** fit.k[0];
-                rows.push({ series: theSeries(fit), panel: thePanel(fit), x: load, y: column === 'fps_avg' ? 1000 / ms : ms });
+                rows.push({ series: theSeries(fit), line: lineOf(theSeries(fit)), panel: thePanel(fit), x: load, y: column === 'fps_avg' ? 1000 / ms : ms });
             }
         }
         return rows;
@@ -74,7 +76,7 @@ const costChart = (() => {
         const theSeries = cell => (alone ? worldOf(experiment, cell, load.name) : variantOf(report, experiment, cell, load.name));
         const points = cells.map(cell => {
             const [y, low, high] = valueOf(cell, column).map(value => shown(value, info.unit));
-            return { panel: thePanel(cell), series: theSeries(cell), x: Number(cell.settings[load.name]), y, low, high, tip: pointTip(report, cell, theSeries(cell), column, load) };
+            return { panel: thePanel(cell), series: theSeries(cell), line: lineOf(theSeries(cell)), x: Number(cell.settings[load.name]), y, low, high, tip: pointTip(report, cell, theSeries(cell), column, load) };
         });
         const xs = distinct(points.map(point => point.x)).sort((a, b) => a - b);
         const xLog = chart.xLog ?? spans(xs, 15);

@@ -32,9 +32,13 @@ class PageCase(unittest.TestCase):
         cls.folder = os.path.join(tempfile.mkdtemp(prefix="dustbench-report-"), "a&b <i>")
         cls.addClassCleanup(shutil.rmtree, os.path.dirname(cls.folder))
         os.makedirs(cls.folder)
-        cls.rows = made_folder.write(PROGRAM, cls.folder, SUITES)
+        cls.rows = cls.make_rows()
         cls.page = cls.report().strip()
         cls.browser = cls.enterClassContext(browser.Browser(path))
+
+    @classmethod
+    def make_rows(cls):
+        return made_folder.write(PROGRAM, cls.folder, SUITES)
 
     @classmethod
     def report(cls, *more):
