@@ -191,6 +191,9 @@ TEST_F(Dustbench, RepetitionsDifferInWhatIsMeasuredAndInNothingElse) {
         EXPECT_THAT(name, testing::AnyOf("run_id", "repetition", "start_s", "rss_peak_bytes", HasSubstr("_ms_"),
                                          HasSubstr("fps_"), HasSubstr("_us_"), HasSubstr("energy")));
     EXPECT_EQ(a.parameters, b.parameters);
+    ASSERT_TRUE(a.outputs && a.outputs->size() >= 2);
+    EXPECT_EQ(a.outputs->at(0).file, "frames.csv");
+    EXPECT_EQ(bench::whyAltered(*a.outputs, folders[0]), "");
     EXPECT_EQ(a.stateHash, b.stateHash);
     EXPECT_EQ(a.provenance.at("key").size(), b.provenance.at("key").size());
 }

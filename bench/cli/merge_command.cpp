@@ -49,6 +49,8 @@ int mergeFolders(const MergeOptions& options) {
         return exitAborted;
     }
     sayWhereMachinesDiffer(results.runs());
+    if (const std::string said = bench::saysNothingOfOutputs(results.runs()); !said.empty())
+        std::cerr << "warning: " << said << "\n";
     std::cerr << fmt::format("{} copied, {} existing\n", plan.copies.size(), plan.there);
     std::cout << (results.path() / "summary.csv").string() << "\n";
     return exitOk;

@@ -8,6 +8,7 @@
 #include "bench/cli/interruption.h"
 #include "bench/cli/progress_printer.h"
 #include "bench/measure/provenance.h"
+#include "bench/results/stored_folder.h"
 #include "methods/kit/files/printable.h"
 #include "methods/kit/gpu/device.h"
 
@@ -65,6 +66,8 @@ int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::
     const bench::ExecutionOptions execution = executionOf(options);
     for (const std::string& sentence : results.setAside())
         std::cerr << "warning: " << files::printable(sentence) << std::endl;
+    if (const std::string said = bench::saysNothingOfOutputs(results.runs()); !said.empty())
+        std::cerr << "warning: " << said << std::endl;
     ProgressPrinter printer;
     const bench::ExecutionResult result = bench::execute(plan, repetitions, results, execution, printer);
     if (result.aborted) {

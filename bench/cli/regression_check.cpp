@@ -64,6 +64,9 @@ int checkRegression(const RegressionOptions& options) {
     const std::vector<std::string> columns = parseColumns(options.columns);
     const bench::ResultsSide a{options.a, bench::readStoredRuns(options.a)};
     const bench::ResultsSide b{options.b, bench::readStoredRuns(options.b)};
+    for (const bench::ResultsSide* side : {&a, &b})
+        if (const std::string said = bench::saysNothingOfOutputs(side->runs); !said.empty())
+            std::cerr << fmt::format("warning: '{}': {}\n", files::printable(side->name), said);
     const bench::FolderComparison comparison = bench::compareFolders(a, b, columns, options.acrossMachines);
     for (const std::string& remark : comparison.remarks) std::cerr << "note: " << files::printable(remark) << "\n";
     for (const std::string& obstacle : comparison.obstacles)

@@ -25,6 +25,7 @@ class CompareFolders : public Dustbench {
                 record.stateHash = "0123456789abcdef";
                 record.provenance.machine.cpu = "Cpu 1";
                 record.provenance.build.buildType = "Release";
+                record.outputs.emplace();
                 change(record);
                 record.summary = {{"repetition", std::int64_t{repetition}},
                                   {"frame_ms_median", particles * factor * (1 + 0.002 * repetition)}};
@@ -104,6 +105,19 @@ TEST_F(CompareFolders, WritesACsvAndTakesFoldersAsTheyAre) {
     EXPECT_EQ(table.cell(2, "all_cells"), "1");
     EXPECT_TRUE(fs::exists(folder_ / "b" / "runs" / ".unfinished-x"));
     EXPECT_FALSE(fs::exists(folder_ / "b" / "summary.csv"));
+}
+
+TEST_F(CompareFolders, AlteredResultsAreRefusedAndThoseThatCannotTellAreSaid) {
+    write("a", 1);
+    write("older", 1, [](bench::RunRecord& record) { record.outputs.reset(); });
+    const Called older = compare("older");
+    EXPECT_EQ(older.code, 0);
+    EXPECT_THAT(older.err, AllOf(HasSubstr("older/': 12 of 12 runs"), HasSubstr("whether these were altered")));
+    EXPECT_EQ(std::ranges::count(older.err, '\n'), 1) << older.err;
+    write("cut", 1, [](bench::RunRecord& record) { record.outputs = {{"frames.csv", 1, ""}}; });
+    const Called cut = compare("cut");
+    EXPECT_EQ(cut.code, 3);
+    EXPECT_THAT(cut.err, HasSubstr("frames.csv is missing"));
 }
 
 TEST_F(CompareFolders, BadInputIsOneLineAndExitCodeThree) {

@@ -50,7 +50,11 @@ int report(const ReportOptions& options) {
     } else {
         std::cout << bench::writePage(options.folder, data).string() << "\n";
     }
-    return data.runs.empty() ? exitBadInput : exitOk;
+    if (data.runs.empty())
+        throw InputError(fmt::format("'{}': holds no run that can be read, expected a folder that `suite`, `run`, "
+                                     "`compare` or `reproduce` wrote",
+                                     options.folder));
+    return exitOk;
 }
 
 }  // namespace

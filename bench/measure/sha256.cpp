@@ -4,24 +4,58 @@
 #include <openssl/evp.h>
 
 #include <array>
+#include <fstream>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "methods/kit/files/whole_text.h"
 
 namespace dustbench::bench {
+namespace {
+
+class Digest {
+ public:
+    Digest() { require(EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr)); }
+
+    void add(std::string_view bytes) { require(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size())); }
+    [[nodiscard]] std::string text() {
+        std::array<unsigned char, 32> digest{};
+        require(EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr));
+        std::string text;
+        for (const unsigned char byte : digest) text += fmt::format("{:02x}", byte);
+        return text;
+    }
+
+ private:
+    static void require(int succeeded) {
+        if (!succeeded) throw std::runtime_error("SHA-256 cannot be computed: the OpenSSL library refuses");
+    }
+
+    std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
+};
+
+}  // namespace
 
 std::string sha256(std::string_view bytes) {
-    std::array<unsigned char, 32> digest{};
-    if (!EVP_Digest(bytes.data(), bytes.size(), digest.data(), nullptr, EVP_sha256(), nullptr))
-        throw std::runtime_error("SHA-256 cannot be computed: the OpenSSL library refuses");
-    std::string text;
-    for (const unsigned char byte : digest) text += fmt::format("{:02x}", byte);
-    return text;
+    Digest digest;
+    digest.add(bytes);
+    return digest.text();
 }
 
-std::string sha256OfFile(const std::filesystem::path& file) {
-    if (!files::refusalOf(file, files::limits::geometryBytes).empty()) return "";
-    return sha256(files::wholeText(file, "a file", files::limits::geometryBytes));
+std::string sha256OfFile(const std::filesystem::path& file, std::uintmax_t maximumBytes) {
+    if (!files::refusalOf(file, maximumBytes).empty()) return "";
+    std::ifstream stream(file, std::ios::binary);
+    std::vector<char> block(std::size_t{1} << 20);
+    Digest digest;
+    std::uintmax_t bytes = 0;
+    do {
+        stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+        const auto got = static_cast<std::size_t>(stream.gcount());
+        bytes += got;
+        digest.add({block.data(), got});
+    } while (stream && bytes <= maximumBytes);
+    return stream.eof() && bytes <= maximumBytes ? digest.text() : "";
 }
 
 }  // namespace dustbench::bench

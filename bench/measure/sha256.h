@@ -1,16 +1,20 @@
 // SHA-256, to identify inputs and runs by their content: the digest that `sha256sum` prints.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
+
+#include "methods/kit/files/limits.h"
 
 namespace dustbench::bench {
 
 /// 64 hexadecimal digits.
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
-/// Digest of a file's content; empty if it cannot be read.
-[[nodiscard]] std::string sha256OfFile(const std::filesystem::path& file);
+/// Digest of a file's content, read block by block; empty if it cannot be read or is longer.
+[[nodiscard]] std::string sha256OfFile(const std::filesystem::path& file,
+                                       std::uintmax_t maximumBytes = files::limits::geometryBytes);
 
 }  // namespace dustbench::bench

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "bench/measure/sha256.h"
 #include "bench/report/folder_fixture.h"
 #include "bench/report/page.h"
 #include "bench/report/report_reader.h"
@@ -37,6 +38,30 @@ TEST(ReportPage, NamesWhatIsDamagedAndGoesOn) {
         EXPECT_NE(said.find(part), std::string::npos) << part << " in\n" << said;
     ASSERT_EQ(data.notDone.size(), 1u);
     EXPECT_EQ(data.notDone[0].reason, "it rained");
+}
+
+TEST(ReportPage, LeavesOutRunsWhoseFilesWereAlteredAndSaysWhichCannotTell) {
+    const Folder folder;
+    const auto write = [&](const std::string& id, const std::string& frames, const std::string& outputs) {
+        std::string text = runJson(id, "\"frame_ms_median\": 2, \"repetition\": 1");
+        text.insert(text.rfind('}'), outputs);
+        folder.write("runs/" + id + "/run.json", text);
+        folder.write("runs/" + id + "/frames.csv", frames);
+    };
+    const std::string frames = "frame,frame_ms\n0,1.5\n1,2.5\n";
+    const std::string sum = fmt::format(R"(, "outputs": [{{"file": "frames.csv", "bytes": {}, "sha256": "{}"}}])",
+                                        frames.size(), sha256(frames));
+    write("whole", frames, sum);
+    write("faster", "frame,frame_ms\n0,0.5\n1,0.5\n", sum);
+    write("shorter", "frame,frame_ms\n0,1.5\n", sum);
+    write("older", frames, "");
+    const ReportData data = readReport(folder.path(), 0);
+    EXPECT_EQ(data.runs.size(), 2u);
+    const std::string said = problemsOf(data);
+    for (const char* part :
+         {"runs/faster': frames.csv is not what the run wrote", "runs/shorter': frames.csv has 21 bytes, expected 27",
+          "1 of 2 runs are of an older build"})
+        EXPECT_NE(said.find(part), std::string::npos) << part << " in\n" << said;
 }
 
 TEST(ReportPage, NamesEveryKindOfDamageAndIsWritten) {

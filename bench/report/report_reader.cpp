@@ -13,6 +13,8 @@
 #include "bench/report/run_groups.h"
 #include "bench/results/measured_on.h"
 #include "bench/results/method_time.h"
+#include "bench/results/results_folder.h"
+#include "bench/results/stored_folder.h"
 #include "bench/results/summary.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
@@ -39,17 +41,14 @@ void readRuns(const fs::path& folder, ReportData& data) {
             continue;
         }
         try {
-            StoredRun run = readRunFile(entry->path() / "run.json");
-            if (run.runId != name)
-                data.problems.push_back(fmt::format("runs/{} holds the run {}: left out", name, run.runId));
-            else
-                data.runs.emplace(name, std::move(run));
+            data.runs.emplace(name, readRunFolder(entry->path()));
         } catch (const InputError& fault) {
             data.problems.push_back(fmt::format("left out: {}", fault.what()));
         }
     }
     addMethodTimes(data.runs);
     if (data.runs.empty()) data.problems.push_back("the folder 'runs' holds no run");
+    if (std::string said = saysNothingOfOutputs(data.runs); !said.empty()) data.problems.push_back(std::move(said));
 }
 
 std::string provenanceOf(const StoredRun& run, std::string_view field) {
@@ -167,11 +166,8 @@ void listFiles(const fs::path& folder, ReportData& data) {
 void readPapers(const fs::path& folder, ReportData& data) {
     const std::set<std::string> ids = papersOf(data.groups);
     if (ids.empty()) return;
-    const fs::path summary = folder / "summary.csv";
-    std::error_code none;
-    const bool hasSummary = fs::exists(summary, none);
-    if (!hasSummary)
-        data.problems.push_back("summary.csv is missing, so no claim is tested: the suite's command writes it again");
+    // Not from the file of that name, which nothing holds to what the runs say.
+    const auto summary = files::CsvTable::parseText(summaryCsv(data.runs), (folder / "summary.csv").string());
     for (const std::string& id : ids) {
         try {
             data.papers.push_back(loadPaper(id));
@@ -180,8 +176,7 @@ void readPapers(const fs::path& folder, ReportData& data) {
             for (RunGroup& group : data.groups)
                 if (const auto found = published.find(group.suite); found != published.end())
                     group.published = found->second;
-            if (!hasSummary) continue;
-            for (JudgedClaim& claim : judgeClaims(id, files::CsvTable::parseFile(summary), readFindings(folder)))
+            for (JudgedClaim& claim : judgeClaims(id, summary, readFindings(folder)))
                 data.claims.push_back(std::move(claim));
         } catch (const InputError& fault) {
             data.problems.push_back(fmt::format("paper {}: {}", id, fault.what()));

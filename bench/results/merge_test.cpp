@@ -57,9 +57,10 @@ class Merge : public testing::Test {
             record.spec = spec(seed);
             record.summary = identityColumns(record, 2);
             record.summary.emplace_back("fps_avg", fps);
-            write(runFolder(folder_ / name, seed) / "run.json", toJson(record));
             write(runFolder(folder_ / name, seed) / "frames.csv", "frame\n0\n");
             write(runFolder(folder_ / name, seed) / "images" / "f000000.png", "picture");
+            record.outputs = outputsIn(runFolder(folder_ / name, seed));
+            write(runFolder(folder_ / name, seed) / "run.json", toJson(record));
         }
         fs::create_directories(folder_ / name / "runs");
         return folder_ / name;
@@ -132,10 +133,21 @@ TEST_F(Merge, RefusesTwoResultsOfOneRun) {
                                        HasSubstr("a/runs"), HasSubstr("b/runs")));
     (void)mergeInto(folder_ / "out", {a});
     EXPECT_THAT(refusal({b}), HasSubstr("two different results"));
-    // Truncated during copying.
+    // A file more.
     const fs::path c = results("c", {1});
-    write(runFolder(c, 1) / "frames.csv", "fra");
+    write(runFolder(c, 1) / "notes.txt", "slow");
     EXPECT_THAT(refusal({c}), HasSubstr("two different results"));
+}
+
+TEST_F(Merge, RefusesResultsThatWereAltered) {
+    const fs::path a = results("a", {1, 2});
+    write(runFolder(a, 2) / "frames.csv", "fra");  // truncated during copying
+    EXPECT_THAT(refusal({a}), AllOf(HasSubstr(runFolder(a, 2).string()), HasSubstr("frames.csv has 3 bytes")));
+    write(runFolder(a, 2) / "frames.csv", "frame\n1\n");
+    EXPECT_THAT(refusal({a}), HasSubstr("its SHA-256 differs"));
+    fs::remove(runFolder(a, 2) / "images" / "f000000.png");
+    EXPECT_THAT(refusal({a}), HasSubstr("images/f000000.png is missing"));
+    EXPECT_FALSE(fs::exists(runFolder(folder_ / "out", 1)));
 }
 
 TEST_F(Merge, NamesWhatIsMissingOrBroken) {
@@ -160,9 +172,10 @@ TEST_F(Merge, TakesNothingFromOutsideItsFolders) {
         return refusal({source});
     };
     const fs::path run = runId(spec(1));
-    EXPECT_THAT(withLink("file", run / "frames.csv", folder_ / "secret"), HasSubstr("frames.csv': is a symbolic link"));
+    EXPECT_THAT(withLink("file", run / "frames.csv", folder_ / "secret"), HasSubstr("frames.csv is a symbolic link"));
     EXPECT_THAT(withLink("more", run / "more.txt", "../../../../secret"), HasSubstr("more.txt': is a symbolic link"));
-    EXPECT_THAT(withLink("folders", run / "images", "/etc"), HasSubstr("images': is a symbolic link"));
+    const fs::path images = runFolder(results("same", {1}), 1) / "images";
+    EXPECT_THAT(withLink("folders", run / "images", images), HasSubstr("images': is a symbolic link"));
     EXPECT_THAT(withLink("round", run / "round", "round"), HasSubstr("round': is a symbolic link"));
     const fs::path honest = results("honest", {1});
     EXPECT_THAT(withLink("whole", run, runFolder(honest, 1)), HasSubstr(run.string() + "': is a symbolic link"));

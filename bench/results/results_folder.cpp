@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "bench/results/method_time.h"
+#include "bench/results/stored_folder.h"
 #include "bench/results/summary.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
@@ -83,9 +84,7 @@ void ResultsFolder::readRuns() {
     for (const fs::path& folder : folders) {
         const std::string name = folder.filename();
         try {
-            StoredRun run = readRunFile(folder / "run.json");
-            if (run.runId != name) throw InputError(fmt::format("{}: holds the run '{}'", folder.string(), run.runId));
-            runs_[name] = std::move(run);
+            runs_[name] = readRunFolder(folder);
         } catch (const InputError& damage) {
             fs::path aside = folder.parent_path() / fmt::format("{}{}", asideStart, name);
             for (int i = 2; fs::exists(aside); ++i)
@@ -139,8 +138,12 @@ void ResultsFolder::discard(const std::string& runId) {
 
 void ResultsFolder::writeSummary() {
     addMethodTimes(runs_);
+    writeWhole(folder_ / "summary.csv", summaryCsv(runs_));
+}
+
+std::string summaryCsv(const StoredRuns& runs) {
     std::set<std::string> parameters;
-    for (const auto& [id, run] : runs_)
+    for (const auto& [id, run] : runs)
         for (const auto& [name, text] : run.parameters) parameters.insert(name);
 
     std::string text;
@@ -149,7 +152,7 @@ void ResultsFolder::writeSummary() {
     for (const std::string& name : columnsAfterParameters()) text.append(name).append(1, ',');
     text.back() = '\n';
 
-    for (const auto& [id, run] : runs_) {
+    for (const auto& [id, run] : runs) {
         std::string row;
         const auto add = [&row](std::string_view cell) { row.append(files::csvCell(cell)).append(1, ','); };
         const auto cellOf = [&run = run](const std::string& name) {
@@ -165,7 +168,7 @@ void ResultsFolder::writeSummary() {
         row.back() = '\n';
         text += row;
     }
-    writeWhole(folder_ / "summary.csv", text);
+    return text;
 }
 
 }  // namespace dustbench::bench

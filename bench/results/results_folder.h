@@ -15,8 +15,8 @@ namespace dustbench::bench {
 class ResultsFolder {
  public:
     /// Creates the folder, checks that it is writable, removes leftovers of interrupted runs, and reads the existing
-    /// runs; runs with a damaged run.json are set aside. Throws InputError if it is not writable or another program is
-    /// writing to it.
+    /// runs; runs with a damaged run.json or an altered output are set aside. Throws InputError if it is not writable
+    /// or another program is writing to it.
     explicit ResultsFolder(std::filesystem::path folder);
     ~ResultsFolder();
     ResultsFolder(const ResultsFolder&) = delete;
@@ -38,8 +38,7 @@ class ResultsFolder {
     void place(const std::string& runId);
     void discard(const std::string& runId);
 
-    /// Writes all runs with their method times (method_time.h), one row each, ordered by id; p.… columns are the union
-    /// of all parameters.
+    /// Writes summaryCsv of all runs with their method times (method_time.h).
     void writeSummary();
 
  private:
@@ -52,5 +51,8 @@ class ResultsFolder {
     StoredRuns runs_;
     std::vector<std::string> setAside_;
 };
+
+/// summary.csv as text: the runs one row each, ordered by id; p.… columns are the union of all parameters.
+[[nodiscard]] std::string summaryCsv(const StoredRuns& runs);
 
 }  // namespace dustbench::bench

@@ -96,6 +96,16 @@ Json provenanceObject(const Provenance& provenance) {
         {"inputs", inputs}};
 }
 
+Json outputsArray(const std::optional<std::vector<OutputFile>>& outputs) {
+    if (!outputs) return nullptr;
+    Json list = Json::array();
+    for (const OutputFile& output : *outputs)
+        list.push_back({{"file", output.file},
+                        {"bytes", output.bytes},
+                        {"sha256", output.sha256.empty() ? Json(nullptr) : Json(output.sha256)}});
+    return list;
+}
+
 Json volumesObject(const std::optional<VolumeSettings>& volumes) {
     if (!volumes) return nullptr;
     return {{"frames", volumes->frames.text()},
@@ -173,6 +183,7 @@ std::string toJson(const RunRecord& record) {
                  {"validity", record.validity},
                  {"summary", columnsObject(record.summary)},
                  {"memory", memory},
+                 {"outputs", outputsArray(record.outputs)},
                  {"provenance", provenance},
                  {"warnings", record.provenance.warnings}});
 }

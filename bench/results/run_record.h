@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "bench/measure/provenance.h"
+#include "bench/results/output_files.h"
 #include "bench/results/run_spec.h"
 #include "methods/kit/gpu/adapter.h"
 #include "methods/kit/memory/memory_ledger.h"
@@ -43,6 +45,7 @@ struct RunRecord {
     std::vector<std::string> validity;  ///< why no claim may use it (validity.h); empty if valid
     Columns summary;                    ///< cells of summary.csv, without parameters
     std::vector<std::pair<std::string, MemoryUse>> memory;  ///< owner (`world`, `method`, `device`) and structure
+    std::optional<std::vector<OutputFile>> outputs;         ///< the files beside it; empty: not known
     Provenance provenance;
 };
 

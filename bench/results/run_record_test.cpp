@@ -116,6 +116,32 @@ TEST(RunRecord, NumbersMustBeNumbers) {
     EXPECT_EQ(readChanged("12.5", "\"\"").cells.at("frame_ms_median"), "");
 }
 
+TEST(RunRecord, OutputsSurviveTheFileAndStayBelowItsFolder) {
+    RunRecord record;
+    record.spec = spec();
+    record.outputs = {{"frames.csv", 5'000'000'000, ""}, {"images/f000000.png", 7, std::string(64, 'a')}};
+    const auto file = std::filesystem::path(testing::TempDir()) / ("outputs-" + std::to_string(getpid()) + ".json");
+    const auto read = [&](const std::string& from = "", const std::string& to = "") {
+        std::string text = toJson(record);
+        if (!from.empty()) text.replace(text.find(from), from.size(), to);
+        writeWhole(file, text);
+        return readRunFile(file);
+    };
+    const auto outputs = read().outputs;
+    ASSERT_TRUE(outputs && outputs->size() == 2);
+    EXPECT_EQ(outputs->at(0).bytes, 5'000'000'000u);
+    EXPECT_EQ(outputs->at(0).sha256, "");
+    EXPECT_EQ(outputs->at(1).file, "images/f000000.png");
+    EXPECT_EQ(outputs->at(1).sha256, std::string(64, 'a'));
+    for (const char* name : {"\"../frames.csv\"", "\"/dev/zero\"", "\"\"", "7", "null"})
+        EXPECT_THROW((void)read("\"frames.csv\"", name), InputError) << name;
+    EXPECT_THROW((void)read("5000000000", "-1"), InputError);
+    // Of an older build.
+    EXPECT_FALSE(read("\"outputs\"", "\"others\"").outputs);
+    record.outputs.reset();
+    EXPECT_FALSE(read().outputs);
+}
+
 TEST(RunRecord, LongWarningsAreCut) {
     const StoredRun run = readChanged("\"short\"", '"' + std::string(50'000, '7') + '"');
     EXPECT_EQ(run.warnings.at(0), std::string(1000, '7') + " [50000 bytes in all]");

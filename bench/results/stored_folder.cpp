@@ -2,11 +2,34 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bench/results/method_time.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
+
+StoredRun readRunFolder(const fs::path& folder) {
+    StoredRun run = readRunFile(folder / "run.json");
+    if (run.runId != folder.filename())
+        throw InputError(fmt::format("'{}': holds the run '{}', expected the one that its folder is named after",
+                                     (folder / "run.json").string(), run.runId));
+    if (!run.outputs) return run;
+    if (const std::string why = whyAltered(*run.outputs, folder); !why.empty())
+        throw InputError(fmt::format("'{}': {}", folder.string(), why));
+    return run;
+}
+
+std::string saysNothingOfOutputs(const StoredRuns& runs) {
+    const auto count = std::ranges::count_if(
+        runs, [](const auto& entry) { return entry.second.status == RunStatus::done && !entry.second.outputs; });
+    if (count == 0) return "";
+    return fmt::format(
+        "{} of {} runs are of an older build, which noted no SHA-256 of their files: whether these were "
+        "altered cannot be told",
+        count, runs.size());
+}
 
 StoredRuns readStoredRuns(const fs::path& folder) {
     std::error_code error;
@@ -17,11 +40,7 @@ StoredRuns readStoredRuns(const fs::path& folder) {
     for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
         const std::string name = entry->path().filename();
         if (name.starts_with('.')) continue;
-        StoredRun run = readRunFile(entry->path() / "run.json");
-        if (run.runId != name)
-            throw InputError(fmt::format("'{}': holds the run '{}', expected the one that its folder is named after",
-                                         (entry->path() / "run.json").string(), run.runId));
-        runs.emplace(name, std::move(run));
+        runs.emplace(name, readRunFolder(entry->path()));
     }
     if (error) throw InputError(fmt::format("'{}': cannot be read: {}", folder.string(), error.message()));
     addMethodTimes(runs);

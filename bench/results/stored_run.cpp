@@ -75,6 +75,24 @@ std::string textOf(element value) {
     return std::string(std::string_view(value));
 }
 
+OutputFile outputOf(element value) {
+    OutputFile output{textOf(value["file"]), std::uint64_t(value["bytes"]), cellText(value["sha256"])};
+    if (!isWithin(output.file))
+        throw InputError(
+            fmt::format("outputs: got the file '{}', expected one below the run's folder", output.file.substr(0, 200)));
+    return output;
+}
+
+std::optional<std::vector<OutputFile>> readOutputs(object json) {
+    element list;
+    simdjson::error_code missing{};
+    json["outputs"].tie(list, missing);
+    if (missing || list.is_null()) return std::nullopt;
+    std::vector<OutputFile> outputs;
+    for (const element output : list.get_array()) outputs.push_back(outputOf(output));
+    return outputs;
+}
+
 }  // namespace
 
 StoredRun readRunFile(const std::filesystem::path& file) {
@@ -94,6 +112,7 @@ StoredRun readRunFile(const std::filesystem::path& file) {
         readCells(json["provenance"], run.provenance);
         for (const element input : json["provenance"]["inputs"].get_array())
             run.inputs.push_back({textOf(input["file"]), textOf(input["sha256"])});
+        run.outputs = readOutputs(json);
         requireSound(run);
         return run;
     } catch (const std::exception& error) {

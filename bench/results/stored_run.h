@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct StoredRun {
     /// By field: `cpu`, `build_type`, `key` …, without the inputs.
     std::map<std::string, std::string, std::less<>> provenance{};
     std::vector<InputHash> inputs{};
+    /// Empty in results of older builds, which recorded none: whether their files were altered cannot be told.
+    std::optional<std::vector<OutputFile>> outputs{};
 };
 
 /// By run id.

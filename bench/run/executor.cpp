@@ -85,6 +85,7 @@ void keepReason(const fs::path& folder, const RunSpec& spec, RunStatus status, c
     record.drive = spec.drive;
     record.status = status;
     record.reason = reason;
+    record.outputs.emplace();
     record.provenance = startProvenance(options.argv);
     record.summary = identityColumns(record, spec.threads == 0 ? record.provenance.machine.cores : spec.threads);
     writeWhole(folder / "run.json", toJson(record));

@@ -13,6 +13,7 @@
 #include <string>
 #include <thread>
 
+#include "bench/measure/sha256.h"
 #include "bench/results/freshness.h"
 #include "bench/results/summary.h"
 #include "bench/run/executor.h"
@@ -48,6 +49,7 @@ class ExecutorFaults : public testing::Test {
             record.provenance.build = buildFacts();
             record.provenance.inputs = hashInputs({folder_ / "input"});
             record.summary = identityColumns(record, 2);
+            record.outputs = {{"frames.csv", frames().size(), sha256(frames())}};
             writeWhole(folder_ / "made" / runId(run.spec), toJson(record));
         }
         options_.retryFailed = true;
@@ -59,6 +61,12 @@ class ExecutorFaults : public testing::Test {
     }
     void TearDown() override { fs::remove_all(folder_); }
 
+    /// What the script leaves.
+    static std::string frames() {
+        std::string text = "frame\n";
+        for (int i = 0; i < rowsOfFrames; ++i) text += fmt::format("{}\n", i);
+        return text;
+    }
     [[nodiscard]] fs::path out() const { return folder_ / "out"; }
     [[nodiscard]] fs::path pid() const { return folder_ / "pid"; }
     [[nodiscard]] ExecutionResult runAll() const {
@@ -151,6 +159,24 @@ TEST_F(ExecutorFaults, ADamagedResultIsSetAsideAndDoneAgain) {
     const ExecutionResult again = runAll();
     EXPECT_EQ(again.done, 2u);
     EXPECT_EQ(wholeResults().size(), std::size_t{runsInPlan});
+}
+
+TEST_F(ExecutorFaults, AnAlteredOrMissingFileOfAResultDoesNotCountAsDone) {
+    (void)runAll();
+    const auto tableOf = [&](std::size_t i) { return out() / "runs" / runId(plan_[i].spec) / "frames.csv"; };
+    fs::remove(tableOf(3));
+    std::ofstream(tableOf(4), std::ios::in) << 'F';  // as long as before
+    {
+        const ResultsFolder results(out());
+        EXPECT_EQ(results.runs().size(), std::size_t{runsInPlan} - 2);
+        ASSERT_EQ(results.setAside().size(), 2u);
+        const std::string said = results.setAside()[0] + results.setAside()[1];
+        EXPECT_NE(said.find("frames.csv is missing"), std::string::npos) << said;
+        EXPECT_NE(said.find("frames.csv is not what the run wrote"), std::string::npos) << said;
+    }
+    EXPECT_EQ(runAll().done, 2u);
+    EXPECT_EQ(wholeResults().size(), std::size_t{runsInPlan});
+    EXPECT_EQ(runAll().kept, std::size_t{runsInPlan});
 }
 
 TEST_F(ExecutorFaults, AKillBetweenTheRenamesOfAReplacementKeepsTheOldResult) {

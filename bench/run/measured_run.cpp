@@ -225,6 +225,7 @@ RunRecord measureRun(const RunSpec& spec, const fs::path& folder, std::vector<st
     record.drive = spec.drive;
     record.provenance = startProvenance(std::move(argv));
     withThreads(spec.threads, [&] { measure(spec, folder, progress, record); });
+    record.outputs = outputsIn(folder);
     return record;
 }
 

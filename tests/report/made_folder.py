@@ -169,6 +169,17 @@ def write(program, folder, suites):
     return rows
 
 
+def rewrite_runs(folder, rows):
+    """The runs of these rows, with these numbers."""
+    for row in rows:
+        file = os.path.join(folder, "runs", row["run_id"], "run.json")
+        with open(file, encoding="utf-8") as stream:
+            run = json.load(stream)
+        run["summary"] = {name: value for name, value in row.items() if not name.startswith("p.")}
+        with open(file, "w", encoding="utf-8") as stream:
+            json.dump(run, stream)
+
+
 def write_summary(folder, rows):
     columns = list(dict.fromkeys(name for row in rows for name in row))
     with open(os.path.join(folder, "summary.csv"), "w", encoding="utf-8", newline="") as stream:

@@ -199,7 +199,7 @@ class ReportPage(page_case.PageCase):
             times[key] = row["build_ms_median"]
         swapped = [row | {"build_ms_median": times.get((other.get(row["method"]), row.get("p.particles"), row.get("p.speed"), row.get("p.layout"),
                                                         row.get("p.depth"), row["repetition"], row["width"], "flip" in row), row["build_ms_median"])} for row in self.rows]
-        made_folder.write_summary(self.folder, swapped)
+        made_folder.rewrite_runs(self.folder, swapped)
         try:
             said = self.report("--text")
             self.assertRegex(said, r"R2a +refuted")
@@ -208,7 +208,7 @@ class ReportPage(page_case.PageCase):
             self.assertEqual(self.browser.evaluate(verdict), "✗ refuted")
         finally:
             self.touch()
-            made_folder.write_summary(self.folder, self.rows)
+            made_folder.rewrite_runs(self.folder, self.rows)
             self.report()
 
     def test_a_folder_without_runs_gets_a_page_that_says_so(self):

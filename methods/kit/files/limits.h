@@ -12,12 +12,16 @@ namespace dustbench::files::limits {
 inline constexpr std::uintmax_t textBytes = 64'000'000;
 /// Meshes, voxels and volumes: 1 GB.
 inline constexpr std::uintmax_t geometryBytes = 1'000'000'000;
+/// Results whose SHA-256 is kept: 4 GB.
+inline constexpr std::uintmax_t summedBytes = 4'000'000'000;
 /// Tables and arrays within each other.
 inline constexpr int tomlLevels = 256;
 
 /// Edge of an image, and all of it decoded to floats: 1 GB (2^30 bytes, four channels of 8192 x 8192).
 inline constexpr int imageEdge = 16'384;
 inline constexpr std::uintmax_t imageBytes = std::uintmax_t{1} << 30;
+/// Cells of a volume.
+inline constexpr std::int64_t volumeCells = 256'000'000;
 /// Samples of a height field along one side.
 inline constexpr int heightEdge = 8'192;
 

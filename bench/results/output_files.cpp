@@ -1,0 +1,59 @@
+#include "bench/results/output_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "bench/measure/sha256.h"
+#include "methods/kit/files/limits.h"
+
+namespace dustbench::bench {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::array<std::string_view, 3> notOutputs{"run.json", "spec.json", "log.txt"};
+
+std::string sumOf(const fs::path& file, std::uintmax_t bytes) {
+    return bytes > files::limits::summedBytes ? "" : sha256OfFile(file, files::limits::summedBytes);
+}
+
+std::string whyOtherLength(const OutputFile& output, const fs::path& file) {
+    std::error_code error;
+    const fs::file_status status = fs::symlink_status(file, error);
+    if (status.type() == fs::file_type::not_found) return fmt::format("{} is missing", output.file);
+    if (status.type() == fs::file_type::symlink) return fmt::format("{} is a symbolic link", output.file);
+    if (status.type() != fs::file_type::regular) return fmt::format("{} is no regular file", output.file);
+    const std::uintmax_t bytes = fs::file_size(file, error);
+    if (error) return fmt::format("{} cannot be read: {}", output.file, error.message());
+    return bytes == output.bytes ? "" : fmt::format("{} has {} bytes, expected {}", output.file, bytes, output.bytes);
+}
+
+}  // namespace
+
+std::vector<OutputFile> outputsIn(const fs::path& runFolder) {
+    std::vector<OutputFile> outputs;
+    for (const auto& entry : fs::recursive_directory_iterator(runFolder)) {
+        const std::string name = entry.path().lexically_relative(runFolder).generic_string();
+        if (!entry.is_regular_file() || std::ranges::find(notOutputs, name) != notOutputs.end()) continue;
+        outputs.push_back({name, entry.file_size(), sumOf(entry.path(), entry.file_size())});
+    }
+    std::ranges::sort(outputs, {}, &OutputFile::file);
+    return outputs;
+}
+
+std::string whyAltered(std::span<const OutputFile> outputs, const fs::path& runFolder) {
+    for (const OutputFile& output : outputs)
+        if (std::string why = whyOtherLength(output, runFolder / output.file); !why.empty()) return why;
+    for (const OutputFile& output : outputs)
+        if (!output.sha256.empty() && sumOf(runFolder / output.file, output.bytes) != output.sha256)
+            return fmt::format("{} is not what the run wrote: its SHA-256 differs", output.file);
+    return "";
+}
+
+bool isWithin(const fs::path& name) {
+    return !name.empty() && name.is_relative() && name.lexically_normal().native() == name.native() &&
+           *name.begin() != ".." && *name.begin() != ".";
+}
+
+}  // namespace dustbench::bench
