@@ -86,16 +86,17 @@ TEST(VectorSeriesFiles, ThatCannotBeUsedAreRefusedInOneLine) {
         EXPECT_NE(message.find(expected), std::string::npos) << message;
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     };
-    for (const fs::path& file : {good, goodVdb}) {
+    for (const auto& [file, notWhole] : {std::pair(good, "not a complete VTK image data file (.vti)"),
+                                         std::pair(goodVdb, "not a whole file of OpenVDB")}) {
         expectRefused(refused({file}, "speed"), "no field of vectors 'speed'; it has: velocity");
         expectRefused(refused({file}, "density"), "no field of vectors 'density'");
         expectRefused(refused({file, file}), "after 1 s");
         const fs::path cut = folder.path() / ("cut" + file.extension().string());
         fs::copy_file(file, cut);
         fs::resize_file(cut, fs::file_size(file) / 2);
-        expectRefused(refused({cut}), "not a whole file");
+        expectRefused(refused({cut}), notWhole);
         expectRefused(refused({folder.path() / ("none" + file.extension().string())}), "cannot be read");
-        expectRefused(refused({folder.write("text" + file.extension().string(), "no volume")}), "not a whole file");
+        expectRefused(refused({folder.write("text" + file.extension().string(), "no volume")}), notWhole);
     }
     expectRefused(refused({folder.write("a.csv", "1,2")}), ".vti or .vdb");
     const fs::path other = folder.path() / "other.vti";

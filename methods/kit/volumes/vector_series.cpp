@@ -8,8 +8,7 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/input_log.h"
-#include "methods/kit/files/whole_text.h"
-#include "methods/kit/volumes/vti_check.h"
+#include "methods/kit/volumes/vector_file.h"
 
 namespace dustbench::volumes {
 namespace {
@@ -85,14 +84,7 @@ VectorSeries::VectorSeries(std::span<const std::filesystem::path> files, const s
               std::vector<VectorGrid> grids;
               std::size_t bytes = 0;
               for (const std::filesystem::path& file : files) {
-                  if (const std::string why = files::refusalOf(file, files::limits::geometryBytes); !why.empty())
-                      throw InputError(file.string() + ": " + why);
-                  if (file.extension() == ".vti")
-                      if (const std::string why = vtiFault(file); !why.empty())
-                          throw InputError(file.string() + ": not a whole file of VTK's image data: " + why);
-                  grids.emplace_back();
-                  if (const std::string why = volumeLibrary().readVectors(file, field, grids.back()); !why.empty())
-                      throw InputError(file.string() + ": " + why);
+                  grids.push_back(readVectors(file, field));
                   bytes += grids.back().values.size() * sizeof(glm::vec3);
                   if (bytes > maximumBytes)
                       throw InputError(fmt::format("{}: the series takes more than {} GiB up to here", file.string(),

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "methods/kit/volumes/volume_library.h"
+#include "methods/kit/volumes/vector_grid.h"
 
 namespace dustbench::volumes {
 

@@ -1,24 +1,23 @@
 #include "methods/voxel_shape/voxels/voxel_file.h"
 
+#include <fmt/format.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
-#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
-#include <vtkXMLImageDataReader.h>
 #include <vtkXMLImageDataWriter.h>
 
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/input_log.h"
-#include "methods/kit/files/whole_text.h"
-#include "methods/kit/volumes/vti_check.h"
+#include "methods/kit/volumes/vti_file.h"
 
 namespace dustbench::voxel_shape {
 namespace {
@@ -94,43 +93,39 @@ class Complaints {
     throw InputError(file.string() + ": " + what);
 }
 
-Lattice latticeOf(vtkImageData& image, const std::filesystem::path& file) {
+Lattice latticeOf(const volumes::VtiFile& vti, const std::filesystem::path& file) {
     Lattice lattice;
-    const double* const spacing = image.GetSpacing();
+    const glm::dvec3& spacing = vti.spacing();
     for (int axis = 0; axis < 3; ++axis) {
-        lattice.counts[axis] = image.GetDimensions()[axis] - 1;
-        if (lattice.counts[axis] < 1 || lattice.counts[axis] > maximumVoxelsASide)
+        lattice.counts[axis] = vti.cells()[axis];
+        if (lattice.counts[axis] > maximumVoxelsASide)
             fail(file, "got " + std::to_string(lattice.counts[axis]) + " voxels along one side, allowed: 1.." +
                            std::to_string(maximumVoxelsASide));
-        if (!(spacing[axis] > 0) || std::abs(spacing[axis] / spacing[0] - 1) > 1e-5)
-            fail(file, "the voxels are not cubes: got spacings of " + std::to_string(spacing[0]) + ", " +
-                           std::to_string(spacing[1]) + ", " + std::to_string(spacing[2]));
-        lattice.origin[axis] =
-            static_cast<float>(image.GetOrigin()[axis] + image.GetExtent()[2 * axis] * spacing[axis]);
+        if (!(spacing[axis] > 0) || !(std::abs(spacing[axis] / spacing.x - 1) <= 1e-5))
+            fail(file, "the voxels are not cubes: got spacings of " + std::to_string(spacing.x) + ", " +
+                           std::to_string(spacing.y) + ", " + std::to_string(spacing.z));
+        lattice.origin[axis] = static_cast<float>(vti.origin()[axis]);
     }
-    lattice.edgeMetres = static_cast<float>(spacing[0]);
+    lattice.edgeMetres = static_cast<float>(spacing.x);
     return lattice;
 }
 
-void readAttribute(const Attribute& attribute, vtkImageData& image, VoxelGrid& grid,
+void readAttribute(const Attribute& attribute, const volumes::VtiFile& vti, VoxelGrid& grid,
                    const std::filesystem::path& file) {
-    vtkDataArray* const array = image.GetCellData()->GetArray(attribute.name);
-    const auto cells = static_cast<vtkIdType>(grid.lattice().size());
-    if (!array || array->GetNumberOfComponents() != attribute.components || array->GetNumberOfTuples() != cells)
+    const volumes::VtiArray* const array = vti.cellArray(attribute.name);
+    const std::size_t cells = grid.lattice().size();
+    if (!array || array->components != attribute.components)
         fail(file, "cell data '" + std::string(attribute.name) + "': expected " + std::to_string(attribute.components) +
                        " numbers for each of " + std::to_string(cells) + " voxels");
-    for (vtkIdType i = 0; i < cells; ++i) {
-        float numbers[4];
-        for (int c = 0; c < attribute.components; ++c) {
-            const double value = array->GetComponent(i, c);
-            if (!(value >= attribute.minimum && value <= attribute.maximum))
-                fail(file, "cell data '" + std::string(attribute.name) + "': voxel " + std::to_string(i) + " has " +
-                               std::to_string(value) + ", allowed: " + std::to_string(attribute.minimum) + ".." +
-                               std::to_string(attribute.maximum));
-            numbers[c] = static_cast<float>(value);
-        }
-        attribute.set(grid.voxels()[static_cast<std::size_t>(i)], numbers);
-    }
+    const std::vector<float> numbers = vti.numbersOf(*array);
+    const auto components = static_cast<std::size_t>(attribute.components);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (const auto value = static_cast<double>(numbers[i]);
+            !(value >= attribute.minimum && value <= attribute.maximum))
+            fail(file, "cell data '" + std::string(attribute.name) + "': voxel " + std::to_string(i / components) +
+                           " has " + std::to_string(value) + ", allowed: " + std::to_string(attribute.minimum) + ".." +
+                           std::to_string(attribute.maximum));
+    for (std::size_t i = 0; i < cells; ++i) attribute.set(grid.voxels()[i], &numbers[i * components]);
 }
 
 }  // namespace
@@ -177,31 +172,14 @@ void writeVoxels(const VoxelGrid& grid, const std::filesystem::path& file) {
 }
 
 VoxelGrid readVoxels(MemoryLedger& ledger, const std::filesystem::path& file) {
-    if (const std::string why = files::refusalOf(file, files::limits::geometryBytes); !why.empty()) fail(file, why);
-    if (const std::string why = volumes::vtiFault(file); !why.empty())
-        fail(file, "not a complete VTK image data file (.vti): " + why);
+    const volumes::VtiFile vti(file);
     files::noteInput(file);
-    Complaints complaints;
-    vtkNew<vtkXMLImageDataReader> reader;
-    reader->AddObserver("ErrorEvent", complaints.command());
-    reader->AddObserver("WarningEvent", complaints.command());
-    reader->SetReaderErrorObserver(complaints.command());
-    reader->SetParserErrorObserver(complaints.command());
-    if (vtkExecutive* const executive = reader->GetExecutive())
-        executive->AddObserver("ErrorEvent", complaints.command());
-    reader->SetFileName(file.c_str());
-    reader->Update();
-    vtkImageData* const image = reader->GetOutput();
-    if (complaints.any() || !image || image->GetNumberOfCells() == 0)
-        fail(file, "not a complete VTK image data file (.vti)");
-    vtkDataArray* const version = image->GetFieldData()->GetArray(versionName);
-    if (!version || version->GetNumberOfTuples() != 1)
-        fail(file, std::string("not a dustbench voxel file: it has no field data '") + versionName + "'");
-    if (version->GetComponent(0, 0) != voxelFileVersion)
-        fail(file, "voxels of version " + std::to_string(std::lround(version->GetComponent(0, 0))) +
-                       ", allowed: " + std::to_string(voxelFileVersion));
-    VoxelGrid grid(ledger, latticeOf(*image, file));
-    for (const Attribute& attribute : attributes) readAttribute(attribute, *image, grid, file);
+    const std::optional<double> version = vti.fieldNumber(versionName);
+    if (!version) fail(file, std::string("not a dustbench voxel file: it has no field data '") + versionName + "'");
+    if (*version != voxelFileVersion)
+        fail(file, fmt::format("voxels of version {}, allowed: {}", *version, voxelFileVersion));
+    VoxelGrid grid(ledger, latticeOf(vti, file));
+    for (const Attribute& attribute : attributes) readAttribute(attribute, vti, grid, file);
     grid.listActive();
     return grid;
 }

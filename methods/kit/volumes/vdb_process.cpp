@@ -1,0 +1,124 @@
+#include "methods/kit/volumes/vdb_process.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include "methods/kit/files/limits.h"
+#include "methods/kit/volumes/vdb_message.h"
+
+namespace dustbench::volumes {
+namespace {
+
+constexpr const char* notWhole = "not a whole file of OpenVDB";
+constexpr std::uint64_t maximumReason = 1'000;
+
+[[noreturn]] void fail(int error) {
+    throw std::runtime_error(std::string("cannot start ") + vdbReaderName +
+                             ", which reads volumes: " + std::strerror(error));
+}
+
+/// Owns: a running reader and the end of its output.
+class Reader {
+ public:
+    Reader(const std::filesystem::path& file, const std::string& field) {
+        std::array<int, 2> ends{};
+        if (pipe2(ends.data(), O_CLOEXEC) != 0) fail(errno);
+        output_ = ends[0];
+        const int error = spawn(file, field, ends[1]);
+        close(ends[1]);
+        if (error == 0) return;
+        close(output_);
+        fail(error);
+    }
+    ~Reader() { (void)ended(); }
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
+
+    /// False at the end of the output.
+    [[nodiscard]] bool read(void* to, std::size_t bytes) {
+        for (auto* at = static_cast<char*>(to); bytes > 0;) {
+            const ssize_t got = ::read(output_, at, bytes);
+            if (got < 0 && errno == EINTR) continue;
+            if (got <= 0) return false;
+            at += got;
+            bytes -= static_cast<std::size_t>(got);
+        }
+        return true;
+    }
+    /// Whether it wrote nothing more and ended well.
+    [[nodiscard]] bool ended() {
+        if (process_ < 0) return false;
+        char more = 0;
+        const bool isAtEnd = !read(&more, 1);
+        close(output_);  // what it would still write ends it
+        int status = 0;
+        while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        }
+        process_ = -1;
+        return isAtEnd && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    }
+
+ private:
+    int spawn(const std::filesystem::path& file, const std::string& field, int output) {
+        const std::string program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / vdbReaderName;
+        std::string name = std::filesystem::absolute(file), argument = field, self = vdbReaderName;
+        std::array<char*, 4> argv{self.data(), name.data(), argument.data(), nullptr};
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+        posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+        const int error = posix_spawn(&process_, program.c_str(), &actions, nullptr, argv.data(), environ);
+        posix_spawn_file_actions_destroy(&actions);
+        return error;
+    }
+
+    pid_t process_ = -1;
+    int output_ = -1;
+};
+
+std::string readReason(Reader& reader, std::uint64_t bytes) {
+    std::string reason(std::min(bytes, maximumReason), ' ');
+    return reader.read(reason.data(), reason.size()) ? reason : notWhole;
+}
+
+/// Memory grows with what arrives.
+bool readValues(Reader& reader, std::size_t count, std::vector<glm::vec3>& values) {
+    constexpr std::size_t atOnce = 1 << 20;
+    while (values.size() < count) {
+        const std::size_t first = values.size();
+        values.resize(std::min(count, first + atOnce));
+        if (!reader.read(&values[first], (values.size() - first) * sizeof(glm::vec3))) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::string readVdb(const std::filesystem::path& file, const std::string& field, VectorGrid& grid) {
+    Reader reader(file, field);
+    VdbMessage message;
+    if (!reader.read(&message, sizeof message)) return notWhole;
+    if (message.reasonBytes > 0) return readReason(reader, message.reasonBytes);
+    double count = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (message.cells[axis] < 1) return notWhole;
+        grid.cells[axis] = message.cells[axis];
+        grid.origin[axis] = message.origin[axis];
+        count *= message.cells[axis];
+    }
+    if (count > static_cast<double>(files::limits::volumeCells)) return notWhole;
+    grid.spacing = message.spacing;
+    if (message.hasTime) grid.timeSeconds = message.timeSeconds;
+    grid.sparse = true;
+    return readValues(reader, static_cast<std::size_t>(count), grid.values) && reader.ended() ? "" : notWhole;
+}
+
+}  // namespace dustbench::volumes

@@ -1,0 +1,18 @@
+// Reads a `.vdb` in a process of its own, because OpenVDB trusts what it reads: lengths in a damaged file make it write
+// beyond its memory. What happens to that process is a reason to refuse the file.
+//
+// It runs the program dustbench_vdb_reader beside this one (openvdb/), so that methods do not link OpenVDB.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "methods/kit/volumes/vector_grid.h"
+
+namespace dustbench::volumes {
+
+/// A grid of vectors with the time from its metadata `time_s`. Empty if it was read, else the reason as one clause.
+/// Throws std::runtime_error if the program cannot be started.
+[[nodiscard]] std::string readVdb(const std::filesystem::path& file, const std::string& field, VectorGrid& grid);
+
+}  // namespace dustbench::volumes

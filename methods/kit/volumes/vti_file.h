@@ -1,0 +1,60 @@
+// Reads VTK's image data (`.vti`): a grid of cells with arrays of numbers.
+//
+// The structure is read as a whole and held to a whitelist when the file is opened, the numbers of an array when they
+// are asked for. What is not exactly as long as its extent is an error, as is everything that is not known.
+// Source: Kitware2021, "XML file formats". Departs: one piece, which is the whole extent; an upright
+// grid of three directions; compressed by zlib or LZ4 or not at all.
+// Units and frame: the file's own. Owns: the file's text. Errors: every member throws InputError with the file.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "methods/kit/volumes/vti_numbers.h"
+
+namespace dustbench::volumes {
+
+struct VtiArray {
+    std::string name;
+    int components = 1;
+    StoredNumbers stored;
+};
+
+class DUSTBENCH_API VtiFile {
+ public:
+    explicit VtiFile(const std::filesystem::path& file);
+    /// The text of a file; its name is for messages.
+    VtiFile(std::string text, std::filesystem::path file);
+    VtiFile(const VtiFile&) = delete;
+    VtiFile& operator=(const VtiFile&) = delete;
+
+    [[nodiscard]] const glm::ivec3& cells() const { return cells_; }
+    /// Minimum corner of the first cell.
+    [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
+    [[nodiscard]] const glm::dvec3& spacing() const { return spacing_; }
+
+    /// Numbers at the cells; x runs fastest, z slowest.
+    [[nodiscard]] const std::vector<VtiArray>& cellArrays() const { return cellArrays_; }
+    /// Null if there is none of that name.
+    [[nodiscard]] const VtiArray* cellArray(std::string_view name) const;
+    /// Of one of the arrays, cell by cell.
+    [[nodiscard]] std::vector<float> numbersOf(const VtiArray& array) const;
+    /// The number of a field array that holds just one.
+    [[nodiscard]] std::optional<double> fieldNumber(std::string_view name) const;
+
+ private:
+    friend class VtiParser;
+
+    std::filesystem::path file_;
+    std::string text_;
+    BinaryForm form_;
+    glm::ivec3 cells_{0};
+    glm::dvec3 origin_{0}, spacing_{1};
+    std::vector<VtiArray> cellArrays_, fieldArrays_;
+};
+
+}  // namespace dustbench::volumes

@@ -1,0 +1,54 @@
+// Reads XML tag by tag, as far as VTK's files use it: elements, attributes, comments. Document types, CDATA and
+// entities are refused or left as they are; nothing nests on the stack.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dustbench::volumes {
+
+/// A reason to refuse a file, as one clause.
+struct VolumeFault {
+    std::string reason;
+};
+
+struct Tag {
+    std::string_view name;
+    std::map<std::string_view, std::string_view> attributes;
+    enum class Kind { open, close, whole } kind = Kind::open;
+
+    [[nodiscard]] bool has(std::string_view attribute) const { return attributes.contains(attribute); }
+    /// Empty if it has none of that name.
+    [[nodiscard]] std::string_view operator[](std::string_view attribute) const {
+        const auto found = attributes.find(attribute);
+        return found == attributes.end() ? std::string_view() : found->second;
+    }
+};
+
+/// Without blanks at its ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/// Keeps views into the text. Members throw VolumeFault.
+class XmlScan {
+ public:
+    explicit XmlScan(std::string_view text) : rest_(text) {}
+
+    /// The text before the next tag; at the end of the text there is no tag.
+    std::string_view next(std::optional<Tag>& tag);
+    /// What follows the last tag.
+    [[nodiscard]] std::string_view rest() const { return rest_; }
+
+ private:
+    [[nodiscard]] bool take(std::string_view token);
+    void skipPast(std::string_view end);
+    void skipBlanks();
+    [[nodiscard]] std::string_view readName();
+    [[nodiscard]] Tag readTag();
+    void readAttribute(Tag& tag);
+
+    std::string_view rest_;
+};
+
+}  // namespace dustbench::volumes
