@@ -6,6 +6,7 @@ MAKEFLAGS += --no-print-directory
 
 PAPER ?= carr2006
 METHOD ?= grid_fluid
+MINUTES ?= 10
 JOBS ?= $(shell nproc)
 LINT = $(if $(SINCE),--since $(SINCE)) $(if $(LINT_SECONDS),--seconds $(LINT_SECONDS))
 PROGRAM := build/release/dustbench
@@ -62,6 +63,19 @@ test: build/release/build.ninja ## Build everything and run every test
 long: build/release/build.ninja ## A simulated minute of every delivered particle system, at full size
 	@cmake --build --preset release --parallel $(JOBS) --target plugin_particles_tests
 	@DUSTBENCH_FULL_SIZE=1 build/release/plugin_particles_tests --gtest_filter='*DeliveredSystemsAreStable'
+
+.PHONY: fuzz
+fuzz: build/release/build.ninja build/asan/build.ninja ## Mutated files, command lines and results for a while (MINUTES=10); findings in build/fuzz
+	@cmake --build --preset release --parallel $(JOBS) --target dustbench
+	@cmake --build --preset asan --parallel $(JOBS) --target fuzz_tests
+	@ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/sanitizers/leaks.supp \
+	    UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 python3 -B tests/fuzz/long_run.py --minutes $(MINUTES) \
+	    --readers build/asan/fuzz_tests --program $(PROGRAM) --findings build/fuzz
+
+.PHONY: fuzz-guided
+fuzz-guided: packages ## Our own readers under Clang's libFuzzer (MINUTES=10 for all six); findings in build/fuzz/guided
+	@.ci/install fuzz
+	@tests/fuzz/coverage/coverage_guided.sh $$(($(MINUTES) * 10)) build/fuzz/guided
 
 .PHONY: bench
 bench: build/release/build.ninja ## Run every benchmark program
