@@ -141,8 +141,8 @@ Command viewCommand() {
                                options->picture);
                 arguments.text("--show", "A|B|wipe|beside|difference|flip",
                                "of that picture: how A and B are put together", options->show);
-                arguments.text("--channel", "picture|alpha|depth|overdraw|faults", "of that picture: what of them",
-                               options->channel);
+                arguments.text("--channel", "picture|alpha|depth|overdraw|outlines|faults",
+                               "of that picture: what of them", options->channel);
                 arguments.text("--window", "WxH", "of that picture, pixels", options->windowSize);
                 arguments.text("--out", "DIR", "folder for what is saved; created when needed", options->out);
             },

@@ -27,7 +27,7 @@ constexpr std::array bindings{
     KeyBinding{Key::f, false, Action::flip, "F", "while held: B in place of A"},
     KeyBinding{Key::v, false, Action::nextShown, "V", "only A, only B, wipe, side by side, difference, FLIP"},
     KeyBinding{Key::x, false, Action::difference, "X", "difference of A and B, and back"},
-    KeyBinding{Key::n, false, Action::nextChannel, "N", "picture, alpha, depth, overdraw, faults"},
+    KeyBinding{Key::n, false, Action::nextChannel, "N", "picture, alpha, depth, overdraw, outlines, faults"},
     KeyBinding{Key::e, false, Action::exact, "E", "pause, and draw the exact picture (half B)"},
     KeyBinding{Key::z, false, Action::wholePicture, "Z",
                "the whole picture, after Ctrl and the wheel have enlarged it"},

@@ -11,6 +11,7 @@
 #include "bench/measure/image/quads_per_pixel.h"
 #include "bench/reference/judge/moment_pictures.h"
 #include "bench/view/image_upload.h"
+#include "bench/view/outlines.h"
 #include "methods/kit/draw/read_back.h"
 
 namespace dustbench::bench {
@@ -94,6 +95,18 @@ void MomentMaps::makeOverdraw(ViewSession& session) {
     }
     overdrawLimit_ = static_cast<double>(maximum);
     overdrawMoment_ = session.drawnMoment();
+}
+
+const gpu::Texture& MomentMaps::outlines(ViewSession& session, Half half) {
+    const std::size_t index = half == Half::a ? 0 : 1;
+    gpu::Texture& texture = outlines_.at(index);
+    if (outlinesMoment_.at(index) == session.drawnMoment()) return texture;
+    CollectedVolume volume;
+    if (session.hasHost(half)) session.volume(half, volume);
+    fit(texture, "outlines", session);
+    upload(withOutlines(session.image(half), outlinesOf(volume, session.view())), texture);
+    outlinesMoment_.at(index) = session.drawnMoment();
+    return texture;
 }
 
 const LayerFaults& MomentMaps::faults(const ViewSession& session, Half half) {

@@ -36,6 +36,8 @@ class MomentMaps {
     /// Primitives over each pixel in heat colours from 0 to `overdrawLimit`, of both halves by one scale. A half
     /// without primitives is black.
     [[nodiscard]] const gpu::Texture& overdraw(ViewSession& session, Half half);
+    /// Outlines of the primitives over the darkened picture (outlines.h). Of a half that is current.
+    [[nodiscard]] const gpu::Texture& outlines(ViewSession& session, Half half);
     [[nodiscard]] double overdrawLimit() const { return overdrawLimit_; }
 
     /// Of a half that is current.
@@ -50,9 +52,9 @@ class MomentMaps {
 
     gpu::Device& device_;
     gpu::Texture flip_;
-    std::array<gpu::Texture, 2> overdraw_;
+    std::array<gpu::Texture, 2> overdraw_, outlines_;
     std::int64_t flipMoment_ = never, overdrawMoment_ = never;
-    std::array<std::int64_t, 2> faultsMoment_{never, never};
+    std::array<std::int64_t, 2> faultsMoment_{never, never}, outlinesMoment_{never, never};
     std::array<LayerFaults, 2> faults_;
     std::optional<double> flipMean_;
     double flipSeconds_ = 0, overdrawLimit_ = 1;

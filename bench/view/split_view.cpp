@@ -27,6 +27,7 @@ Source sourceOf(const SplitSettings& settings) {
         case Channel::faults:
             return Source::faults;
         case Channel::overdraw:
+        case Channel::outlines:
             return Source::display;
         case Channel::picture:
             break;

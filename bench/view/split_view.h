@@ -26,13 +26,12 @@ inline constexpr Choices<Shown> shownChoices{{"A", Shown::a},
 ///   alpha     of the layer: 0 black, 1 white
 ///   depth     of the opaque scene along the camera's axis, by its logarithm: white at 1 m, black from 1 km on
 ///   overdraw  primitives over each pixel
+///   outlines  of these primitives, over the darkened picture
 ///   faults    magenta: a value is not finite; cyan: a colour is negative; yellow: alpha is outside [0, 1]
-enum class Channel { picture, alpha, depth, overdraw, faults };
-inline constexpr Choices<Channel> channelChoices{{"picture", Channel::picture},
-                                                 {"alpha", Channel::alpha},
-                                                 {"depth", Channel::depth},
-                                                 {"overdraw", Channel::overdraw},
-                                                 {"faults", Channel::faults}};
+enum class Channel { picture, alpha, depth, overdraw, outlines, faults };
+inline constexpr Choices<Channel> channelChoices{{"picture", Channel::picture},   {"alpha", Channel::alpha},
+                                                 {"depth", Channel::depth},       {"overdraw", Channel::overdraw},
+                                                 {"outlines", Channel::outlines}, {"faults", Channel::faults}};
 
 struct SplitSettings {
     Shown shown = Shown::wipe;
@@ -59,8 +58,8 @@ class SplitView {
  public:
     explicit SplitView(gpu::Device& device);
 
-    /// Fills the target, which is `width` × `height`. `flip` and `overdraw` show `display`: what is in it is the
-    /// caller's business. Throws std::invalid_argument if the halves differ in size.
+    /// Fills the target, which is `width` × `height`. `flip`, `overdraw` and `outlines` show `display`: what is in it
+    /// is the caller's business. Throws std::invalid_argument if the halves differ in size.
     void draw(const HalfTextures& a, const HalfTextures& b, const SplitSettings& settings, double nearMetres,
               const gpu::Framebuffer& target, int width, int height);
 

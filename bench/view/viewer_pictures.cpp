@@ -69,6 +69,8 @@ HalfTextures Viewer::texturesOf(Half half, const SplitSettings& settings) {
     if (settings.shown == Shown::flip) return {maps_.flip(session_), drawn.scene, drawn.layer, drawn.depth};
     if (settings.channel == Channel::overdraw)
         return {maps_.overdraw(session_, half), drawn.scene, drawn.layer, drawn.depth};
+    if (settings.channel == Channel::outlines)
+        return {maps_.outlines(session_, half), drawn.scene, drawn.layer, drawn.depth};
     return drawn;
 }
 

@@ -148,6 +148,8 @@ void PicturePanel::showChannel(Viewer& viewer, WidgetMap& widgets) {
     if (channel == Channel::depth) showRemark("depth of the opaque scene: 1 m white, 1 km and beyond black");
     if (channel == Channel::overdraw)
         showRemark(fmt::format("primitives over a pixel: 0 black, {:.0f} yellow", viewer.maps().overdrawLimit()));
+    if (channel == Channel::outlines)
+        showRemark("quads yellow, voxels blue, brighter where several lie upon each other");
     if (channel != Channel::faults) return;
     showRemark("not finite magenta, negative cyan, alpha outside 0..1 yellow");
     for (const Half half : {Half::a, Half::b})

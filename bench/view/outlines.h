@@ -1,0 +1,24 @@
+// The outlines of what a method hands to the GPU: the quad around each puff, the twelve edges of each voxel.
+//
+// Nothing hides them: neither the scene nor one another. Units: pixels. Frame: rows from the top. Threads: pure.
+#pragma once
+
+#include "bench/export/collected_volume.h"
+#include "bench/measure/image/plane.h"
+#include "methods/contract/view.h"
+#include "methods/kit/pictures/image.h"
+
+namespace dustbench::bench {
+
+/// How many outlines pass through each pixel.
+struct Outlines {
+    Plane quads;   ///< of puffs: squares across the view with half side 1.5 r, as overdrawMap fills them
+    Plane voxels;  ///< edges of the octrees' voxels, cut off before the eye
+};
+[[nodiscard]] Outlines outlinesOf(const CollectedVolume& volume, const scene::View& view);
+
+/// The picture darkened, quads yellow and voxels blue over it, brighter where several lie upon each other. Linear
+/// light. Throws std::invalid_argument if the sizes differ.
+[[nodiscard]] pictures::Image withOutlines(pictures::Image picture, const Outlines& outlines);
+
+}  // namespace dustbench::bench
