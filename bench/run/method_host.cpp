@@ -35,6 +35,18 @@ MethodHost::MethodHost(const World& world, gpu::Device& device, const MethodInfo
     method_->prepare(world.scene(), world.setup(), device);
 }
 
+void MethodHost::resize(int width, int height) {
+    if (width == width_ && height == height_) return;
+    const gpu::LedgerScope booked(device_, ledger_);
+    layer_.reset();
+    scene_->resize(width, height);
+    layer_ = std::make_unique<gpu::Layer>(device_, scene_->depth());
+    composite_->resize(width, height);
+    noScene_ = {};
+    width_ = width;
+    height_ = height;
+}
+
 Frame MethodHost::see(std::int64_t index, const StageClock& clock) {
     view_ = world_.view(width_, height_);
     return {index, stepSeconds, world_.state(), world_.dust(), view_, clock};

@@ -26,6 +26,9 @@ class MethodHost {
     MethodHost(const World& world, gpu::Device& device, const MethodInfo& info, const ParameterValues& parameters,
                int width, int height);
 
+    /// Pictures have this size from now on. The method's state stays as it is.
+    void resize(int width, int height);
+
     /// The current state of the world as the method sees it: valid until the next call or step. `clock` must outlive
     /// it.
     [[nodiscard]] Frame see(std::int64_t index, const StageClock& clock);

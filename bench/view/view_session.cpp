@@ -164,7 +164,8 @@ void ViewSession::step() {
         if (shown.host && (frame() >= -state_.warmup - 1 || shown.host->method().wantsPreroll())) updateHalf(shown);
 }
 
-void ViewSession::draw() {
+void ViewSession::draw(const ImageSize& size) {
+    resizeHosts(size);
     for (ShownHalf& shown : halves_) {
         if (!shown.host) continue;
         recorder_.clear();
@@ -175,6 +176,12 @@ void ViewSession::draw() {
     noteDrawn();
 }
 
+void ViewSession::resizeHosts(const ImageSize& size) {
+    for (ShownHalf& shown : halves_)
+        if (shown.host) shown.host->resize(size.width, size.height);
+    drawnSize_ = size;
+}
+
 void ViewSession::noteDrawn() {
     drawnMoment_ = moment_;
     drawnFrame_ = frame();
@@ -182,6 +189,7 @@ void ViewSession::noteDrawn() {
 
 void ViewSession::drawExact() {
     const StageClock untimed;
+    resizeHosts(state_.size);
     MethodHost& host = *halves_[indexOf(Half::a)].host;
     const DrawnMoment drawn = host.drawn(host.see(frame(), untimed), false);
     if (!exact_) exact_ = std::make_unique<ExactHalf>(device_, state_.size.width, state_.size.height);

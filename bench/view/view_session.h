@@ -57,9 +57,13 @@ class ViewSession {
     /// Steps to go until the frame of the state that was set.
     [[nodiscard]] std::int64_t stepsToGo() const { return std::max<std::int64_t>(state_.frame - frame(), 0); }
 
-    /// Draws every method; its picture is valid until the next call or set().
-    void draw();
-    /// Draws the exact picture of the world as it is now, and the methods with it. Half B must be the exact picture.
+    /// Draws every method, as large as the state says or as given; its picture is valid until the next call or set().
+    void draw() { draw(state_.size); }
+    void draw(const ImageSize& size);
+    /// Of the last draw().
+    [[nodiscard]] ImageSize drawnSize() const { return drawnSize_; }
+    /// Draws the exact picture of the world as it is now, and the methods with it, as large as the state says. Half B
+    /// must be the exact picture.
     void drawExact();
     /// Of the last draw: another number is another state of the world, of a method or of the camera.
     [[nodiscard]] std::int64_t drawnMoment() const { return drawnMoment_; }
@@ -72,7 +76,7 @@ class ViewSession {
     /// What a half has drawn; it must be current.
     [[nodiscard]] HalfTextures textures(Half half) const;
     [[nodiscard]] const gpu::Texture& picture(Half half) const { return textures(half).display; }
-    /// The picture in linear light, opaque.
+    /// The picture in linear light, opaque, as large as it was drawn.
     [[nodiscard]] pictures::Image image(Half half) const;
 
     [[nodiscard]] const World& world() const { return *world_; }
@@ -115,6 +119,7 @@ class ViewSession {
     [[nodiscard]] ShownHalf makeHalf(const ViewState& state, Half half, const World& world) const;
     void replaceHalves(const ViewState& state);
     void updateHalf(ShownHalf& shown);
+    void resizeHosts(const ImageSize& size);
     void noteDrawn();
     [[nodiscard]] StageMs recordedMs() const;
 
@@ -128,6 +133,7 @@ class ViewSession {
     std::int64_t next_ = 0;
     std::int64_t moment_ = 0, drawnMoment_ = -1, exactMoment_ = -1;
     std::int64_t drawnFrame_ = 0;
+    ImageSize drawnSize_;
     StageRecorder recorder_;
     double worldMs_ = 0;
 };

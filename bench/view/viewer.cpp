@@ -9,6 +9,8 @@
 #include "bench/results/shell_words.h"
 #include "bench/view/free_camera.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/whole_text.h"
+#include "methods/kit/gpu/current_context.h"
 
 namespace dustbench::bench {
 namespace {
@@ -41,7 +43,8 @@ Viewer::Viewer(const ViewState& state, gpu::Device& device, std::filesystem::pat
       splitView_(device),
       maps_(device),
       pixel_(gpu::Texture::make2D(device, "pixel", gpu::Format::rgba32F, 1, 1)),
-      pixelTarget_(device, "pixel", &pixel_, nullptr) {
+      pixelTarget_(device, "pixel", &pixel_, nullptr),
+      isLost_(gpu::isContextLost) {
     if (!session_.has(Half::b)) split.shown = Shown::a;
     makeImage(split.shown);
 }
@@ -224,15 +227,42 @@ void Viewer::applyText(const std::string& text) {
     });
 }
 
+void Viewer::applyFile(const std::filesystem::path& file) {
+    attempt([&] { applyText(files::wholeText(file, "a TOML file or a command")); });
+}
+
 void Viewer::advance(double secondsForPreroll) {
+    try {
+        makeFrame(secondsForPreroll);
+    } catch (const std::exception&) {
+        requireContext();  // errors that follow from its loss say nothing of it
+        throw;
+    }
+    requireContext();
+}
+
+void Viewer::requireContext() const {
+    if (isLost_())
+        throw InputError("view: the OpenGL context is lost, because the GPU or its driver was reset; start it again");
+}
+
+void Viewer::makeFrame(double secondsForPreroll) {
     if (std::exchange(measureAsked_, false)) attempt([&] { measureShown(); });
     const std::int64_t start = steadyNow();
-    if (isCosted_) costs_.back().window = static_cast<double>(start - frameStart_) / 1e6 - costs_.back().methodsMs();
+    paced_.reset();
+    if (isCosted_) {
+        FrameCost& cost = costs_.back();
+        const double wholeMs = static_cast<double>(start - frameStart_) / 1e6;
+        cost.window = wholeMs - cost.methodsMs();
+        if (wasPaced_ && session_.drawnSize() == shareOf(session_.state().size, drawShare))
+            paced_ = PacedFrame{wholeMs, sum(cost.halves[0].draw) + sum(cost.halves[1].draw)};
+    }
     frameStart_ = start;
     const bool isPreroll = session_.stepsToGo() > 0;
     const std::int64_t before = session_.frame();
     attempt([&] { goOn(secondsForPreroll); });
     const bool wasDrawn = draw();
+    wasPaced_ = wasDrawn && isPaced();
     isCosted_ = !isPreroll;
     if (isCosted_) noteCost(session_.frame() > before, wasDrawn);
 }

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/view/draw_pace.h"
 #include "bench/view/keys.h"
 #include "bench/view/moment_maps.h"
 #include "bench/view/shown_measurement.h"
@@ -57,9 +58,13 @@ class Viewer {
     void apply(const ViewState& state);
     /// `run` line or TOML, as pasted.
     void applyText(const std::string& text);
+    /// The same of a file, as dropped on the window.
+    void applyFile(const std::filesystem::path& file);
+    /// Shows a message of the program around it.
+    void say(std::string message) { message_ = std::move(message); }
 
     /// A frame of the window: steps unless paused (the preroll for at most `secondsForPreroll`), draws and composes
-    /// unless drawing is paused.
+    /// unless drawing is paused. Throws InputError if the OpenGL context is lost.
     void advance(double secondsForPreroll = 0.05);
     /// The composed picture of the last advance(), without panels, display-encoded.
     [[nodiscard]] const gpu::Texture& image() const { return image_; }
@@ -86,6 +91,14 @@ class Viewer {
     [[nodiscard]] std::span<const FrameCost> costs() const { return costs_; }
     static constexpr std::size_t keptFrames = 120;
 
+    /// The last whole frame, once, if it was drawn as large as drawShare says: what DrawPace goes by.
+    [[nodiscard]] std::optional<PacedFrame> takePaced() { return std::exchange(paced_, {}); }
+    /// `drawn at 480x360 of 800x600 to keep 15 frames per second`; empty at full size.
+    [[nodiscard]] std::string drawnRemark() const;
+
+    /// Asked after every frame, and when one fails: by default the driver.
+    void watchContext(std::function<bool()> isLost) { isLost_ = std::move(isLost); }
+
     /// What Action::measure needs to start runs; without it, it is an error. It starts with the next advance(), which
     /// then takes minutes; message() tells how far it is.
     void setMeasurement(MeasurementHooks hooks) { measurement_ = std::move(hooks); }
@@ -105,6 +118,10 @@ class Viewer {
     bool exactEveryFrame = false;  ///< else the exact picture is drawn when nothing moves
     int slowness = 1;              ///< frames of the window for one step of the world: one of `slownesses`
     bool drawingPaused = false;    ///< the world goes on; a frame is drawn only when state or view changes
+    /// While something moves the halves are drawn at `drawShare` of width and height (draw_pace.h) and scaled up. What
+    /// is judged, saved or at rest is drawn at full size.
+    bool keepsPace = false;
+    double drawShare = 1;
     bool paused = false, showsPanels = true, showsHelp = false;
     bool walksPanel = false;  ///< the arrow keys belong to the panel
 
@@ -115,9 +132,15 @@ class Viewer {
     [[nodiscard]] bool holds(Action action) const;
     void drive();
     void goOn(double secondsForPreroll);
-    /// False if drawing is paused.
+    void makeFrame(double secondsForPreroll);
+    void requireContext() const;
     void measureShown();
+    /// False if drawing is paused, or if all is drawn.
     bool draw();
+    void drawAtFullSize();
+    [[nodiscard]] bool isPaced() const;
+    [[nodiscard]] bool nothingMoves() const { return paused && !session_.isBehind(); }
+    [[nodiscard]] ImageSize sizeNow() const;
     void noteCost(bool wasStepped, bool wasDrawn);
     void drawExact();
     void compose(const SplitSettings& settings);
@@ -152,11 +175,14 @@ class Viewer {
     std::vector<FrameCost> costs_;
     std::int64_t frameStart_ = 0;  ///< of the last advance(), ns
     bool isCosted_ = false;        ///< the last advance() has an entry in costs_
+    bool wasPaced_ = false;        ///< and was drawn, and not to be judged
+    std::optional<PacedFrame> paced_;
     std::string stamp_;
     std::array<bool, keyCount> held_{};
     PadState pad_;
     std::vector<CameraKey> cameraKeys_;
     std::string message_, copied_;
+    std::function<bool()> isLost_;
     bool quit_ = false;
 };
 

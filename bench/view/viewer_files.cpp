@@ -48,6 +48,7 @@ void Viewer::save(const std::string& name, const std::string& text) {
 }
 
 void Viewer::savePicture() {
+    drawAtFullSize();
     std::filesystem::create_directories(folder_);
     const std::filesystem::path file = folder_ / (frameName() + ".png");
     pictures::writeImage(pictures::decoded(draw::readBack(image_)), file);

@@ -27,13 +27,42 @@ void Viewer::makeImage(Shown shown) {
 
 bool Viewer::draw() {
     const bool lacksExact = session_.isExact(Half::b) && !session_.isCurrent(Half::b) && paused;
-    const bool isAsked = mustDraw_ || exactAsked_ || lacksExact || !(settingsNow() == composed_);
-    if (drawingPaused && !isAsked) return false;
+    const ImageSize size = sizeNow();
+    const bool isAsked =
+        mustDraw_ || exactAsked_ || lacksExact || !(settingsNow() == composed_) || !(size == session_.drawnSize());
+    const bool isDone = keepsPace && drawShare < 1 && nothingMoves();
+    if ((drawingPaused || isDone) && !isAsked) return false;
     mustDraw_ = false;
-    session_.draw();
+    session_.draw(size);
     attempt([&] { drawExact(); });
     attempt([&] { compose(settingsNow()); });
     return true;
+}
+
+/// Maps and their numbers, and the exact picture, are of the full size.
+bool Viewer::isPaced() const {
+    const bool isMap = split.shown == Shown::flip || split.channel == Channel::overdraw ||
+                       split.channel == Channel::outlines || split.channel == Channel::faults;
+    const bool isExact = session_.isExact(Half::b) && (exactEveryFrame || session_.isCurrent(Half::b));
+    return keepsPace && !isMap && !isExact && !drawingPaused;
+}
+
+ImageSize Viewer::sizeNow() const {
+    const ImageSize full = session_.state().size;
+    return isPaced() && !nothingMoves() ? shareOf(full, drawShare) : full;
+}
+
+void Viewer::drawAtFullSize() {
+    if (session_.drawnSize() == session_.state().size) return;
+    session_.draw();
+    compose(settingsNow());
+}
+
+std::string Viewer::drawnRemark() const {
+    const ImageSize drawn = session_.drawnSize(), full = session_.state().size;
+    if (drawn == full) return "";
+    return fmt::format("drawn at {}x{} of {}x{} to keep {} frames per second", drawn.width, drawn.height, full.width,
+                       full.height, pacedFramesPerSecond);
 }
 
 /// It may take seconds: while the world or the camera moves, only if it is asked for.

@@ -9,22 +9,28 @@
 namespace dustbench::draw {
 
 struct Composite::State {
-    State(gpu::Device& device, int width, int height)
-        : result(gpu::Texture::make2D(device, "composed image", gpu::Format::rgba8, width, height)),
-          target(device, "composed image", &result, nullptr),
+    explicit State(gpu::Device& drawnBy)
+        : device(drawnBy),
           program(device, "composite", {draw_shaders::composite_vert, draw_shaders::composite_frag}),
           noVertices(device) {}
 
+    gpu::Device& device;
     gpu::Texture result;
     gpu::Framebuffer target;
     gpu::Program program;
     gpu::VertexArray noVertices;
 };
 
-Composite::Composite(gpu::Device& device, int width, int height)
-    : state_(std::make_unique<State>(device, width, height)) {}
+Composite::Composite(gpu::Device& device, int width, int height) : state_(std::make_unique<State>(device)) {
+    resize(width, height);
+}
 
 Composite::~Composite() = default;
+
+void Composite::resize(int width, int height) {
+    state_->result = gpu::Texture::make2D(state_->device, "composed image", gpu::Format::rgba8, width, height);
+    state_->target = gpu::Framebuffer(state_->device, "composed image", &state_->result, nullptr);
+}
 
 void Composite::draw(const gpu::Texture& scene, const gpu::Texture& layer) {
     for (const gpu::Texture* texture : {&scene, &layer})

@@ -15,6 +15,9 @@ class DUSTBENCH_API Composite {
     Composite(const Composite&) = delete;
     Composite& operator=(const Composite&) = delete;
 
+    /// result() has this size from now on.
+    void resize(int width, int height);
+
     /// sRGB( layer + (1 − α_layer)·scene ) into result().
     void draw(const gpu::Texture& scene, const gpu::Texture& layer);
 

@@ -51,6 +51,17 @@ TEST(Composite, EqualsOverAndEncodingOnTheCpuToOneStep) {
     EXPECT_LT(offBy / (3.0 * 61 * 47), 0.27 / 255);
 }
 
+TEST(Composite, HasTheSizeThatItIsGiven) {
+    gpu::Device& device = TestCanvas::device();
+    Composite resized(device, 8, 8), made(device, 23, 11);
+    resized.resize(23, 11);
+    const gpu::Texture scene = filled(device, gpu::Format::rgba16F, 23, 11, 1, 3);
+    const gpu::Texture layer = filled(device, gpu::Format::rgba32F, 23, 11, 1, 4);
+    for (Composite* composite : {&resized, &made}) composite->draw(scene, layer);
+    EXPECT_EQ(readBack(resized.result()).pixels, readBack(made.result()).pixels);
+    EXPECT_EQ(resized.result().width(), 23);
+}
+
 TEST(Composite, RefusesOtherSizes) {
     gpu::Device& device = TestCanvas::device();
     Composite composite(device, 8, 8);

@@ -100,6 +100,7 @@ glm::vec4 with(const glm::vec3& colour, float fourth = 0) {
 struct OpaqueScene::State {
     State(const scene::Scene& shown, gpu::Device& device, int width, int height, ScenePanels panelsShown);
 
+    void resize(int width, int height);
     void placeSolids();
     void place(const std::shared_ptr<const SolidMesh>& shape, const scene::Mesh& mesh, const glm::dmat4& toWorld,
                bool castsOnly);
@@ -145,9 +146,6 @@ OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& drawnBy, int w
                           ScenePanels panelsShown)
     : scene(shown),
       device(drawnBy),
-      colour(gpu::Texture::make2D(device, "scene colour", gpu::Format::rgba16F, width, height)),
-      depth(gpu::Texture::make2D(device, "scene depth", gpu::Format::depth32F, width, height)),
-      target(device, "scene", &colour, &depth),
       ground(device, shown),
       panels(device, shown),
       panelsSeen(panelsShown == ScenePanels::flat && !panels.empty()),
@@ -159,6 +157,7 @@ OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& drawnBy, int w
       momentBlock(device, "scene moment", sizeof(OpaqueMoment)) {
     if (scene.solidPoses.size() != scene.solids.size())
         throw std::invalid_argument("OpaqueScene: every solid needs its pose");
+    resize(width, height);
     const glm::vec3 toSun = scene.lights.toSun;
     if (scene.vehicle) {
         body.emplace(device, scene.vehicle->body);
@@ -171,6 +170,12 @@ OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& drawnBy, int w
     placeSolids();
     joinOverlapping(solidFootprints);
     if (!solids.empty()) solidShadow.emplace(device, "solid shadow", solidShadowTexels, solidShadowReachMetres, toSun);
+}
+
+void OpaqueScene::State::resize(int width, int height) {
+    colour = gpu::Texture::make2D(device, "scene colour", gpu::Format::rgba16F, width, height);
+    depth = gpu::Texture::make2D(device, "scene depth", gpu::Format::depth32F, width, height);
+    target = gpu::Framebuffer(device, "scene", &colour, &depth);
 }
 
 void OpaqueScene::State::placeSolids() {
@@ -351,6 +356,10 @@ void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view,
     if (own.panelsSeen) own.drawPanels(programs, eye, vehicleToEye);
     // Drawn last, so that the depth test skips the sky's shader behind other surfaces.
     gpu::draw(own.skyProgram, own.noVertices, {.depthTest = true}, gpu::Primitives::triangles, 3);
+}
+
+void OpaqueScene::resize(int width, int height) {
+    state_->resize(width, height);
 }
 
 const gpu::Texture& OpaqueScene::colour() const {

@@ -23,7 +23,10 @@ class DUSTBENCH_API OpaqueScene {
     OpaqueScene(const OpaqueScene&) = delete;
     OpaqueScene& operator=(const OpaqueScene&) = delete;
 
-    /// Draws the given state into colour() and depth(). `view` must have the size given at construction. `lamps` light
+    /// Pictures have this size from now on; colour() and depth() are other textures then, in the same places.
+    void resize(int width, int height);
+
+    /// Draws the given state into colour() and depth(). `view` must have the scene's size. `lamps` light
     /// it besides the sun and the sky: Lambert's law, no shadows. Without any the picture is the same, bit for bit.
     void draw(const scene::SceneState& state, const scene::View& view, std::span<const scene::PointLight> lamps = {});
 

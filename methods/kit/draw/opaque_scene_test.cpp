@@ -107,6 +107,24 @@ TEST_F(OpaqueSceneTest, ReliefsDepthIsTheRaysDistanceToTheTerrain) {
         }
 }
 
+TEST_F(OpaqueSceneTest, DrawsTheSameInASizeThatItIsGivenLater) {
+    scene::Scene scene = test::underAHighSun();
+    scene.vehicle = test::boxVehicle();
+    scene.solids = {test::boxSolid({-2, 0, -1}, {1, 2.5, 1.5}, {0.9f, 0.1f, 0.9f})};
+    scene.solidPoses.resize(1);
+    const scene::SceneState state = test::vehicleAt(scene, 5, 1);
+    const scene::View small = test::viewFrom({5, 3, 8}, {0, 1, 0}, 48, 36);
+    const scene::View large = test::viewFrom({5, 3, 8}, {0, 1, 0}, 161, 120);
+    OpaqueScene opaque(scene, device_, small.width, small.height);
+    for (const scene::View& view : {large, small, large}) {
+        opaque.resize(view.width, view.height);
+        opaque.draw(state, view);
+        const Pictures expected = draw(scene, state, view);
+        EXPECT_EQ(readBack(opaque.colour()).pixels, expected.colour.pixels);
+        EXPECT_EQ(opaque.depth().readFloats(), expected.depths);
+    }
+}
+
 TEST_F(OpaqueSceneTest, BoxHidesWhatIsBehindIt) {
     scene::Scene scene = test::underAHighSun();
     const Box box{{-2, 0, -1}, {1, 2.5, 1.5}};

@@ -1,0 +1,63 @@
+#include "bench/view/draw_pace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "bench/measure/statistics.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr double limitMs = 1000 / pacedFramesPerSecond;
+/// A smaller size is to bring the frame below this share of the limit, a larger one must be predicted below the other.
+constexpr double loweredTo = 0.9, raisedBelow = 0.8;
+/// A smaller size is worth its blur only if it takes this share off the frame.
+constexpr double leastGain = 0.1;
+
+}  // namespace
+
+void DrawPace::note(const PacedFrame& frame) {
+    if (!std::isfinite(frame.wholeMs) || !(frame.wholeMs > 0)) return;
+    const double draw = std::isfinite(frame.drawMs) ? std::clamp(frame.drawMs, 0.0, frame.wholeMs) : 0;
+    if (frames_.size() == framesToRaise) frames_.erase(frames_.begin());
+    frames_.push_back({frame.wholeMs, draw});
+    if (frames_.size() < framesToLower) return;
+    if (const PacedFrame recent = medianOfLast(framesToLower); recent.wholeMs > limitMs) return go(smallerStep(recent));
+    if (frames_.size() < framesToRaise || step_ == 0) return;
+    if (predictedMs(medianOfLast(framesToRaise), step_ - 1) < raisedBelow * limitMs) go(step_ - 1);
+}
+
+PacedFrame DrawPace::medianOfLast(std::size_t count) const {
+    std::vector<double> whole, draw;
+    for (const PacedFrame& frame : std::span(frames_).last(count)) {
+        whole.push_back(frame.wholeMs);
+        draw.push_back(frame.drawMs);
+    }
+    return {median(whole), median(draw)};
+}
+
+double DrawPace::predictedMs(const PacedFrame& frame, std::size_t step) const {
+    const double scale = shares[step] / shares[step_];
+    return frame.wholeMs - frame.drawMs + frame.drawMs * scale * scale;
+}
+
+/// The largest that keeps the pace, else the smallest; this one if little would be gained.
+std::size_t DrawPace::smallerStep(const PacedFrame& frame) const {
+    std::size_t step = step_;
+    while (step + 1 < shares.size() && predictedMs(frame, step) > loweredTo * limitMs) ++step;
+    return predictedMs(frame, step) <= (1 - leastGain) * frame.wholeMs ? step : step_;
+}
+
+void DrawPace::go(std::size_t step) {
+    if (step == step_) return;
+    step_ = step;
+    frames_.clear();
+}
+
+ImageSize shareOf(const ImageSize& size, double share) {
+    const auto part = [share](int pixels) { return std::max(1, static_cast<int>(std::lround(share * pixels))); };
+    return {part(size.width), part(size.height)};
+}
+
+}  // namespace dustbench::bench
