@@ -45,6 +45,13 @@ void loadFont(float pixels) {
     fonts.AddFontDefault(&plain);
 }
 
+void setStyle(float fontPixels) {
+    ImGui::GetStyle() = ImGuiStyle();
+    ImGui::StyleColorsDark();
+    ImGui::GetStyle().ScaleAllSizes(fontPixels / 13);  // ImGui's own sizes are for text of 13 pixels
+    ImGui::GetStyle().WindowRounding = 0;
+}
+
 void hand(const PanelInput& input, int width, int height) {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
@@ -71,9 +78,7 @@ PanelCanvas::PanelCanvas(gpu::Device& device, float fontPixels) : device_(device
     io.GetClipboardTextFn = [](void* text) { return static_cast<std::string*>(text)->c_str(); };
     io.SetClipboardTextFn = [](void* text, const char* copied) { *static_cast<std::string*>(text) = copied; };
     loadFont(fontPixels);
-    ImGui::StyleColorsDark();
-    ImGui::GetStyle().ScaleAllSizes(fontPixels / 13);  // ImGui's own sizes are for text of 13 pixels
-    ImGui::GetStyle().WindowRounding = 0;
+    setStyle(fontPixels);
     if (!ImGui_ImplOpenGL3_Init("#version 450 core")) {
         ImGui::DestroyContext();
         throw InputError("panels: OpenGL cannot be loaded; Debian's package libgl1 brings libGL.so.1");
@@ -83,6 +88,14 @@ PanelCanvas::PanelCanvas(gpu::Device& device, float fontPixels) : device_(device
 PanelCanvas::~PanelCanvas() {
     ImGui_ImplOpenGL3_Shutdown();
     ImGui::DestroyContext();
+}
+
+void PanelCanvas::setFontPixels(float pixels) {
+    ImGui::GetIO().Fonts->Clear();
+    loadFont(pixels);
+    setStyle(pixels);
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
 void PanelCanvas::draw(const gpu::Framebuffer& target, int width, int height, const PanelInput& input,

@@ -45,6 +45,9 @@ class PanelCanvas {
     void draw(const gpu::Framebuffer& target, int width, int height, const PanelInput& input,
               const std::function<void()>& show);
 
+    /// Between two frames.
+    void setFontPixels(float pixels);
+
     /// In the last frame the panels used the mouse or the keyboard; others must ignore it.
     [[nodiscard]] bool takesMouse() const;
     [[nodiscard]] bool takesKeyboard() const;

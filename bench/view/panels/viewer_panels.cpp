@@ -39,6 +39,13 @@ void edit(ParameterTexts& given, const ParameterEdit& change) {
         given.erase(change.name);
 }
 
+/// Scales of the text to choose from.
+constexpr std::array textScales{0.75, 1.0, 1.25, 1.5, 2.0, 3.0};
+
+std::string percentText(double scale) {
+    return fmt::format("{:.0f} %", 100 * scale);
+}
+
 std::string speedText(int slowness) {
     return slowness == 1 ? "full" : fmt::format("1/{}", slowness);
 }
@@ -47,6 +54,7 @@ std::string speedText(int slowness) {
 
 void ViewerPanels::draw(Viewer& viewer, const gpu::Framebuffer& target, int width, int height,
                         const PanelInput& input) {
+    scaleText();
     widgets_.clear();
     target.clearColour(0.08f, 0.08f, 0.09f, 1);
     if (const std::string copied = viewer.takeCopied(); !copied.empty()) canvas_.setClipboard(copied);
@@ -62,6 +70,12 @@ void ViewerPanels::draw(Viewer& viewer, const gpu::Framebuffer& target, int widt
         showMessage(viewer, width, height);
         picture_.useMouse(viewer, input);
     });
+}
+
+void ViewerPanels::scaleText() {
+    if (scale_ == wantedScale_) return;
+    scale_ = wantedScale_;
+    canvas_.setFontPixels(fontPixels_ * static_cast<float>(scale_));
 }
 
 void ViewerPanels::showPanel(Viewer& viewer, int height) {
@@ -107,6 +121,8 @@ void ViewerPanels::showPace(Viewer& viewer) {
     ImGui::SameLine();
     bool isDrawn = !viewer.drawingPaused;
     if (showSwitch("draw", isDrawn, widgets_)) viewer.drawingPaused = !isDrawn;
+    showSwitch("keep 15 frames per second", viewer.keepsPace, widgets_);
+    if (const std::string remark = viewer.drawnRemark(); !remark.empty()) showRemark(remark);
 }
 
 void ViewerPanels::showTime(Viewer& viewer) {
@@ -203,6 +219,8 @@ void ViewerPanels::showHelp() {
     ImGui::SetNextWindowPos(ImVec2(panelWidth() + ImGui::GetFontSize(), ImGui::GetFontSize()), ImGuiCond_Appearing);
     ImGui::SetNextWindowBgAlpha(1);
     ImGui::Begin("Keys", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+    showTextSize();  // in a low window the end of the keys is out of sight
+    ImGui::Separator();
     if (ImGui::BeginTable("keys", 2)) {
         const auto row = [](std::string_view name, std::string_view help) {
             ImGui::TableNextColumn();
@@ -221,6 +239,13 @@ void ViewerPanels::showHelp() {
         "mouse: left moves the divider, right turns the camera, middle shifts it, the wheel comes closer;\n"
         "with Ctrl the wheel enlarges the picture and left moves it");
     ImGui::End();
+}
+
+void ViewerPanels::showTextSize() {
+    std::vector<std::string> words;
+    for (const double scale : textScales) words.push_back(percentText(scale));
+    if (const auto chosen = showList("text size", percentText(wantedScale_), words, widgets_))
+        wantedScale_ = textScales.at(static_cast<std::size_t>(std::ranges::find(words, *chosen) - words.begin()));
 }
 
 }  // namespace dustbench::bench

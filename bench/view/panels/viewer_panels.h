@@ -13,7 +13,8 @@ namespace dustbench::bench {
 
 class ViewerPanels {
  public:
-    ViewerPanels(gpu::Device& device, float fontPixels) : canvas_(device, fontPixels) {}
+    /// `fontPixels`: height of the text at scale 1.
+    ViewerPanels(gpu::Device& device, float fontPixels) : canvas_(device, fontPixels), fontPixels_(fontPixels) {}
 
     /// Fills the target, which is `width` × `height`, with the viewer's picture and the panels, and hands the input of
     /// the panels and of the mouse over the picture to the viewer. Its keys reach the panels while a text is typed or
@@ -22,6 +23,9 @@ class ViewerPanels {
 
     /// The panels use the keys, Tab excepted, so the viewer should not get them.
     [[nodiscard]] bool takesKeyboard() const { return canvas_.takesKeyboard() || walks_; }
+    /// Of the text and all that goes with it; from the next frame on.
+    [[nodiscard]] double textScale() const { return wantedScale_; }
+    void setTextScale(double scale) { wantedScale_ = scale; }
     [[nodiscard]] PanelCanvas& canvas() { return canvas_; }
     /// Names of widgets are those of their labels; parameters are `a/NAME`, `b/NAME` and `world/NAME`, and the words of
     /// an open list `LABEL/WORD`.
@@ -35,9 +39,13 @@ class ViewerPanels {
     void showParameters(Viewer& viewer);
     void showFiles(Viewer& viewer);
     static void showMessage(const Viewer& viewer, int width, int height);
-    static void showHelp();
+    void showHelp();
+    void showTextSize();
+    void scaleText();
 
     PanelCanvas canvas_;
+    float fontPixels_;
+    double wantedScale_ = 1, scale_ = 1;
     WidgetMap widgets_;
     ParameterPanel ofA_{"a"}, ofB_{"b"}, ofWorld_{"world"};
     PicturePanel picture_;

@@ -6,9 +6,8 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <cmath>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,13 +16,14 @@
 
 #include "bench/measure/clock.h"
 #include "bench/view/panels/viewer_panels.h"
+#include "bench/view/window/window_output.h"
+#include "bench/view/window_settings.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {
 
 constexpr float fontPixels = 15;  ///< on a display of 96 dots per inch
-constexpr int initialWidth = 1280, initialHeight = 720;
 
 std::string& lastProblem() {
     static std::string problem;
@@ -146,35 +146,42 @@ PadState readPad() {
 
 using WindowOwner = std::unique_ptr<GLFWwindow, decltype(&glfwDestroyWindow)>;
 
-WindowOwner openWindow() {
+WindowOwner createWindow(const ImageSize& size) {
+    return {glfwCreateWindow(size.width, size.height, "dustbench view", nullptr, nullptr), &glfwDestroyWindow};
+}
+
+/// With a context that tells of its loss, where there is one.
+WindowOwner openWindow(const ImageSize& size) {
     glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    WindowOwner window(glfwCreateWindow(initialWidth, initialHeight, "dustbench view", nullptr, nullptr),
-                       &glfwDestroyWindow);
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
+    WindowOwner window = createWindow(size);
+    if (!window) {
+        glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_NO_ROBUSTNESS);
+        window = createWindow(size);
+    }
     if (!window) throw cannotOpen();
     glfwMakeContextCurrent(window.get());
     glfwSwapInterval(1);
     return window;
 }
 
-std::string contentOf(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// The window's frames.
 class Loop {
  public:
     Loop(GLFWwindow* window, const ViewState& state, const std::filesystem::path& folder,
-         const ExecutionOptions& execution)
+         const ExecutionOptions& execution, SettingsKeeper& settings)
         : window_(window),
           isInterrupted_(execution.interrupted),
-          device_(gpu::Device::adoptCurrent()),
-          viewer_(state, device_, folder),
-          panels_(device_, fontPixels * contentScale()) {
+          settings_(settings),
+          output_(window),
+          viewer_(state, output_.device(), folder),
+          panels_(output_.device(), fontPixels * contentScale()),
+          target_(output_.device()) {
+        useSettings();
         glfwSetWindowUserPointer(window, &reported_);
         listen(window);
         viewer_.setMeasurement(
@@ -190,7 +197,9 @@ class Loop {
                 frame();
             else
                 glfwWaitEventsTimeout(0.1);  // minimised
+            keepSettings();
         }
+        keepAtEnd();
     }
 
  private:
@@ -206,28 +215,67 @@ class Loop {
             else if (event.key == Key::tab || !panels_.takesKeyboard())
                 viewer_.press(event.key, event.control);
         }
-        for (const std::string& file : std::exchange(reported_.dropped, {})) viewer_.applyText(contentOf(file));
+        for (const std::string& file : std::exchange(reported_.dropped, {})) viewer_.applyFile(file);
         if (std::exchange(reported_.gotFocus, false))
             if (const char* text = glfwGetClipboardString(window_)) panels_.canvas().setClipboard(text);
         readMouse(window_, reported_.input);
         viewer_.usePad(readPad());
     }
+    /// Of the window, as it has to be asked for: where it is counted in pixels, GLFW multiplies that by the display's
+    /// scale.
+    [[nodiscard]] ImageSize unscaledSize() const {
+        int width = 0, height = 0, pixels = 0, rows = 0;
+        glfwGetWindowSize(window_, &width, &height);
+        glfwGetFramebufferSize(window_, &pixels, &rows);
+        const float scale = pixels == width ? contentScale() : 1;
+        const auto unscaled = [scale](int size) {
+            return static_cast<int>(std::lround(static_cast<float>(size) / scale));
+        };
+        return {unscaled(width), unscaled(height)};
+    }
+    void useSettings() {
+        const WindowSettings& read = settings_.read();
+        viewer_.keepsPace = read.keepsPace;
+        viewer_.showsPanels = read.showsPanels;
+        viewer_.split.divider = read.divider;
+        if (viewer_.session().has(Half::b)) viewer_.split.shown = read.shown;
+        panels_.setTextScale(read.textScale);
+        if (!settings_.problem().empty()) viewer_.say(settings_.problem());
+    }
+    void keepSettings() {
+        WindowSettings now = settings_.read();
+        if (const ImageSize size = unscaledSize(); size.width > 0 && size.height > 0) now.size = size;
+        now.keepsPace = viewer_.keepsPace;
+        now.showsPanels = viewer_.showsPanels;
+        now.divider = viewer_.split.divider;
+        if (viewer_.session().has(Half::b)) now.shown = viewer_.split.shown;
+        now.textScale = panels_.textScale();
+        try {
+            settings_.keep(now);
+        } catch (const InputError& error) {
+            viewer_.say(error.what());
+        }
+    }
+    /// Nobody is there any more to read why not, and how a window looks is no result.
+    void keepAtEnd() {
+        try {
+            settings_.finish();
+        } catch (const InputError&) {
+        }
+    }
     /// False if the window has no area.
     bool makeTarget() {
         int width = 0, height = 0;
         glfwGetFramebufferSize(window_, &width, &height);
-        if (width == 0 || height == 0) return false;
-        if (width != texture_.width() || height != texture_.height()) {
-            texture_ = gpu::Texture::make2D(device_, "window", gpu::Format::rgba8, width, height);
-            target_ = gpu::Framebuffer(device_, "window", &texture_, nullptr);
-        }
-        return true;
+        return target_.fit(width, height);
     }
     void frame() {
         const std::int64_t now = steadyNow();
         reported_.input.seconds = before_ == 0 ? 1.0 / 60 : std::max(1e-6, static_cast<double>(now - before_) / 1e9);
         before_ = now;
         viewer_.advance();
+        if (const auto paced = viewer_.takePaced()) pace_.note(*paced);
+        viewer_.drawShare = pace_.share();
         const std::string clipboard = panels_.canvas().clipboard();
         showPanels(reported_.input);
         if (panels_.canvas().clipboard() != clipboard)
@@ -236,9 +284,8 @@ class Loop {
         reported_.input.wheel = 0;
     }
     void showPanels(const PanelInput& input) {
-        panels_.draw(viewer_, target_, texture_.width(), texture_.height(), input);
-        target_.copyToWindow();
-        glfwSwapBuffers(window_);
+        panels_.draw(viewer_, target_.framebuffer(), target_.texture().width(), target_.texture().height(), input);
+        output_.show(target_);
     }
     /// Between two runs of a measurement, without input.
     void showProgress() {
@@ -255,11 +302,12 @@ class Loop {
 
     GLFWwindow* window_;
     std::function<bool()> isInterrupted_;
-    gpu::Device device_;
+    SettingsKeeper& settings_;
+    WindowOutput output_;
     Viewer viewer_;
     ViewerPanels panels_;
-    gpu::Texture texture_;
-    gpu::Framebuffer target_;
+    PanelTarget target_;
+    DrawPace pace_;
     Reported reported_;
     std::int64_t before_ = 0;
 };
@@ -268,8 +316,9 @@ class Loop {
 
 void showWindow(const ViewState& state, const std::filesystem::path& folder, const ExecutionOptions& execution) {
     const Library library;
-    const WindowOwner window = openWindow();
-    Loop(window.get(), state, folder, execution).run();
+    SettingsKeeper settings(windowSettingsFile());
+    const WindowOwner window = openWindow(settings.read().size);
+    Loop(window.get(), state, folder, execution, settings).run();
 }
 
 }  // namespace dustbench::bench
