@@ -7,6 +7,7 @@ MAKEFLAGS += --no-print-directory
 PAPER ?= carr2006
 METHOD ?= grid_fluid
 MINUTES ?= 10
+INPUTS ?= 10000
 JOBS ?= $(shell nproc)
 LINT = $(if $(SINCE),--since $(SINCE)) $(if $(LINT_SECONDS),--seconds $(LINT_SECONDS))
 PROGRAM := build/release/dustbench
@@ -94,6 +95,17 @@ planted: packages ## Plant faults in a copy of the tree: tests and verdicts must
 asan: build/asan/build.ninja ## The unit tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@cmake --build --preset asan --parallel $(JOBS) --target unit_tests
 	@ctest --preset asan --exclude-regex _NOT_BUILT
+
+.PHONY: view-random
+view-random: build/asan/build.ninja ## Random inputs to the window's panels under AddressSanitizer (INPUTS=10000)
+	@cmake --build --preset asan --parallel $(JOBS) --target bench_panels_tests
+	@DUSTBENCH_RANDOM_INPUTS=$(INPUTS) ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 \
+		LSAN_OPTIONS=suppressions=tests/sanitizers/leaks.supp build/asan/bench_panels_tests --gtest_filter='*RandomInput*'
+
+.PHONY: golden
+golden: build/release/build.ninja ## Draw the window's golden pictures anew, to be looked at before they are kept
+	@cmake --build --preset release --parallel $(JOBS) --target bench_panels_tests
+	@DUSTBENCH_GOLDEN=write build/release/bench_panels_tests --gtest_filter='GoldenPictures.*'
 
 .PHONY: tsan
 tsan: build/tsan/build.ninja ## The unit tests that need no GPU under ThreadSanitizer
