@@ -45,15 +45,30 @@ std::vector<std::string> optionNames(const CLI::App& app) {
     return names;
 }
 
+std::vector<std::string> commandNames(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* each : app.get_subcommands({})) names.push_back(each->get_name());
+    return names;
+}
+
+/// `help` is `--help`, and `help run` is `run --help`.
+std::vector<std::string> withHelpAsOption(const CLI::App& app, std::vector<std::string> argv) {
+    if (argv.empty() || argv.front() != "help") return argv;
+    if (argv.size() > 2) throw InputError("help: got more than one command, allowed: one or none");
+    if (argv.size() == 1) return {"--help"};
+    const std::vector<std::string> known = commandNames(app);
+    if (std::ranges::find(known, argv[1]) == known.end()) throw unknownName("command", argv[1], known);
+    return {argv[1], "--help"};
+}
+
 /// Suggests a name close to an unknown option or subcommand.
 InputError unexpected(const CLI::App& app, const CLI::App* command, const std::vector<std::string>& argv,
                       const CLI::ParseError& error) {
     if (!command) {
-        std::vector<std::string> known;
-        for (const CLI::App* each : app.get_subcommands({})) known.push_back(each->get_name());
         const std::vector<std::string> words = withoutOptions(argv, optionNames(app));
-        if (!words.empty() && !words.front().starts_with('-')) return unknownName("command", words.front(), known);
-        return InputError(error.what());
+        if (words.empty()) return InputError("no command is given; `dustbench help` lists them");
+        if (words.front().starts_with('-')) return unknownName("option", words.front(), optionNames(app));
+        return unknownName("command", words.front(), commandNames(app));
     }
     for (const std::string& word : argv) {
         const std::string name = word.substr(0, word.find('='));
@@ -142,7 +157,8 @@ int dispatch(const std::vector<Command>& commands, const CommonOptions& common, 
         return nullptr;
     };
     try {
-        std::vector<std::string> reversed(argv.rbegin(), argv.rend());
+        std::vector<std::string> reversed = withHelpAsOption(app, argv);
+        std::ranges::reverse(reversed);
         app.parse(std::move(reversed));
     } catch (const CLI::CallForVersion& call) {
         std::cout << call.what() << '\n';

@@ -17,6 +17,7 @@
 #include "bench/report/side_by_side_sheet.h"
 #include "bench/suite/side_by_side.h"
 #include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
 #include "methods/kit/files/limits.h"
 
 namespace dustbench::cli {
@@ -41,7 +42,7 @@ void refuseOthers(const CompareOptions& options, bool folders) {
         if (!both.contains(name) && ofFolders.contains(name) != folders)
             throw InputError(fmt::format("{}: got it for {}, allowed: for {}", name,
                                          folders ? "result folders" : "methods",
-                                         folders ? "methods" : "two result folders (written with a '/')"));
+                                         folders ? "methods" : "two result folders"));
 }
 
 bench::ParameterTexts singleValues(const std::vector<std::string>& texts) {
@@ -75,8 +76,11 @@ void writeSheet(const bench::Suite& suite, const bench::ResultsFolder& results) 
     std::cout << file.string() << "\n";
 }
 
+/// A method's name means the method; what follows its ':' may be the path of a file.
 bool isFolder(const std::string& text) {
-    return text.find('/') != std::string::npos;
+    const std::string name = text.substr(0, text.find(':'));
+    if (std::ranges::find(methods(), name, &MethodInfo::id) != methods().end()) return false;
+    return name.find('/') != std::string::npos || std::filesystem::is_directory(text);
 }
 
 double parsePercent(const std::string& text) {
@@ -92,7 +96,7 @@ int compareFolderArguments(const CompareOptions& options) {
     for (const std::string& each : options.methods)
         if (!isFolder(each))
             throw InputError(fmt::format(
-                "compare: got '{}' beside a result folder, allowed: methods, or two folders (./{})", each, each));
+                "compare: got '{}' beside a result folder, allowed: methods, or two folders that exist", each));
     if (options.methods.size() != 2)
         throw InputError(fmt::format("compare: got {} result folders, allowed: 2", options.methods.size()));
     refuseOthers(options, true);
@@ -134,8 +138,8 @@ Command compareCommand() {
             "Methods: frame times, metrics and a contact sheet. A method may have parameters of its own:\n"
             "billboard:soft=true,sort=none. Existing results are kept.\n"
             "reports/METRICS.md defines the metrics.\n"
-            "Two folders (written with a '/'): for every run in both, the times of the second over those of the\n"
-            "first. Exit code 5: a regression; 6: not comparable.",
+            "Two folders: for every run in both, the times of the second over those of the first.\n"
+            "Exit code 5: a regression; 6: not comparable.",
             [options](Arguments& arguments) {
                 arguments.requiredTexts("methods", "METHOD|DIR",
                                         "two or more of `dustbench list methods`; or two folders of results",

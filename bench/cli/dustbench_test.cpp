@@ -38,7 +38,8 @@ TEST_F(Dustbench, WrongUseIsOneLineAndExitCodeThree) {
     ASSERT_FALSE(methods().empty());
     const std::string method = methods().front().id;
     const std::vector<std::pair<std::string, std::string>> mistakes{
-        {"", "subcommand"},
+        {"", "no command is given"},
+        {"--bogus", "unknown option '--bogus'"},
         {"lst", "'list'"},
         {"list method", "'methods'"},
         {"run --out o", "--method"},
@@ -49,6 +50,8 @@ TEST_F(Dustbench, WrongUseIsOneLineAndExitCodeThree) {
         {"run --method " + method + " --out o -P particles=-5", "0..10000000"},
         {"run --method " + method + " --out o -P particles=1000000000", "60 GB"},
         {"run --method " + method + " --out o -P particles", "name=value"},
+        {"run --method " + method + " --out o -P particles=", "got '', expected a value"},
+        {"run --method " + method + " --out o -P particles=1,,2", "on either side of ','"},
         {"run --method " + method + " --out o --frames 0", "1..10000000"},
         {"run --method " + method + " --out o --frames many", "'many'"},
         {"run --method " + method + " --out o --frame 5", "'--frames'"},
@@ -220,7 +223,7 @@ TEST_F(Dustbench, AListOfValuesIsARunEach) {
                          methods().front().id, out()));
     ASSERT_EQ(called.code, 0) << called.err;
     EXPECT_EQ(runs(out()).size(), 6u);
-    EXPECT_THAT(called.err, HasSubstr("[6/6]"));
+    EXPECT_THAT(called.err, HasSubstr("run 6 of 6: "));
 }
 
 TEST_F(Dustbench, ASuitePrintsItsTableAndTheVerdictsThatItAsksFor) {

@@ -234,7 +234,7 @@ TEST_F(ExportCommand, WrongUseIsOneLineAndExitCodeThreeAndLeavesNothing) {
         EXPECT_EQ(called.code, 3) << arguments << "\n" << called.err;
         EXPECT_THAT(called.err, HasSubstr(expected)) << arguments;
         const auto lines = std::ranges::count(called.err, '\n');
-        EXPECT_LE(lines, called.err.starts_with("[1/1]") ? 2 : 1) << arguments << "\n" << called.err;
+        EXPECT_LE(lines, called.err.starts_with("run 1 of 1") ? 2 : 1) << arguments << "\n" << called.err;
         EXPECT_EQ(called.out, "") << arguments;
         EXPECT_FALSE(fs::exists(out())) << arguments;
     }

@@ -7,6 +7,7 @@
 
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
+#include "bench/cli/suite_listing.h"
 #include "bench/suite/catalogue.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/particles/part_toml.h"
@@ -61,6 +62,7 @@ int list(const ListOptions& options) {
         if (!options.json) {
             std::cout << kind << ":\n";
             for (const bench::CatalogueItem& item : items) printItem(item, !options.what.empty());
+            if (kind == "suites" && !options.id.empty()) std::cout << describeSuite(options.id);
             if (kind == "methods" && !options.what.empty() && options.id.empty()) {
                 std::cout << "every method also has the parameters of the world:\n";
                 printParameters(bench::worldParameterList());

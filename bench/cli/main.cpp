@@ -1,6 +1,8 @@
 // The `dustbench` command: parses the arguments, runs a subcommand, and turns exceptions into one line and an exit
 // code.
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -51,6 +53,15 @@ CommonOptions commonOptions() {
             }};
 }
 
+/// What was printed may be the result, and a full disk loses it without a sign.
+void requireWritten() {
+    errno = 0;
+    if (std::cout.flush()) return;
+    const int error = errno;  // 0 if an earlier write failed
+    throw InputError(std::string("standard output: cannot be written") +
+                     (error != 0 ? std::string(": ") + std::strerror(error) : ""));
+}
+
 int run(const std::vector<std::string>& argv) {
     if (!argv.empty() && argv.front() == measureRunName) return measureRunCommand(argv);
     if (!argv.empty() && argv.front() == forecastRunName) return forecastRunCommand(argv);
@@ -67,7 +78,9 @@ int run(const std::vector<std::string>& argv) {
 int main(int argc, char** argv) {
     using namespace dustbench;
     try {
-        return cli::run({argv + std::min(argc, 1), argv + argc});
+        const int code = cli::run({argv + std::min(argc, 1), argv + argc});
+        cli::requireWritten();
+        return code;
     } catch (const InputError& error) {
         cli::say(error.what());
         return cli::exitBadInput;

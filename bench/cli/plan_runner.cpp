@@ -77,6 +77,8 @@ int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::
     if (plan.size() > 1)
         std::cerr << result.done << " done, " << result.skipped << " skipped, " << result.failed << " failed, "
                   << result.kept << " existing" << std::endl;
+    else if (result.kept > 0)
+        std::cerr << "the result is there already; --force measures again" << std::endl;
     if (result.outdated > 0)
         std::cerr << "outdated: " << result.outdated << " of the existing results; --redo-outdated re-runs them ("
                   << files::printable(result.whyOutdated) << ")" << std::endl;

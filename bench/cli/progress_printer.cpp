@@ -28,21 +28,31 @@ void ProgressPrinter::eraseBar() {
     if (terminal_) std::cerr << "\r\x1b[K";
 }
 
+double ProgressPrinter::phaseSeconds(std::chrono::steady_clock::time_point now) const {
+    return std::chrono::duration<double>(now - phaseStart_).count();
+}
+
 void ProgressPrinter::started(std::size_t position, std::size_t total, const bench::PlannedRun& run, int repetitions,
                               double etaSeconds) {
-    std::cerr << files::printable(bench::progressLine(position, total, run, repetitions, etaSeconds)) << std::endl;
+    const auto text = terminal_ ? bench::progressLine : bench::progressSentence;
+    std::cerr << files::printable(text(position, total, run, repetitions, etaSeconds)) << std::endl;
     last_.clear();
-    lastShown_ = std::chrono::steady_clock::now();
+    lastShown_ = phaseStart_ = std::chrono::steady_clock::now();
 }
 
 void ProgressPrinter::heard(std::string_view line) {
-    if (!line.empty()) last_ = line;
     const auto now = std::chrono::steady_clock::now();
+    if (!line.empty()) {
+        if (bench::phaseOf(line) != bench::phaseOf(last_)) phaseStart_ = now;
+        last_ = line;
+    }
     if (terminal_ && now - lastShown_ >= barInterval) {
         eraseBar();
-        std::cerr << files::printable(bench::progressBar(last_, terminalWidth())) << std::flush;
+        std::cerr << files::printable(bench::progressBar(last_, terminalWidth(), phaseSeconds(now))) << std::flush;
     } else if (!terminal_ && now - lastShown_ >= plainInterval) {
-        std::cerr << "    " << (last_.empty() ? "starting" : files::printable(last_)) << std::endl;
+        std::cerr << "    "
+                  << (last_.empty() ? "starting" : files::printable(bench::phaseSentence(last_, phaseSeconds(now))))
+                  << std::endl;
     } else {
         return;
     }

@@ -21,9 +21,11 @@ class ProgressPrinter : public bench::ExecutionListener {
 
  private:
     [[nodiscard]] int terminalWidth() const;
+    [[nodiscard]] double phaseSeconds(std::chrono::steady_clock::time_point now) const;
 
     bool terminal_;
-    std::string last_;  ///< the run's last message
+    std::string last_;                                  ///< the run's last message
+    std::chrono::steady_clock::time_point phaseStart_;  ///< of what the run is at
     std::chrono::steady_clock::time_point lastShown_;
 };
 

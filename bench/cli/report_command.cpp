@@ -42,6 +42,11 @@ int report(const ReportOptions& options) {
     const bench::ReportData data = bench::readReport(
         options.folder, needsPictures ? static_cast<std::int64_t>(options.pictureMegabytes * 1e6) : 0);
     for (const std::string& problem : data.problems) std::cerr << "note: " << files::printable(problem) << "\n";
+    if (data.runs.empty())
+        throw InputError(
+            fmt::format("'{}': holds no run that can be read, expected a folder that `suite`, `run`, "
+                        "`compare` or `reproduce` wrote",
+                        options.folder));
     if (options.text) {
         printTables(data);
     } else if (!options.chart.empty()) {
@@ -50,10 +55,6 @@ int report(const ReportOptions& options) {
     } else {
         std::cout << bench::writePage(options.folder, data).string() << "\n";
     }
-    if (data.runs.empty())
-        throw InputError(fmt::format("'{}': holds no run that can be read, expected a folder that `suite`, `run`, "
-                                     "`compare` or `reproduce` wrote",
-                                     options.folder));
     return exitOk;
 }
 
@@ -62,7 +63,8 @@ int report(const ReportOptions& options) {
 Command reportCommand() {
     auto options = std::make_shared<ReportOptions>();
     return {"report", "Write the report of a result folder: charts, pictures, claims, machine",
-            "The report is DIR/index.html, one file; a chart is DIR/charts/ID.svg. Exit code 3 if DIR contains no run.",
+            "The report is DIR/index.html, one file; a chart is DIR/charts/ID.svg. Without a run in DIR nothing is "
+            "written.",
             [options](Arguments& arguments) {
                 arguments.required("dir", "DIR", "a folder that `suite`, `run`, `compare` or `reproduce` wrote",
                                    options->folder);

@@ -27,7 +27,7 @@ struct RunOptions {
     WorldOptions world;
     VolumeOptions volumes{"--volumes"};
     std::int64_t frames = bench::RunSpec().frames, images = 0;
-    bool metrics = false;
+    bool metrics = false, force = false;
     std::string sync = "frame", out;
     FilmFiles films;
 };
@@ -62,9 +62,11 @@ void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results)
         rows.push_back({"  " + std::string(stage), fixed(ms, 3), fixed(100 * ms / frameMs, 1) + "%"});
     }
     std::cout << textTable(rows)
-              << fmt::format("  {:.1f} fps, 95 % of the frames within {:.2f} ms, {:.0f} particles, {:.0f} primitives\n",
-                             number("fps_avg"), number("frame_ms_p95"), number("particles_median"),
-                             number("primitives_median"));
+              << fmt::format("  {:.1f} fps, {}{:.0f} particles, {:.0f} primitives\n", number("fps_avg"),
+                             bench::numberIn(stored, "frame_ms_p95")
+                                 ? fmt::format("95 % of the frames within {:.2f} ms, ", number("frame_ms_p95"))
+                                 : "",
+                             number("particles_median"), number("primitives_median"));
     for (const std::string& warning : stored.warnings) std::cout << "  warning: " << files::printable(warning) << "\n";
 }
 
@@ -80,7 +82,9 @@ int run(const RunOptions& options) {
     requireOpenGl();
     bench::ResultsFolder results(options.out);
     PlanOptions planOptions;
-    planOptions.force = true;
+    planOptions.force = options.force;
+    planOptions.retryFailed = true;
+    planOptions.redoOutdated = true;
     planOptions.badInputEnds = true;
     const int code = runPlan(plan, 1, results, planOptions);
     for (const bench::PlannedRun& each : plan)
@@ -96,7 +100,9 @@ Command runCommand() {
     auto options = std::make_shared<RunOptions>();
     return {"run", "Measure one method in one scene",
             "Parameters with defaults and allowed values: `dustbench list methods`.\n"
-            "A list `a,b,c` or a range `a:b:step` (including b) makes one run per value.",
+            "A list `a,b,c` or a range `a:b:step` (including b) makes one run per value.\n"
+            "A result that is there already is kept, unless it failed, or another build measured it, or one of its\n"
+            "input files has changed.",
             [options](Arguments& arguments) {
                 options->world.declare(arguments);
                 arguments.integer("--frames", "frames to record", options->frames, 1, 10'000'000);
@@ -115,6 +121,7 @@ Command runCommand() {
                                "afterwards, compare five frames and the last 31 with exact pictures "
                                "(reports/METRICS.md)",
                                options->metrics);
+                arguments.flag("--force", "measure again what is there already", options->force);
                 arguments.required("--out", "DIR", "folder for the results; created if missing", options->out);
             },
             [options] { return run(*options); }};

@@ -11,25 +11,22 @@
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/slurm_script.h"
+#include "bench/cli/suite_listing.h"
 #include "bench/cli/suite_report.h"
 #include "bench/cli/volume_options.h"
 #include "bench/measure/provenance.h"
-#include "bench/results/disk_need.h"
-#include "bench/results/freshness.h"
-#include "bench/results/stored_folder.h"
 #include "bench/suite/baselines.h"
 #include "bench/suite/shard.h"
 #include "bench/suite/suite.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/limits.h"
-#include "methods/kit/files/printable.h"
 
 namespace dustbench::cli {
 namespace {
 
 struct SuiteOptions {
     std::string suite, out, order, shard;
-    bool quick = false, force = false, retryFailed = false, redoOutdated = false, dryRun = false;
+    bool quick = false, force = false, retryFailed = false, redoOutdated = false, dryRun = false, estimate = false;
     std::int64_t repetitions = 0, slurmShards = 0;
     double timeoutSeconds = 0;
     double cooldownSeconds = -1;
@@ -39,9 +36,9 @@ struct SuiteOptions {
 /// Prints the Slurm script of the suite; nothing is run or written.
 int printSlurmScript(const SuiteOptions& options, const bench::Suite& suite, double timeoutSeconds,
                      double cooldownSeconds) {
-    if (!options.shard.empty() || options.dryRun)
-        throw InputError(
-            fmt::format("--slurm: got it with {}, allowed: one of them", options.dryRun ? "--dry-run" : "--shard"));
+    if (!options.shard.empty() || options.dryRun || options.estimate)
+        throw InputError(fmt::format("--slurm: got it with {}, allowed: one of them",
+                                     options.dryRun ? "--dry-run" : (options.estimate ? "--estimate" : "--shard")));
     SlurmJob job;
     job.name = suite.id;
     job.program = std::filesystem::read_symlink("/proc/self/exe");
@@ -66,34 +63,6 @@ int printSlurmScript(const SuiteOptions& options, const bench::Suite& suite, dou
     return exitOk;
 }
 
-/// Prints the planned runs, existing results and maximum disk space; nothing is run or written.
-int printPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, const std::string& out) {
-    bench::StoredRuns stored;
-    if (std::filesystem::exists(std::filesystem::path(out) / "runs")) stored = bench::readStoredRuns(out);
-    bench::Freshness freshness;
-    std::size_t toDo = 0;
-    std::uint64_t bytes = 0;
-    for (const bench::PlannedRun& run : plan) {
-        const std::string id = bench::runId(run.spec);
-        std::string_view state = "to do";
-        if (const auto found = stored.find(id); found != stored.end()) {
-            state = freshness.whyOutdated(found->second).empty() ? bench::runStatuses.wordOf(found->second.status)
-                                                                 : "outdated";
-        } else if (!run.skip.empty()) {
-            state = "left out";
-        } else {
-            ++toDo;
-            bytes += bench::maximumBytesOf(run.spec);
-        }
-        std::cout << files::printable(fmt::format("{}  {:<8}  {} {} {}{}rep {}/{}", id, state, run.spec.method,
-                                                  run.spec.scene, run.label, run.label.empty() ? "" : " ",
-                                                  run.spec.repetition, repetitions))
-                  << "\n";
-    }
-    std::cerr << fmt::format("{} runs, {} to do, which take {} at most\n", plan.size(), toDo, bench::bytesText(bytes));
-    return exitOk;
-}
-
 int runSuite(const SuiteOptions& options) {
     bench::Suite suite = bench::loadSuite(options.suite, options.quick);
     if (!options.order.empty()) suite.order = bench::orders.parse("order", options.order);
@@ -114,16 +83,19 @@ int runSuite(const SuiteOptions& options) {
     if (plan.empty() && shard.count > 1)
         std::cerr << fmt::format("shard {} of {} has no runs: runs of one world stay together\n", options.shard,
                                  suite.id);
-    if (options.dryRun) return printPlan(plan, suite.repetitions, options.out);
-    checkWorlds(plan);
-    if (!plan.empty()) requireOpenGl();
-    bench::ResultsFolder results(options.out);
     PlanOptions planOptions;
     planOptions.force = options.force;
     planOptions.retryFailed = options.retryFailed;
     planOptions.redoOutdated = options.redoOutdated;
     planOptions.timeoutSeconds = timeoutSeconds;
     planOptions.cooldownSeconds = cooldownSeconds;
+    if (options.dryRun || options.estimate) {
+        const auto toDo = printPlan(plan, suite.repetitions, options.out);
+        return options.estimate ? printEstimate(toDo, planOptions) : exitOk;
+    }
+    checkWorlds(plan);
+    if (!plan.empty()) requireOpenGl();
+    bench::ResultsFolder results(options.out);
     if (plan.empty()) results.writeSummary();
     const int code = plan.empty() ? exitOk : runPlan(plan, suite.repetitions, results, planOptions);
     if (code != exitAborted && !plan.empty()) std::cout << suiteReport(suite, results.runs()) << "\n";
@@ -158,6 +130,10 @@ Command suiteCommand() {
                                  options->cooldownSeconds, -1, 3600);
                 options->volumes.declareOptional(arguments);
                 arguments.flag("--dry-run", "print the list of runs and their state; run nothing", options->dryRun);
+                arguments.flag("--estimate",
+                               "print the list, then start one run of each kind to tell how long all of them take; "
+                               "nothing is kept",
+                               options->estimate);
                 arguments.text("--shard", "I/N",
                                "only the I-th of N parts, from 1; `dustbench merge` joins their folders",
                                options->shard);

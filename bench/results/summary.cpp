@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 #include "bench/measure/statistics.h"
 #include "bench/results/method_facts.h"
@@ -20,6 +21,20 @@ std::int64_t largest(std::span<const FrameRecord> frames, std::int64_t FrameReco
     std::int64_t value = 0;
     for (const FrameRecord& frame : frames) value = std::max(value, frame.*member);
     return value;
+}
+
+/// A share of the frames is none if it is less than one frame.
+bool hasShare(std::span<const double> frames, double share) {
+    return static_cast<double>(frames.size()) * share >= 1 - 1e-9;
+}
+
+/// The time that `share` of the frames exceed; NaN for too few frames.
+double upperPercentile(std::span<const double> frameMs, double share) {
+    return hasShare(frameMs, share) ? quantile(frameMs, 1 - share) : std::numeric_limits<double>::quiet_NaN();
+}
+
+double slowestFps(std::span<const double> frameMs, double share) {
+    return hasShare(frameMs, share) ? lowFps(frameMs, share) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -116,12 +131,12 @@ Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run
     Columns columns{{"frames", static_cast<std::int64_t>(frames.size())},
                     {"fps_avg", averageFps(frameMs)},
                     {"frame_ms_median", median(frameMs)},
-                    {"frame_ms_p95", quantile(frameMs, 0.95)},
-                    {"frame_ms_p99", quantile(frameMs, 0.99)},
+                    {"frame_ms_p95", upperPercentile(frameMs, 0.05)},
+                    {"frame_ms_p99", upperPercentile(frameMs, 0.01)},
                     {"frame_ms_max", maximum(frameMs)},
-                    {"fps_1pct_low", lowFps(frameMs)},
-                    {"frame_ms_p999", quantile(frameMs, 0.999)},
-                    {"fps_01pct_low", lowFps(frameMs, 0.001)},
+                    {"fps_1pct_low", slowestFps(frameMs, 0.01)},
+                    {"frame_ms_p999", upperPercentile(frameMs, 0.001)},
+                    {"fps_01pct_low", slowestFps(frameMs, 0.001)},
                     {"frame_ms_min", minimum(frameMs)}};
     for (std::size_t stage = 0; stage < stageNames.size(); ++stage)
         columns.emplace_back(

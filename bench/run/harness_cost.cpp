@@ -1,37 +1,10 @@
 #include "bench/run/harness_cost.h"
 
-#include <unistd.h>
-
-#include <filesystem>
-
+#include "bench/results/temporary_folder.h"
 #include "methods/contract/errors.h"
 #include "methods/contract/registry.h"
 
 namespace dustbench::bench {
-namespace fs = std::filesystem;
-namespace {
-
-/// Removed with all its contents on destruction.
-class TemporaryFolder {
- public:
-    TemporaryFolder() {
-        std::string name = (fs::temp_directory_path() / "dustbench-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw InputError(name + ": a temporary folder cannot be made");
-        path_ = name;
-    }
-    ~TemporaryFolder() {
-        std::error_code error;
-        fs::remove_all(path_, error);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-    fs::path path_;
-};
-
-}  // namespace
 
 HarnessCost measureHarness(ExecutionOptions options) {
     PlannedRun run;

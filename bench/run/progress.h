@@ -16,8 +16,18 @@ namespace dustbench::bench {
 [[nodiscard]] std::string progressLine(std::size_t position, std::size_t total, const PlannedRun& run, int repetitions,
                                        double etaSeconds);
 
+/// The same as a sentence, for logs: `run 3 of 48: billboard in flat, particles=1000 speed=20, repetition 2 of 5; about
+/// 4 min 05 s left`.
+[[nodiscard]] std::string progressSentence(std::size_t position, std::size_t total, const PlannedRun& run,
+                                           int repetitions, double etaSeconds);
+
 /// For `frames 12 120`, which is 10 %: `[#####…] frames 12/120` on a terminal `width` columns wide. Empty for other
-/// lines.
-[[nodiscard]] std::string progressBar(std::string_view line, int width);
+/// lines. `phaseSeconds`: how long this phase has taken, from which follows how long it will: `frames 12/120, 9 s
+/// left`.
+[[nodiscard]] std::string progressBar(std::string_view line, int width, double phaseSeconds = 0);
+/// `frames: 12 of 120, 9 s left`, for logs; the line itself if it is no such line.
+[[nodiscard]] std::string phaseSentence(std::string_view line, double phaseSeconds = 0);
+/// `frames` of `frames 12 120`.
+[[nodiscard]] std::string_view phaseOf(std::string_view line);
 
 }  // namespace dustbench::bench

@@ -65,8 +65,8 @@ std::vector<std::string> expandValues(std::string_view what, std::string_view te
     std::vector<std::string> values;
     for (const std::string_view part : split(text, ',')) {
         if (part.empty())
-            throw InputError(std::string(what) + ": got '" + std::string(text) +
-                             "', expected a value on either side of ','");
+            throw InputError(std::string(what) + ": got '" + std::string(text) + "', expected " +
+                             (text.empty() ? "a value" : "a value on either side of ','"));
         const std::string_view first = part.substr(0, part.find(':'));
         if (first.size() < part.size() && number(first)) {
             for (std::string& value : range(what, part)) values.push_back(std::move(value));

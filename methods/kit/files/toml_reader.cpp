@@ -24,6 +24,7 @@ struct TomlReader::State {
     std::string file;
     std::string path;  ///< path of the table within the document, for messages
     std::set<std::string, std::less<>> known;
+    std::set<std::string, std::less<>> asked;  ///< looked for and not read: known too, if it is not there
 };
 
 namespace {
@@ -57,7 +58,7 @@ TomlReader TomlReader::parseText(std::string_view text, std::string name) {
                                      limits::tomlLevels));
     try {
         auto document = std::make_shared<const toml::table>(toml::parse(text, name));
-        return TomlReader(std::make_unique<State>(State{document, document.get(), std::move(name), "", {}}));
+        return TomlReader(std::make_unique<State>(State{document, document.get(), std::move(name), "", {}, {}}));
     } catch (const toml::parse_error& error) {
         throw InputError(
             fmt::format("{}:{}: not valid TOML: {}", name, error.source().begin.line, error.description()));
@@ -77,6 +78,7 @@ std::string TomlReader::where(std::string_view key) const {
 }
 
 bool TomlReader::has(std::string_view key) const {
+    state_->asked.emplace(key);
     return state_->table->contains(key);
 }
 
@@ -238,7 +240,7 @@ TomlReader TomlReader::table(std::string_view key) {
     const toml::table* table = node.as_table();
     if (!table) refuse(*this, state_->path, key, node, "a table");
     return TomlReader(std::make_unique<State>(
-        State{state_->document, table, state_->file, state_->path + std::string(key) + ".", {}}));
+        State{state_->document, table, state_->file, state_->path + std::string(key) + ".", {}, {}}));
 }
 
 std::vector<TomlReader> TomlReader::tables(std::string_view key) {
@@ -252,13 +254,14 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
         const toml::table* table = element.as_table();
         if (!table) refuse(*this, state_->path, key, element, fmt::format("tables [[{}{}]]", state_->path, key));
         list.push_back(TomlReader(std::make_unique<State>(
-            State{state_->document, table, state_->file, state_->path + std::string(key) + ".", {}})));
+            State{state_->document, table, state_->file, state_->path + std::string(key) + ".", {}, {}})));
     }
     return list;
 }
 
 void TomlReader::finish() const {
-    const std::vector<std::string> known(state_->known.begin(), state_->known.end());
+    std::vector<std::string> known;
+    std::ranges::set_union(state_->known, state_->asked, std::back_inserter(known));
     for (const std::string& key : keys())
         if (!state_->known.contains(key))
             throw InputError(where(key) +

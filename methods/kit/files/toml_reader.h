@@ -17,8 +17,8 @@
 
 namespace dustbench::files {
 
-/// One table of a TOML file. Reading a key marks it as known; `finish` rejects all other keys and suggests the nearest
-/// name. All members throw InputError, `scenes/flat.toml:12: key 'wind' … got …, expected …`.
+/// One table of a TOML file. `finish` rejects every key that was not read, and suggests the nearest of those that were
+/// read or looked for with `has`. All members throw InputError, `scenes/flat.toml:12: key 'wind' … got …, expected …`.
 class DUSTBENCH_API TomlReader {
  public:
     /// Limits: limits.h, for the file's length and its depth.

@@ -44,6 +44,21 @@ TEST(TomlReader, RefusesKeysThatNobodyAskedForWithTheNearest) {
               "t.toml:2: unknown key in [sun] 'elevatoin' (did you mean 'elevation'?); known: elevation");
 }
 
+TEST(TomlReader, SuggestsKeysThatWereLookedFor) {
+    auto reader = TomlReader::parseText("methdos = ['a']\n", "t.toml");
+    EXPECT_FALSE(reader.has("methods"));
+    EXPECT_FALSE(reader.has("sizes"));
+    (void)reader.number("frames", 0, 9, 1);
+    EXPECT_EQ(inputError([&] { reader.finish(); }),
+              "t.toml:1: unknown key 'methdos' (did you mean 'methods'?); known: frames, methods, sizes");
+}
+
+TEST(TomlReader, LookingForAKeyDoesNotAllowIt) {
+    auto reader = TomlReader::parseText("a = 1\n", "t.toml");
+    EXPECT_TRUE(reader.has("a"));
+    EXPECT_THAT(inputError([&] { reader.finish(); }), HasSubstr("unknown key 'a'"));
+}
+
 TEST(TomlReader, NamesTheLineOfASyntaxError) {
     EXPECT_THAT(inputError([] { TomlReader::parseText("a = 1\nb = = 2\n", "t.toml"); }),
                 HasSubstr("t.toml:2: not valid"));

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "methods/contract/errors.h"
+
 namespace dustbench::gpu {
 
 namespace {
@@ -25,8 +27,8 @@ void forgetMessage() {}
 void requireAllocated(std::string_view label, std::size_t bytes) {
     if (glGetError() == GL_NO_ERROR) return;
     forgetMessage();
-    throw std::runtime_error("GPU: '" + std::string(label) + "' of " + std::to_string(bytes) +
-                             " bytes cannot be allocated");
+    throw InputError("GPU: '" + std::string(label) + "' of " + std::to_string(bytes) +
+                     " bytes cannot be allocated; smaller pictures, grids or numbers of particles need less");
 }
 
 #ifdef DUSTBENCH_CHECKED

@@ -19,7 +19,7 @@ inline void listenToDebugOutput() {}
 inline void throwOnDebugOutput(std::string_view) {}
 #endif
 
-/// In every build: throws std::runtime_error if OpenGL could not make the last allocation.
+/// In every build: throws InputError if OpenGL could not make the last allocation.
 void requireAllocated(std::string_view label, std::size_t bytes);
 
 }  // namespace dustbench::gpu

@@ -1,0 +1,125 @@
+// What a user meets at the edges: help, results that are there already, damaged ones, full devices, estimates.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/cli/called_program.h"
+
+namespace dustbench::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class Usage : public Dustbench {
+ protected:
+    /// A suite of two short runs.
+    [[nodiscard]] std::string suite() const {
+        std::ofstream(folder_ / "two.toml") << fmt::format(
+            "title = \"two\"\nmethods = [\"{}\"]\nsizes = [\"64x48\"]\nframes = 2\nwarmup = 0\n"
+            "[parameters]\npreroll = 0.1\nparticles = [50, 100]\n",
+            methods().front().id);
+        return "suite " + (folder_ / "two.toml").string();
+    }
+    /// The program with its output to a device that is always full.
+    [[nodiscard]] int callOntoFullDevice(const std::string& arguments) const {
+        const int status = std::system(
+            fmt::format("'{}' {} >/dev/full 2>'{}'", DUSTBENCH_PROGRAM, arguments, (folder_ / "stderr").string())
+                .c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+};
+
+TEST_F(Usage, HelpIsACommandToo) {
+    EXPECT_EQ(call("help").out, call("--help").out);
+    EXPECT_EQ(call("help run").out, call("run --help").out);
+    EXPECT_THAT(call("help run").out, HasSubstr("--frames"));
+    const Called unknown = call("help rnu");
+    EXPECT_EQ(unknown.code, 3);
+    EXPECT_THAT(unknown.err, HasSubstr("did you mean 'run'?"));
+    EXPECT_EQ(call("help run suite").code, 3);
+}
+
+TEST_F(Usage, AnUnknownKeyIsAnsweredWithTheNearestAndAllOthers) {
+    std::ofstream(folder_ / "bad.toml") << "methdos = [\"all\"]\n";
+    const Called called = call("suite " + (folder_ / "bad.toml").string() + " --out " + out());
+    EXPECT_EQ(called.code, 3);
+    for (const char* key : {"(did you mean 'methods'?)", "baseline", "parameters", "quick", "sync", "volumes"})
+        EXPECT_THAT(called.err, HasSubstr(key));
+}
+
+TEST_F(Usage, WhatCannotBePrintedIsAnError) {
+    for (const char* command : {"list methods", "help", "list --json"}) {
+        EXPECT_EQ(callOntoFullDevice(command), 3) << command;
+        EXPECT_THAT(contentOf(folder_ / "stderr"), HasSubstr("standard output: cannot be written")) << command;
+    }
+}
+
+TEST_F(Usage, ARunThatIsThereIsKeptUnlessForced) {
+    const std::string command = "--frames 2 --out " + out();
+    ASSERT_EQ(shortRun(command).code, 0);
+    const fs::path record = runs(out()).at(0) / "run.json";
+    const std::string first = contentOf(record);
+    const Called again = shortRun(command);
+    EXPECT_EQ(again.code, 0);
+    EXPECT_THAT(again.err, HasSubstr("--force measures again"));
+    EXPECT_THAT(again.out, HasSubstr("frame"));  // its table is printed all the same
+    EXPECT_EQ(contentOf(record), first);
+    EXPECT_EQ(shortRun(command + " --force").code, 0);
+    EXPECT_NE(contentOf(record), first);
+}
+
+TEST_F(Usage, AReportOfNothingIsNotWritten) {
+    const Called called = call("report " + folder_.string());
+    EXPECT_EQ(called.code, 3);
+    EXPECT_FALSE(fs::exists(folder_ / "index.html"));
+}
+
+TEST_F(Usage, FoldersAreComparedByTheirNamesAlone) {
+    ASSERT_EQ(call(suite() + " --out " + out()).code, 0);
+    const fs::path before = fs::current_path();
+    fs::current_path(folder_);
+    fs::copy("out", "later", fs::copy_options::recursive);
+    const Called called = call("compare out later");
+    fs::current_path(before);
+    EXPECT_EQ(called.code, 0) << called.err;
+    EXPECT_THAT(called.out, HasSubstr("B = later against A = out"));
+}
+
+TEST_F(Usage, ADryRunListsWhatARunWouldMend) {
+    ASSERT_EQ(call(suite() + " --out " + out()).code, 0);
+    const std::string record = runs(out()).at(0) / "run.json";
+    std::ofstream(record) << "{";
+    const Called called = call(suite() + " --dry-run --out " + out());
+    EXPECT_EQ(called.code, 0) << called.err;
+    EXPECT_THAT(called.out, AllOf(HasSubstr("  damaged  "), HasSubstr("  done  ")));
+    EXPECT_THAT(called.err, HasSubstr("2 runs, 1 to do"));
+    EXPECT_EQ(contentOf(record), "{");
+}
+
+TEST_F(Usage, AnEstimateLeavesNothing) {
+    const Called called = call(suite() + " --estimate --out " + out());
+    EXPECT_EQ(called.code, 0) << called.err;
+    EXPECT_EQ(std::ranges::count(called.out, '\n'), 2);
+    EXPECT_THAT(called.err, testing::ContainsRegex("estimate: [0-9]+ s for 2 runs"));
+    EXPECT_FALSE(fs::exists(out()));
+}
+
+TEST_F(Usage, OneSuiteIsListedWhole) {
+    const Called called = call("list suites harness-same");
+    EXPECT_EQ(called.code, 0);
+    for (const char* part : {"harness-same.toml", "full ", "--quick ", "repetitions", "null_method"})
+        EXPECT_THAT(called.out, HasSubstr(part));
+}
+
+TEST_F(Usage, TooLargeAPictureIsOneLine) {
+    const Called called =
+        call("run --method " + methods().front().id + " --size 16384x16384 --frames 1 --out " + out());
+    if (called.code == 0) GTEST_SKIP() << "this machine can draw it";
+    EXPECT_EQ(called.code, 3);
+    EXPECT_THAT(called.err, HasSubstr("cannot be allocated"));
+}
+
+}  // namespace
+}  // namespace dustbench::cli

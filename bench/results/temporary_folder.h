@@ -1,0 +1,33 @@
+// A folder for what is not kept.
+#pragma once
+
+#include <stdlib.h>
+
+#include <filesystem>
+#include <string>
+
+#include "methods/contract/errors.h"
+
+namespace dustbench::bench {
+
+/// Removed with all its contents on destruction. Throws InputError if it cannot be made.
+class TemporaryFolder {
+ public:
+    TemporaryFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "dustbench-XXXXXX").string();
+        if (!mkdtemp(name.data())) throw InputError(name + ": a temporary folder cannot be made");
+        path_ = name;
+    }
+    ~TemporaryFolder() {
+        std::error_code error;
+        std::filesystem::remove_all(path_, error);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+    std::filesystem::path path_;
+};
+
+}  // namespace dustbench::bench
