@@ -44,8 +44,12 @@ class TreeBuilder {
         level_->SetName("level");
         const std::span<const OctreeVoxel> left = build({0, 0, 0}, 0, octree.voxels, {}).rest;
         if (!left.empty()) throw std::logic_error("octree: voxels are not in pre-order");
-        for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{extinction_, own_, opacity_, age_, level_})
+        using Entry = std::pair<vtkDataArray*, const char*>;
+        for (const auto& [array, unit] : {Entry{extinction_, "1/m"}, Entry{own_, "1/m"}, Entry{opacity_, "1"},
+                                          Entry{age_, "s"}, Entry{level_, "1"}}) {
             grid.GetCellData()->AddArray(array);
+            addUnit(grid, array->GetName(), unit);
+        }
         grid.GetCellData()->SetActiveScalars("extinction");
     }
 

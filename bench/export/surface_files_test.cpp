@@ -45,6 +45,8 @@ TEST(SurfaceFile, ReadsBackAsAMeshThatFacesForward) {
     EXPECT_EQ(mesh.GetFieldData()->GetArray("TimeValue")->GetTuple1(0), someSeconds);
     ASSERT_EQ(mesh.GetNumberOfPoints(), 20);
     ASSERT_EQ(mesh.GetNumberOfPolys(), 4 * 3);
+    for (const char* unit : {"colour_unit", "height_unit", "depth_removed_unit"})
+        EXPECT_NE(mesh.GetFieldData()->GetAbstractArray(unit), nullptr) << unit;
     const auto at = [&](const char* name, vtkIdType i) { return mesh.GetPointData()->GetArray(name)->GetTuple1(i); };
     for (vtkIdType i = 0; i < 20; ++i) {
         const double* point = mesh.GetPoint(i);

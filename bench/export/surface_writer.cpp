@@ -52,10 +52,14 @@ void writeSurface(const CollectedSurface& surface, double timeSeconds, const std
     points->SetData(arrayOf("position", surface.position));
     mesh->SetPoints(points);
     mesh->SetPolys(quadrilaterals(surface));
-    mesh->GetPointData()->AddArray(arrayOf("colour", surface.colour));
-    mesh->GetPointData()->AddArray(arrayOf("height", 1, surface.height));
+    const auto add = [&mesh](vtkFloatArray& array, const std::string& unit) {
+        mesh->GetPointData()->AddArray(&array);
+        addUnit(*mesh, array.GetName(), unit);
+    };
+    add(*arrayOf("colour", surface.colour), "linear RGB");
+    add(*arrayOf("height", 1, surface.height), "1");
     for (const CollectedField& field : surface.fields)
-        mesh->GetPointData()->AddArray(arrayOf(field.name, field.components, field.values));
+        add(*arrayOf(field.name, field.components, field.values), field.unit);
     stampTime(*mesh, timeSeconds);
 
     WholeFile whole(file);

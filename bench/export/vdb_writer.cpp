@@ -93,7 +93,7 @@ void writeVdb(const ExtinctionGrid& grid, VdbPrecision precision, std::int64_t f
         sparse<openvdb::FloatGrid>(grid.extinctionPerMetre.data(), plan.cells, plan.spacingMetres, plan.origin);
     density->setGridClass(openvdb::GRID_FOG_VOLUME);
     density->setSaveFloatAsHalf(half);
-    describe(*density, "density", "extinction per metre", frame, timeSeconds);
+    describe(*density, "density", "1/m", frame, timeSeconds);
     writeWholeVdb({density}, file);
 }
 

@@ -5,7 +5,6 @@
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkStringArray.h>
 #include <vtkXMLImageDataWriter.h>
 
 #include "bench/export/vtk_file.h"
@@ -39,6 +38,7 @@ void writeVti(const ExtinctionGrid& grid, double timeSeconds, const std::filesys
     vtkNew<vtkImageData> image;
     setPlace(*image, plan.origin, plan.spacingMetres, {plan.cells[0], plan.cells[1], plan.cells[2]});
     image->GetCellData()->SetScalars(extinction);
+    addUnit(*image, "extinction", "1/m");
     stampTime(*image, timeSeconds);
 
     writeImage(*image, file);
@@ -54,10 +54,7 @@ void writeGridVti(const CollectedGrid& grid, double timeSeconds, const std::file
         // As above: VTK only reads our memory.
         values->SetArray(const_cast<float*>(field.values.data()), static_cast<vtkIdType>(field.values.size()), 1);
         image->GetCellData()->AddArray(values);
-        vtkNew<vtkStringArray> unit;
-        unit->SetName((field.name + "_unit").c_str());
-        unit->InsertNextValue(field.unit);
-        image->GetFieldData()->AddArray(unit);
+        addUnit(*image, field.name, field.unit);
     }
     if (!grid.fields.empty()) image->GetCellData()->SetActiveScalars(grid.fields.front().name.c_str());
     stampTime(*image, timeSeconds);

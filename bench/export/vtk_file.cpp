@@ -7,6 +7,7 @@
 #include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
+#include <vtkStringArray.h>
 #include <vtkXMLWriter.h>
 
 #include <algorithm>
@@ -38,6 +39,13 @@ void writeVtk(vtkXMLWriter& writer, vtkDataObject& data, const std::filesystem::
         complaint = vtkErrorCode::GetStringFromErrorCode(writer.GetErrorCode());
     std::ranges::replace(complaint, '\n', ' ');
     throw cannotWrite(file, complaint.empty() ? "VTK's writer failed" : complaint);
+}
+
+void addUnit(vtkDataObject& data, const std::string& array, const std::string& unit) {
+    vtkNew<vtkStringArray> text;
+    text->SetName((array + "_unit").c_str());
+    text->InsertNextValue(unit);
+    data.GetFieldData()->AddArray(text);
 }
 
 void stampTime(vtkDataObject& data, double timeSeconds) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 class vtkDataObject;  // NOLINT(cppcoreguidelines-virtual-class-destructor): VTK's
 class vtkXMLWriter;   // NOLINT(cppcoreguidelines-virtual-class-destructor): VTK's
@@ -15,6 +16,9 @@ enum class Numbers { appended, within };
 /// error message on failure.
 void writeVtk(vtkXMLWriter& writer, vtkDataObject& data, const std::filesystem::path& file,
               Numbers numbers = Numbers::appended);
+
+/// Stores the unit of an array as field data `<array>_unit`, a text; `1` is a number without a unit.
+void addUnit(vtkDataObject& data, const std::string& array, const std::string& unit);
 
 /// Stores the simulation time of a single file where ParaView and PyVista look for it: field data `TimeValue`.
 void stampTime(vtkDataObject& data, double timeSeconds);

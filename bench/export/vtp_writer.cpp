@@ -47,24 +47,22 @@ void writeVtp(const Puffs& dust, double timeSeconds, const std::filesystem::path
     serial->SetNumberOfValues(count);
     std::copy(dust.serial.begin(), dust.serial.end(), serial->GetPointer(0));
     cloud->GetPointData()->AddArray(serial);
-    const auto addColumn = [&](const char* name, std::span<const float> column) {
-        vtkNew<vtkFloatArray> values;
-        values->SetName(name);
-        values->SetArray(const_cast<float*>(column.data()), count, 1);
-        cloud->GetPointData()->AddArray(values);
+    const auto add = [&](const char* name, const char* unit, vtkFloatArray& values) {
+        values.SetName(name);
+        cloud->GetPointData()->AddArray(&values);
+        addUnit(*cloud, name, unit);
     };
-    addColumn("age", dust.age);
-    addColumn("lifetime", dust.lifetime);
-    addColumn("radius", dust.radius);
-    addColumn("opacity", dust.opacity);
-    const auto velocity = interleaved(dust.velocityX, dust.velocityY, dust.velocityZ);
-    velocity->SetName("velocity");
-    cloud->GetPointData()->AddArray(velocity);
-    if (!dust.uniformColour) {
-        const auto colour = interleaved(dust.red, dust.green, dust.blue);
-        colour->SetName("colour");
-        cloud->GetPointData()->AddArray(colour);
-    }
+    const auto addColumn = [&](const char* name, const char* unit, std::span<const float> column) {
+        vtkNew<vtkFloatArray> values;
+        values->SetArray(const_cast<float*>(column.data()), count, 1);
+        add(name, unit, *values);
+    };
+    addColumn("age", "s", dust.age);
+    addColumn("lifetime", "s", dust.lifetime);
+    addColumn("radius", "m", dust.radius);
+    addColumn("opacity", "1", dust.opacity);
+    add("velocity", "m/s", *interleaved(dust.velocityX, dust.velocityY, dust.velocityZ));
+    if (!dust.uniformColour) add("colour", "linear RGB", *interleaved(dust.red, dust.green, dust.blue));
     stampTime(*cloud, timeSeconds);
 
     WholeFile whole(file);
