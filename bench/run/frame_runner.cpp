@@ -8,7 +8,9 @@
 #include <stdexcept>
 
 #include "bench/measure/memory_probe.h"
+#include "bench/run/finite_picture.h"
 #include "methods/contract/registry.h"
+#include "methods/kit/draw/read_back.h"
 
 namespace dustbench::bench {
 namespace {
@@ -76,12 +78,19 @@ void FrameRunner::updateOnly(std::int64_t index) {
     device_.finish();
 }
 
+void FrameRunner::requireFinitePicture() const {
+    requireFinite(draw::readBack(host_.sceneColour()), lastIndex_, Stage::scene, "the scene");
+    requireFinite(host_.layer(), lastIndex_, Stage::draw, "the method's layer");
+}
+
 void FrameRunner::verifiedStep(std::int64_t index) {
     stepWorld();
+    lastIndex_ = index;
     const StageClock untimed;
     const Frame fast = host_.see(index, untimed);
     host_.update(fast);
     host_.draw(fast);
+    requireFinitePicture();
     const pictures::Image fastLayer = host_.layer(), fastResult = host_.result();
 
     device_.finish();

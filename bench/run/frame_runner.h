@@ -35,7 +35,7 @@ class FrameRunner {
     /// One step of the world without a picture; the method is updated if it requires that.
     void stepWithoutPicture(std::int64_t index);
     /// One step whose picture is drawn twice: as in a timed frame, and again with a wait after every stage. Throws
-    /// std::runtime_error if the two pictures differ.
+    /// std::runtime_error if the two pictures differ, and as requireFinitePicture does.
     void verifiedStep(std::int64_t index);
     /// One step of the world and of the method, as in a frame but without drawing. For exports.
     void updateOnly(std::int64_t index);
@@ -43,6 +43,8 @@ class FrameRunner {
     void frame(std::int64_t index);
     /// Waits for all frames in flight and completes their records.
     void drain();
+    /// Reads back the last frame. Throws SimulationError if its scene or layer has a value that is not finite.
+    void requireFinitePicture() const;
 
     /// Draws the state of the last `updateOnly`, outside all timing. For metrics. `withDetail`: also draws the layer
     /// without the scene.

@@ -170,6 +170,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     whole.peakResidentBytes = peakResidentBytes();
     if (const auto freeAtEnd = device.driverFreeBytes(); freeAtStart && freeAtEnd)
         whole.driverBytes = *freeAtStart - *freeAtEnd;
+    runner.requireFinitePicture();
 
     if (world.state().timeSeconds > world.driveSeconds() + 0.5 * stepSeconds)
         record.provenance.warnings.push_back(

@@ -1,0 +1,16 @@
+// Looks for values that are not finite in what a stage has drawn.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "methods/contract/stage_clock.h"
+#include "methods/kit/pictures/image.h"
+
+namespace dustbench::bench {
+
+/// Throws SimulationError with the first such pixel, from the top left, and how many there are:
+/// `frame 119: the method's layer is not finite in 3 pixels, first in (12, 40): red is nan (stage draw)`.
+void requireFinite(const pictures::Image& picture, std::int64_t frame, Stage stage, std::string_view what);
+
+}  // namespace dustbench::bench
