@@ -8,6 +8,7 @@ PAPER ?= carr2006
 METHOD ?= grid_fluid
 MINUTES ?= 10
 INPUTS ?= 10000
+KILLS ?= 1000
 JOBS ?= $(shell nproc)
 LINT = $(if $(SINCE),--since $(SINCE)) $(if $(LINT_SECONDS),--seconds $(LINT_SECONDS))
 PROGRAM := build/release/dustbench
@@ -106,6 +107,12 @@ view-random: build/asan/build.ninja ## Random inputs to the window's panels unde
 golden: build/release/build.ninja ## Draw the window's golden pictures anew, to be looked at before they are kept
 	@cmake --build --preset release --parallel $(JOBS) --target bench_panels_tests
 	@DUSTBENCH_GOLDEN=write build/release/bench_panels_tests --gtest_filter='GoldenPictures.*'
+
+.PHONY: faults
+faults: build/release/build.ninja ## Every call of the system fails once, and 1,000 kills (KILLS=1000): about an hour
+	@cmake --build --preset release --parallel $(JOBS) --target dustbench failing_calls
+	@python3 -B tests/faults/faults_test.py $(PROGRAM) build/release/tests/libfailing_calls.so build/release/tests/faults
+	@python3 -B tests/faults/kills.py $(PROGRAM) build/release/tests/kills --kills $(KILLS)
 
 .PHONY: tsan
 tsan: build/tsan/build.ninja ## The unit tests that need no GPU under ThreadSanitizer

@@ -1,5 +1,7 @@
 // The `dustbench` command: parses the arguments, runs a subcommand, and turns exceptions into one line and an exit
 // code.
+#include <signal.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -9,6 +11,7 @@
 #include <iterator>
 #include <list>
 #include <memory>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +21,7 @@
 #include "bench/measure/provenance.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/machine_error.h"
 #include "methods/kit/files/printable.h"
 #include "methods/kit/gpu/device.h"
 
@@ -27,6 +31,12 @@ namespace {
 /// Stderr gets exactly one line, whatever a file's text or name holds.
 void say(std::string_view message, std::string_view kind = "") {
     std::cerr << "dustbench: " << kind << files::printable(message) << std::endl;
+}
+
+/// The machine lacks something. What was done so far is kept, and what was being written is gone.
+int abort(std::string_view what) {
+    say(what, "aborted: ");
+    return exitAborted;
 }
 
 /// `--adapter` and `--data`, for this process and its children.
@@ -58,8 +68,8 @@ void requireWritten() {
     errno = 0;
     if (std::cout.flush()) return;
     const int error = errno;  // 0 if an earlier write failed
-    throw InputError(std::string("standard output: cannot be written") +
-                     (error != 0 ? std::string(": ") + std::strerror(error) : ""));
+    throw files::MachineError(std::string("standard output cannot be written") +
+                              (error != 0 ? std::string(": ") + std::strerror(error) : ""));
 }
 
 int run(const std::vector<std::string>& argv) {
@@ -77,6 +87,7 @@ int run(const std::vector<std::string>& argv) {
 
 int main(int argc, char** argv) {
     using namespace dustbench;
+    signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its writer, here and in child processes
     try {
         const int code = cli::run({argv + std::min(argc, 1), argv + argc});
         cli::requireWritten();
@@ -85,11 +96,17 @@ int main(int argc, char** argv) {
         cli::say(error.what());
         return cli::exitBadInput;
     } catch (const std::filesystem::filesystem_error& error) {
-        cli::say("'" + error.path1().string() + "': " + error.code().message());
+        const std::string message = "'" + error.path1().string() + "': " + error.code().message();
+        if (files::isOfMachine(error.code().value())) return cli::abort(message);
+        cli::say(message);
         return cli::exitBadInput;
     } catch (const SimulationError& error) {
         cli::say(error.what());
         return cli::exitRunFailed;
+    } catch (const files::MachineError& error) {
+        return cli::abort(error.what());
+    } catch (const std::bad_alloc&) {
+        return cli::abort(files::outOfMemory);
     } catch (const std::exception& error) {
         cli::say(error.what(), "internal error: ");
         return cli::exitInternal;

@@ -39,6 +39,7 @@ bench::ExecutionOptions executionOf(const PlanOptions& options) {
     execution.retryFailed = options.retryFailed;
     execution.redoOutdated = options.redoOutdated;
     execution.timeoutSeconds = options.timeoutSeconds;
+    execution.limits = options.limits;
     execution.cooldownSeconds = options.cooldownSeconds;
     execution.badInputEnds = options.badInputEnds;
     execution.forecasts = options.forecasts;

@@ -15,6 +15,7 @@ struct PlanOptions {
     bool retryFailed = false;
     bool redoOutdated = false;
     double timeoutSeconds = 0;
+    bench::ResourceLimits limits{};
     double cooldownSeconds = 0;
     bool badInputEnds = false;
     bench::ForecastByCell forecasts{};

@@ -13,6 +13,7 @@
 #include "bench/suite/planned_evaluation.h"
 #include "bench/suite/regression/regression_table.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/machine_error.h"
 #include "methods/kit/files/printable.h"
 
 namespace dustbench::cli {
@@ -35,7 +36,7 @@ std::vector<std::string> parseColumns(const std::string& text) {
 void writeCsv(const std::string& folder, const std::string& text) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error) throw bench::cannotWrite(folder, error.message());
+    if (error) files::failWriting(folder, error.value());
     const std::filesystem::path file = std::filesystem::path(folder) / "comparison.csv";
     bench::writeWhole(file, text);
     std::cout << file.string() << "\n";

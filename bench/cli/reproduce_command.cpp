@@ -69,6 +69,7 @@ std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
             each.plan = bench::planRuns(each.suite);
             checkWorlds(each.plan);
             each.options.timeoutSeconds = each.suite.timeoutSeconds;
+            each.options.limits = each.suite.limits;
             each.options.cooldownSeconds = each.suite.cooldownSeconds;
         }
     }

@@ -88,6 +88,7 @@ int runSuite(const SuiteOptions& options) {
     planOptions.retryFailed = options.retryFailed;
     planOptions.redoOutdated = options.redoOutdated;
     planOptions.timeoutSeconds = timeoutSeconds;
+    planOptions.limits = suite.limits;
     planOptions.cooldownSeconds = cooldownSeconds;
     if (options.dryRun || options.estimate) {
         const auto toDo = printPlan(plan, suite.repetitions, options.out);

@@ -51,8 +51,8 @@ TEST_F(Usage, AnUnknownKeyIsAnsweredWithTheNearestAndAllOthers) {
 
 TEST_F(Usage, WhatCannotBePrintedIsAnError) {
     for (const char* command : {"list methods", "help", "list --json"}) {
-        EXPECT_EQ(callOntoFullDevice(command), 3) << command;
-        EXPECT_THAT(contentOf(folder_ / "stderr"), HasSubstr("standard output: cannot be written")) << command;
+        EXPECT_EQ(callOntoFullDevice(command), 2) << command;
+        EXPECT_THAT(contentOf(folder_ / "stderr"), HasSubstr("aborted: standard output cannot be written")) << command;
     }
 }
 
@@ -68,6 +68,26 @@ TEST_F(Usage, ARunThatIsThereIsKeptUnlessForced) {
     EXPECT_EQ(contentOf(record), first);
     EXPECT_EQ(shortRun(command + " --force").code, 0);
     EXPECT_NE(contentOf(record), first);
+}
+
+TEST_F(Usage, WhatTheMachineDoesNotGiveAbortsAndTheSameCommandGoesOn) {
+    const std::string command = fmt::format(
+        "'{}' run --method {} --size 320x240 --frames 2 --warmup 0 --images 1 -P preroll=0.1 -P particles=50 --out {}",
+        DUSTBENCH_PROGRAM, methods().front().id, out());
+    // Pictures are larger than 20 kB.
+    const int status =
+        std::system(fmt::format("ulimit -f 20; {} 2>'{}'", command, (folder_ / "stderr").string()).c_str());
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2) << contentOf(folder_ / "stderr");
+    EXPECT_THAT(contentOf(folder_ / "stderr"), AllOf(HasSubstr("dustbench: aborted: "), HasSubstr("File too large")));
+    EXPECT_TRUE(runs(out()).empty());
+    EXPECT_EQ(std::system((command + " 2>/dev/null").c_str()), 0);
+    EXPECT_EQ(runs(out()).size(), 1u);
+}
+
+TEST_F(Usage, AFolderWithoutANameIsRefused) {
+    const Called called = call("run --method " + methods().front().id + " --frames 1 --out ''");
+    EXPECT_EQ(called.code, 3);
+    EXPECT_THAT(called.err, HasSubstr("got an empty name"));
 }
 
 TEST_F(Usage, AReportOfNothingIsNotWritten) {

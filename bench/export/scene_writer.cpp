@@ -16,6 +16,7 @@
 
 #include "bench/export/vtk_file.h"
 #include "bench/export/whole_file.h"
+#include "methods/kit/files/machine_error.h"
 #include "methods/kit/pictures/image.h"
 
 namespace dustbench::bench {
@@ -151,16 +152,16 @@ void writeScene(const scene::Scene& scene, const scene::SceneState& state, const
     std::error_code error;
     fs::remove_all(elsewhere.beside(), error);
     fs::create_directory(elsewhere.beside(), error);
-    if (error) throw cannotWrite(file, error.message());
+    if (error) files::failWriting(file, error.value());
     vtkNew<vtkXMLMultiBlockDataWriter> writer;
     writeVtk(*writer, *blocks, elsewhere.beside() / file.filename());
     fs::remove(file, error);
     const fs::path pieces = fs::path(file).replace_extension();
     fs::remove_all(pieces, error);
     fs::rename(elsewhere.beside() / pieces.filename(), pieces, error);
-    if (error) throw cannotWrite(pieces, error.message());
+    if (error) files::failWriting(pieces, error.value());
     fs::rename(elsewhere.beside() / file.filename(), file, error);
-    if (error) throw cannotWrite(file, error.message());
+    if (error) files::failWriting(file, error.value());
 }
 
 }  // namespace dustbench::bench

@@ -15,6 +15,7 @@
 #endif
 
 #include "bench/export/whole_file.h"
+#include "methods/kit/files/machine_error.h"
 
 namespace dustbench::bench {
 namespace {
@@ -34,10 +35,10 @@ class File final : public openvdb::io::Archive {
  public:
     void write(const std::filesystem::path& path, const openvdb::GridPtrVec& grids) const {
         std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-        if (!stream) throw cannotWrite(path, std::strerror(errno));
+        if (!stream) files::failWriting(path, errno);
         Archive::write(stream, grids, /*seekable=*/true);
         stream.flush();
-        if (!stream) throw cannotWrite(path, std::strerror(errno));
+        if (!stream) files::failWriting(path, errno);
     }
 };
 

@@ -18,6 +18,7 @@
 #include "bench/export/vti_writer.h"
 #include "bench/export/vtp_writer.h"
 #include "bench/export/whole_file.h"
+#include "methods/kit/files/machine_error.h"
 #include "methods/kit/memory/available_memory.h"
 
 namespace dustbench::bench {
@@ -62,18 +63,18 @@ void requireWritable(const CollectedVolume& volume, const std::vector<VolumeForm
 VolumeExporter::VolumeExporter(VolumeSettings settings, fs::path folder)
     : settings_(std::move(settings)), folder_(std::move(folder)) {
     if (settings_.region) requireMemory(planGrid(settings_.region, settings_.resolution), settings_, availableBytes());
+    if (folder_.empty()) throw InputError("output: got an empty name, expected a folder");
     std::error_code error;
     madeFolder_ = fs::create_directories(folder_, error);
-    if (error) throw cannotWrite(folder_, error.message());
+    if (error) files::failWriting(folder_, error.value());
     lock_ = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    std::string reason;
-    if (lock_ < 0 || access(folder_.c_str(), W_OK | X_OK) != 0)
-        reason = std::strerror(errno);
-    else if (flock(lock_, LOCK_EX | LOCK_NB) != 0)
-        reason = errno == EWOULDBLOCK ? "another dustbench is writing into it" : std::strerror(errno);
-    if (!reason.empty()) {
-        if (lock_ >= 0) close(lock_);
-        throw cannotWrite(folder_, reason);
+    if (lock_ < 0) files::failWriting(folder_, errno);
+    const bool isWritable = access(folder_.c_str(), W_OK | X_OK) == 0;
+    if (!isWritable || flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+        const int why = errno;
+        close(lock_);
+        if (isWritable && why == EWOULDBLOCK) throw cannotWrite(folder_, "another dustbench is writing into it");
+        files::failWriting(folder_, why);
     }
     removeUnfinished(folder_);
 }

@@ -11,9 +11,11 @@
 #include <vtkXMLWriter.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <string>
 
 #include "bench/export/whole_file.h"
+#include "methods/kit/files/machine_error.h"
 
 namespace dustbench::bench {
 
@@ -35,8 +37,11 @@ void writeVtk(vtkXMLWriter& writer, vtkDataObject& data, const std::filesystem::
     writer.EncodeAppendedDataOff();
     const int written = writer.Write();
     if (written != 0 && writer.GetErrorCode() == vtkErrorCode::NoError && complaint.empty()) return;
-    if (writer.GetErrorCode() != vtkErrorCode::NoError)
-        complaint = vtkErrorCode::GetStringFromErrorCode(writer.GetErrorCode());
+    const auto code = writer.GetErrorCode();  // an errno, or one of VTK's own
+    if (code == vtkErrorCode::OutOfDiskSpaceError) files::failWriting(file, ENOSPC);
+    if (code < vtkErrorCode::FirstVTKErrorCode && files::isOfMachine(static_cast<int>(code)))
+        files::failWriting(file, static_cast<int>(code));
+    if (code != vtkErrorCode::NoError) complaint = vtkErrorCode::GetStringFromErrorCode(code);
     std::ranges::replace(complaint, '\n', ' ');
     throw cannotWrite(file, complaint.empty() ? "VTK's writer failed" : complaint);
 }

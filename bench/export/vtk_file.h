@@ -13,7 +13,7 @@ namespace dustbench::bench {
 enum class Numbers { appended, within };
 
 /// Makes the writer write `data` to exactly `file`, which need not be the final place. Throws InputError with VTK's
-/// error message on failure.
+/// error message on failure, files::MachineError on a full disk.
 void writeVtk(vtkXMLWriter& writer, vtkDataObject& data, const std::filesystem::path& file,
               Numbers numbers = Numbers::appended);
 

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
+
+#include "methods/kit/files/machine_error.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
@@ -30,16 +31,17 @@ WholeFile::~WholeFile() {
 void WholeFile::publish() {
     std::error_code error;
     fs::rename(beside_, place_, error);
-    if (error) throw cannotWrite(place_, error.message());
+    if (error) files::failWriting(place_, error.value());
 }
 
 void writeWhole(const fs::path& file, std::string_view content) {
     WholeFile whole(file);
     {
+        errno = 0;
         std::ofstream stream(whole.beside(), std::ios::binary | std::ios::trunc);
         stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-        stream.flush();
-        if (!stream) throw cannotWrite(file, std::strerror(errno));
+        stream.close();
+        if (!stream) files::failWriting(file, errno);
     }
     whole.publish();
 }

@@ -19,7 +19,7 @@ class WholeFile {
     /// The hidden name to write to.
     [[nodiscard]] const std::filesystem::path& beside() const { return beside_; }
     [[nodiscard]] const std::filesystem::path& place() const { return place_; }
-    /// Moves it to its final place. Throws InputError on failure.
+    /// Moves it to its final place. Throws as files::failWriting.
     void publish();
 
  private:
@@ -27,9 +27,10 @@ class WholeFile {
     std::filesystem::path beside_;
 };
 
-/// Throws InputError if it cannot be written.
+/// Throws as files::failWriting if it cannot be written.
 void writeWhole(const std::filesystem::path& file, std::string_view content);
 
+/// Where no error number is known: files::failWriting.
 [[nodiscard]] InputError cannotWrite(const std::filesystem::path& path, std::string_view reason);
 
 /// Removes unfinished WholeFiles left in the folder by an interrupted program.

@@ -11,6 +11,7 @@
 #include "bench/export/test_clouds.h"
 #include "bench/export/vdb_writer.h"
 #include "bench/export/vti_writer.h"
+#include "methods/kit/files/machine_error.h"
 #include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
@@ -86,6 +87,17 @@ TEST(WholeFile, WhatAKilledProgramLeftIsRemovedAndNothingElse) {
     EXPECT_THAT(names, testing::UnorderedElementsAre("f.vti", ".hidden", ".other.new"));
 }
 
+template <typename Call>
+std::string machineError(const Call& call) {
+    try {
+        call();
+    } catch (const files::MachineError& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "expected a MachineError";
+    return "";
+}
+
 TEST(WholeFile, OnAFullDiskNoWriterLeavesAnything) {
     const TestFolder folder;
     const CollectedVolume volume = TestDust(500, 10, 0.3f, 1).volume();
@@ -93,9 +105,9 @@ TEST(WholeFile, OnAFullDiskNoWriterLeavesAnything) {
     std::vector<std::string> messages;
     {
         const FullDisk full(20'000);
-        messages = {inputError([&] { writeVti(grid, 0, folder.path() / "a.vti"); }),
-                    inputError([&] { writeVdb(grid, VdbPrecision::half, 0, 0, folder.path() / "a.vdb"); }),
-                    inputError([&] { writeWhole(folder.path() / "a.csv", std::string(30'000, 'x')); })};
+        messages = {machineError([&] { writeVti(grid, 0, folder.path() / "a.vti"); }),
+                    machineError([&] { writeVdb(grid, VdbPrecision::half, 0, 0, folder.path() / "a.vdb"); }),
+                    machineError([&] { writeWhole(folder.path() / "a.csv", std::string(30'000, 'x')); })};
     }
     EXPECT_THAT(messages, testing::Each(testing::HasSubstr("cannot be written")));
     EXPECT_TRUE(fs::is_empty(folder.path()));

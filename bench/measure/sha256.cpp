@@ -4,11 +4,14 @@
 #include <openssl/evp.h>
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 
+#include "methods/kit/files/machine_error.h"
 #include "methods/kit/files/whole_text.h"
 
 namespace dustbench::bench {
@@ -45,6 +48,7 @@ std::string sha256(std::string_view bytes) {
 
 std::string sha256OfFile(const std::filesystem::path& file, std::uintmax_t maximumBytes) {
     if (!files::refusalOf(file, maximumBytes).empty()) return "";
+    errno = 0;
     std::ifstream stream(file, std::ios::binary);
     std::vector<char> block(std::size_t{1} << 20);
     Digest digest;
@@ -55,6 +59,8 @@ std::string sha256OfFile(const std::filesystem::path& file, std::uintmax_t maxim
         bytes += got;
         digest.add({block.data(), got});
     } while (stream && bytes <= maximumBytes);
+    if (!stream.eof() && files::isShortage(errno))
+        throw files::MachineError(fmt::format("{} cannot be read: {}", file.string(), std::strerror(errno)));
     return stream.eof() && bytes <= maximumBytes ? digest.text() : "";
 }
 

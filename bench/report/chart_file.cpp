@@ -15,6 +15,7 @@
 #include "bench/report/report_json.h"
 #include "bench/run/child_process.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/machine_error.h"
 
 namespace dustbench::bench {
 namespace {
@@ -95,7 +96,8 @@ fs::path writeChart(const fs::path& folder, const ReportData& data, const std::s
     const fs::path place = folder / "charts" / fmt::format("{}.{}", chart, format);
     std::error_code error;
     fs::create_directories(place.parent_path(), error);
-    if (error) throw cannotWrite(place.parent_path(), error.message());
+    if (error) files::failWriting(place.parent_path(), error.value());
+    removeUnfinished(place.parent_path());
 
     WholeFile script(place.string() + ".js"), svg(place.string() + ".svg"), drawn(place), log(place.string() + ".log");
     writeWhole(script.beside(), fmt::format("{}\n{}\nconst reportColumns = {};\nconst reportCharts = {};\n"

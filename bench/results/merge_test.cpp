@@ -163,6 +163,13 @@ TEST_F(Merge, NamesWhatIsMissingOrBroken) {
     EXPECT_THAT(refusal({empty}), HasSubstr("haze-plain-r1-000000000000/run.json"));
 }
 
+TEST_F(Merge, PassesOverStrayFiles) {
+    const fs::path a = results("a", {1, 2});
+    write(a / "runs" / "notes.txt", "measured on a Monday");
+    EXPECT_EQ(mergeInto(folder_ / "out", {a}).copies.size(), 2u);
+    EXPECT_FALSE(fs::exists(folder_ / "out" / "runs" / "notes.txt"));
+}
+
 TEST_F(Merge, TakesNothingFromOutsideItsFolders) {
     write(folder_ / "secret", "not a result");
     const auto withLink = [&](const char* name, const fs::path& link, const fs::path& target) {

@@ -16,6 +16,7 @@
 #include "bench/results/summary.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
+#include "methods/kit/files/machine_error.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
@@ -28,23 +29,24 @@ constexpr std::string_view asideStart = ".damaged-";
 }  // namespace
 
 ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)) {
+    if (folder_.empty()) throw InputError("output: got an empty name, expected a folder");
     const fs::path runs = folder_ / "runs";
     std::error_code error;
     fs::create_directories(runs, error);
-    if (error) throw cannotWrite(folder_, error.message());
+    if (error) files::failWriting(folder_, error.value());
     for (const fs::path& each : {folder_, runs})
-        if (access(each.c_str(), W_OK | X_OK) != 0) throw cannotWrite(each, std::strerror(errno));
+        if (access(each.c_str(), W_OK | X_OK) != 0) files::failWriting(each, errno);
 
     lock_ = open(runs.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock_ < 0) throw cannotWrite(runs, std::strerror(errno));
+    if (lock_ < 0) files::failWriting(runs, errno);
     // The lock of a program that was just killed is released a moment later, when its child process has ended too.
     for (int attempt = 0; attempt < 10 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++attempt)
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
     if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-        const bool busy = errno == EWOULDBLOCK;
-        const std::string reason = busy ? "another dustbench is writing into it" : std::strerror(errno);
+        const int why = errno;
         close(lock_);
-        throw cannotWrite(folder_, reason);
+        if (why == EWOULDBLOCK) throw cannotWrite(folder_, "another dustbench is writing into it");
+        files::failWriting(folder_, why);
     }
 
     try {
@@ -53,7 +55,7 @@ ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)) {
         addMethodTimes(runs_);
     } catch (const fs::filesystem_error& failure) {
         close(lock_);
-        throw cannotWrite(folder_, failure.code().message());
+        files::failWriting(folder_, failure.code().value());
     } catch (...) {
         close(lock_);
         throw;
@@ -107,7 +109,7 @@ fs::path ResultsFolder::beginRun(const std::string& runId) {
     std::error_code error;
     fs::remove_all(hidden(runId), error);
     fs::create_directory(hidden(runId), error);
-    if (error) throw cannotWrite(hidden(runId), error.message());
+    if (error) files::failWriting(hidden(runId), error.value());
     return hidden(runId);
 }
 
@@ -123,10 +125,10 @@ void ResultsFolder::place(const std::string& runId) {
     if (fs::exists(runFolder(runId))) {
         fs::remove_all(old, error);
         fs::rename(runFolder(runId), old, error);
-        if (error) throw cannotWrite(runFolder(runId), error.message());
+        if (error) files::failWriting(runFolder(runId), error.value());
     }
     fs::rename(hidden(runId), runFolder(runId), error);
-    if (error) throw cannotWrite(runFolder(runId), error.message());
+    if (error) files::failWriting(runFolder(runId), error.value());
     fs::remove_all(old, error);
     runs_[runId] = std::move(run);
 }

@@ -39,7 +39,7 @@ StoredRuns readStoredRuns(const fs::path& folder) {
     fs::directory_iterator entry(folder / "runs", error);
     for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
         const std::string name = entry->path().filename();
-        if (name.starts_with('.')) continue;
+        if (name.starts_with('.') || entry->is_regular_file(error)) continue;  // a stray file is no run
         runs.emplace(name, readRunFolder(entry->path()));
     }
     if (error) throw InputError(fmt::format("'{}': cannot be read: {}", folder.string(), error.message()));

@@ -14,8 +14,8 @@ namespace dustbench::bench {
 /// How many runs that are done say nothing of their outputs, as a sentence; empty if there are none.
 [[nodiscard]] std::string saysNothingOfOutputs(const StoredRuns& runs);
 
-/// Reads completed runs only, not those that another program is still writing. Throws InputError with the folder or
-/// file if it is not a results folder, or a run in it cannot be read.
+/// Reads completed runs only, not those that another program is still writing, nor stray files. Throws InputError with
+/// the folder or file if it is not a results folder, or a run in it cannot be read.
 [[nodiscard]] StoredRuns readStoredRuns(const std::filesystem::path& folder);
 
 }  // namespace dustbench::bench

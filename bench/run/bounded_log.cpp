@@ -7,11 +7,12 @@
 #include <cstring>
 
 #include "bench/export/whole_file.h"
+#include "methods/kit/files/machine_error.h"
 
 namespace dustbench::bench {
 
 BoundedLog::BoundedLog(const std::filesystem::path& file) : stream_(file, std::ios::binary | std::ios::trunc) {
-    if (!stream_) throw cannotWrite(file, std::strerror(errno));
+    if (!stream_) files::failWriting(file, errno);
 }
 
 void BoundedLog::write(std::string_view text) {

@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,18 +13,24 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <fstream>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "bench/run/bounded_log.h"
+#include "methods/kit/files/machine_error.h"
 
 namespace dustbench::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::runtime_error systemError(const std::string& what) {
-    return std::runtime_error(what + ": " + std::strerror(errno));
+[[noreturn]] void fail(const std::string& what) {
+    const int error = errno;
+    const std::string message = "a process cannot be started: " + what + ": " + std::strerror(error);
+    if (files::isOfMachine(error) || error == EAGAIN) throw files::MachineError(message);
+    throw std::runtime_error(message);
 }
 
 /// Owns a file descriptor.
@@ -43,8 +50,17 @@ class Descriptor {
     int value_;
 };
 
+void setLimits(const ResourceLimits& limits) {
+    const auto set = [](auto resource, std::int64_t value, std::int64_t grace) {
+        const rlimit limit{static_cast<rlim_t>(value), static_cast<rlim_t>(value + grace)};
+        if (value > 0) setrlimit(resource, &limit);
+    };
+    set(RLIMIT_DATA, limits.memoryMegabytes * 1'000'000, 0);
+    set(RLIMIT_CPU, limits.cpuSeconds, 5);  // at its end comes SIGXCPU, after the grace SIGKILL
+}
+
 /// Runs after fork: only async-signal-safe calls until exec.
-[[noreturn]] void becomeCommand(char* const* argv, int output, int errors, pid_t parent) {
+[[noreturn]] void becomeCommand(char* const* argv, int output, int errors, pid_t parent, const ResourceLimits& limits) {
     setpgid(0, 0);  // Ctrl-C reaches only the parent, which then decides
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(127);
@@ -53,6 +69,7 @@ class Descriptor {
     signal(SIGPIPE, SIG_DFL);
     dup2(output, STDOUT_FILENO);
     dup2(errors, STDERR_FILENO);
+    setLimits(limits);
     execv(argv[0], argv);
     const char* const message = std::strerror(errno);
     [[maybe_unused]] const auto written = write(STDERR_FILENO, message, std::strlen(message));
@@ -105,8 +122,32 @@ class LineSplitter {
 /// Both ends of a new pipe.
 std::pair<int, int> newPipe() {
     std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw systemError("pipe");
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) fail("pipe");
     return {ends[0], ends[1]};
+}
+
+/// The processes whose parent is this one.
+std::set<pid_t> children() {
+    std::set<pid_t> list;
+    std::error_code error;
+    for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task", error)) {
+        std::ifstream file(thread.path() / "children");
+        for (pid_t child = 0; file >> child;) list.insert(child);
+    }
+    return list;
+}
+
+/// Kills what the child has left, and what that leaves in turn, but not the processes that were there before.
+void killOrphans(const std::set<pid_t>& before) {
+    for (bool found = true; found;) {
+        found = false;
+        for (const pid_t orphan : children()) {
+            if (before.contains(orphan)) continue;
+            found = true;
+            kill(orphan, SIGKILL);
+            waitpid(orphan, nullptr, 0);
+        }
+    }
 }
 
 }  // namespace
@@ -115,7 +156,7 @@ std::string ChildOutcome::reason() const {
     const std::string words = lastWords.empty() ? "" : ": " + lastWords;
     switch (end) {
         case End::exited:
-            return code == 0 ? "" : fmt::format("exit code {}{}", code, words);
+            return code == 0 ? "" : fmt::format("exit code {}{}", code, words.empty() ? ", without a word" : words);
         case End::killedBySignal: {
             const char* name = sigabbrev_np(code);
             return fmt::format("killed by {}{}", name ? std::string("SIG") + name : std::to_string(code), words);
@@ -143,10 +184,12 @@ ChildOutcome runChild(const ChildCommand& command) {
     Stream errors(errorsEnd, [&](std::string_view piece) { log.write(piece); });
     Descriptor errorsOfChild(errorsStart);
 
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
+    const std::set<pid_t> before = children();
     const pid_t parent = getpid();
     const pid_t child = fork();
-    if (child < 0) throw systemError("fork");
-    if (child == 0) becomeCommand(argv.data(), outputStart, errorsStart, parent);
+    if (child < 0) fail("fork");
+    if (child == 0) becomeCommand(argv.data(), outputStart, errorsStart, parent, command.limits);
     setpgid(child, child);  // in both processes, whichever runs first
     outputOfChild.reset();
     errorsOfChild.reset();
@@ -182,6 +225,7 @@ ChildOutcome runChild(const ChildCommand& command) {
         if (killed) kill(-child, SIGKILL);
     }
     kill(-child, SIGKILL);  // processes that it may have started
+    killOrphans(before);
     output.readWhatIsThere();
     errors.readWhatIsThere();
     log.finish();

@@ -1,6 +1,8 @@
 // Runs a command in a child process with a time limit and reports how it ended.
 //
-// The child cannot outlive this process: the kernel kills it when its parent dies. Threads: call from the main thread.
+// The child cannot outlive this process: the kernel kills it when its parent dies. Nor can what it started outlive the
+// child, in whatever session: this process becomes the parent of such orphans and kills them.
+// Threads: call from the main thread, and let no other start processes meanwhile.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +10,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "bench/suite/resource_limits.h"
 
 namespace dustbench::bench {
 
@@ -30,9 +34,11 @@ struct ChildCommand {
     std::function<void(std::string_view)> onLine;
     /// Called several times a second; returning true kills the child.
     std::function<bool()> interrupted;
+    ResourceLimits limits{};
 };
 
-/// Waits for the child to end. Throws std::runtime_error if it cannot be created.
+/// Waits for the child to end. Throws std::runtime_error if it cannot be created: files::MachineError if that is for
+/// want of memory, files or processes.
 [[nodiscard]] ChildOutcome runChild(const ChildCommand& command);
 
 }  // namespace dustbench::bench

@@ -1,6 +1,7 @@
 #include "bench/run/executor.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 
 #include <chrono>
 #include <thread>
@@ -11,6 +12,7 @@
 #include "bench/run/child_process.h"
 #include "bench/run/remaining_time.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/machine_error.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
@@ -26,9 +28,16 @@ constexpr std::uint64_t reserveBytes = 16 << 20;
 void requireRoom(const ResultsFolder& results, std::uint64_t bytes) {
     const std::uint64_t free = freeBytes(results.path());
     if (free < bytes)
-        throw cannotWrite(results.path(), fmt::format("the disk has {} left and the next run may need {}; the same "
-                                                      "command goes on once there is room",
-                                                      bytesText(free), bytesText(bytes)));
+        throw files::MachineError(
+            fmt::format("output '{}' cannot be written: the disk has {} left and the next run may "
+                        "need {}",
+                        results.path().string(), bytesText(free), bytesText(bytes)));
+}
+
+/// A file of a MiB can be made in the folder: quotas and inodes have no other sign that every file system gives.
+void requireWritable(const fs::path& folder) {
+    writeWhole(folder / "probe", std::string(std::size_t{1} << 20, 'x'));
+    fs::remove(folder / "probe");
 }
 
 /// Begins the reason of runs that their suite leaves out; later suites may run them.
@@ -97,6 +106,41 @@ struct Outcome {
     bool aborted = false;
 };
 
+constexpr int aborted = 2, badInput = 3;  // exit codes of a run's process
+
+/// The process's last line, without the program's name.
+std::string wordsOf(const ChildOutcome& outcome, std::string_view prefix) {
+    const std::string& words = outcome.lastWords;
+    return words.starts_with(prefix) ? words.substr(prefix.size()) : words;
+}
+
+/// Throws MachineError if that is why the process ended.
+void requireMachine(const ChildOutcome& outcome, const ResourceLimits& limits) {
+    if (outcome.end != ChildOutcome::End::exited || outcome.code != aborted) return;
+    const std::string what = wordsOf(outcome, "dustbench: aborted: ");
+    if (limits.memoryMegabytes > 0 && what.starts_with(files::outOfMemory)) return;  // its own limit
+    throw files::MachineError(what.empty() ? "a run gave up without a word" : what);
+}
+
+std::string reasonOf(const ChildOutcome& outcome, const ResourceLimits& limits) {
+    if (outcome.end == ChildOutcome::End::exited && outcome.code == aborted)
+        return fmt::format("needs more than {} MB of memory (memory_limit_mb)", limits.memoryMegabytes);
+    if (outcome.end == ChildOutcome::End::killedBySignal && outcome.code == SIGXCPU && limits.cpuSeconds > 0)
+        return fmt::format("needs more than {} s of processor time (cpu_limit_s)", limits.cpuSeconds);
+    return outcome.reason();
+}
+
+/// Why the record that a process left is not that of the run; empty if it is.
+std::string faultOf(const fs::path& folder, const std::string& id) {
+    if (!fs::exists(folder / "run.json")) return "ended without a result";
+    try {
+        const std::string got = readRunFile(folder / "run.json").runId;
+        return got == id ? "" : fmt::format("left the result of another run, '{}'", got);
+    } catch (const InputError& error) {
+        return fmt::format("left a result that cannot be read: {}", error.what());
+    }
+}
+
 Outcome runOne(const PlannedRun& run, ResultsFolder& results, const ExecutionOptions& options,
                ExecutionListener& listener) {
     const std::string id = runId(run.spec);
@@ -115,6 +159,7 @@ Outcome runOne(const PlannedRun& run, ResultsFolder& results, const ExecutionOpt
     command.argv = options.command(specFile, folder);
     command.log = folder / "log.txt";
     command.timeoutSeconds = options.timeoutSeconds;
+    command.limits = options.limits;
     command.interrupted = options.interrupted;
     command.onLine = [&](std::string_view line) {
         if (!line.empty()) progress = line;
@@ -126,20 +171,22 @@ Outcome runOne(const PlannedRun& run, ResultsFolder& results, const ExecutionOpt
         results.discard(id);
         return {RunStatus::failed, "interrupted", true};
     }
-    if (options.badInputEnds && outcome.end == End::exited && outcome.code == 3) {
-        results.discard(id);
-        constexpr std::string_view prefix = "dustbench: ";
-        throw InputError(outcome.lastWords.starts_with(prefix) ? outcome.lastWords.substr(prefix.size())
-                                                               : outcome.lastWords);
-    }
+    requireMachine(outcome, options.limits);
+    if (options.badInputEnds && outcome.end == End::exited && outcome.code == badInput)
+        throw InputError(outcome.lastWords.empty() ? "the run ended with exit code 3 and without a word"
+                                                   : wordsOf(outcome, "dustbench: "));
 
     if (!fs::exists(specFile)) throw cannotWrite(folder, "it was removed while a run was being written there");
     fs::remove(specFile);
     // A full disk is not a result of the run.
-    if (!outcome.succeeded()) requireRoom(results, reserveBytes);
-    if (!outcome.succeeded() || !fs::exists(folder / "run.json")) {
+    if (!outcome.succeeded()) {
+        requireRoom(results, reserveBytes);
+        requireWritable(folder);
+    }
+    const std::string fault = outcome.succeeded() ? faultOf(folder, id) : reasonOf(outcome, options.limits);
+    if (!fault.empty()) {
         const RunStatus status = outcome.end == End::timedOut ? RunStatus::timeout : RunStatus::failed;
-        std::string reason = outcome.succeeded() ? "ended without a result" : outcome.reason();
+        std::string reason = fault;
         if (status == RunStatus::timeout) reason += progress.empty() ? "" : " (at " + progress + ")";
         keepReason(folder, run.spec, status, reason, options);
     } else if (fs::file_size(command.log) == 0) {
@@ -174,7 +221,11 @@ ExecutionResult execute(const std::vector<PlannedRun>& plan, int repetitions, Re
             try {
                 return runOne(*run, results, options, listener);
             } catch (const fs::filesystem_error& failure) {
-                throw cannotWrite(results.path(), failure.code().message());
+                results.discard(runId(run->spec));
+                files::failWriting(results.path(), failure.code().value());
+            } catch (...) {
+                results.discard(runId(run->spec));
+                throw;
             }
         }();
         result.aborted = outcome.aborted;

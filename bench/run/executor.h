@@ -37,6 +37,7 @@ struct ExecutionOptions {
     bool retryFailed = false;   ///< re-run failed and timed-out runs
     bool redoOutdated = false;  ///< re-run results of another build or with changed input files
     double timeoutSeconds = 0;
+    ResourceLimits limits;
     double cooldownSeconds = 0;     ///< pause before each run except the first
     std::vector<std::string> argv;  ///< the user's command, for provenance
     /// The command that measures one run: it reads the specification and writes the run's files into the folder.
@@ -64,8 +65,9 @@ struct ExecutionResult {
 [[nodiscard]] std::vector<const PlannedRun*> runsToDo(const std::vector<PlannedRun>& plan, const ResultsFolder& results,
                                                       const ExecutionOptions& options);
 
-/// Throws InputError if the disk is full or the folder is no longer writable: finished runs are kept, and the same call
-/// continues once the problem is solved.
+/// Throws files::MachineError if the machine lacks something (a full disk, no more open files), here or in a run's
+/// process, and InputError if the folder is no longer writable: finished runs are kept, and the same call continues
+/// once the problem is solved.
 [[nodiscard]] ExecutionResult execute(const std::vector<PlannedRun>& plan, int repetitions, ResultsFolder& results,
                                       const ExecutionOptions& options, ExecutionListener& listener);
 

@@ -20,6 +20,7 @@
 #include "bench/run/remaining_time.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
+#include "methods/kit/files/machine_error.h"
 #include "methods/kit/maths/philox.h"
 
 namespace dustbench::bench {
@@ -207,7 +208,7 @@ TEST_F(ExecutorFaults, ARunWithoutRoomForItsFilesIsNotBegun) {
     try {
         (void)runAll();
         FAIL() << "nothing thrown";
-    } catch (const InputError& error) {
+    } catch (const files::MachineError& error) {
         EXPECT_NE(std::string(error.what()).find(" TB"), std::string::npos) << error.what();
     }
     EXPECT_TRUE(fs::is_empty(out() / "runs"));

@@ -59,6 +59,7 @@ PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& re
         command.argv = options.forecastCommand(folder / "spec.json", folder);
         command.log = folder / "log.txt";
         command.timeoutSeconds = options.timeoutSeconds;
+        command.limits = options.limits;
         command.interrupted = options.interrupted;
         command.onLine = [&](std::string_view line) {
             if (const auto parsed = parseForecast(line)) forecast = parsed;

@@ -11,6 +11,7 @@
 
 #include "bench/results/run_spec.h"
 #include "bench/suite/planned_evaluation.h"
+#include "bench/suite/resource_limits.h"
 
 namespace dustbench::bench {
 
@@ -44,6 +45,7 @@ struct Suite {
     Order order = Order::interleaved;
     bool baseline = false;        ///< the null method runs in every world too (baselines.h)
     double timeoutSeconds = 600;  ///< limit of one run
+    ResourceLimits limits;        ///< of the process of one run
     double cooldownSeconds = 0;   ///< pause between two runs
     std::vector<PlannedComparison> comparisons;
     std::vector<PlannedFit> fits;

@@ -262,6 +262,8 @@ void SuiteDraft::read(files::TomlReader& table) {
     }
     suite.repetitions = static_cast<int>(table.integer("repetitions", 1, maximumRepetitions, suite.repetitions));
     suite.timeoutSeconds = table.number("timeout_s", 1, 1e6, suite.timeoutSeconds);
+    suite.limits.memoryMegabytes = table.integer("memory_limit_mb", 0, 1'000'000'000, suite.limits.memoryMegabytes);
+    suite.limits.cpuSeconds = table.integer("cpu_limit_s", 0, 1'000'000, suite.limits.cpuSeconds);
     suite.cooldownSeconds = table.number("cooldown_s", 0, 3600, suite.cooldownSeconds);
     if (table.has("baseline")) baseline = table.boolean("baseline", false);
     if (table.has("order")) suite.order = table.choice("order", orders);

@@ -8,6 +8,7 @@
 #include "bench/export/whole_file.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
+#include "methods/kit/files/machine_error.h"
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/files/toml_text.h"
 
@@ -94,7 +95,7 @@ void SettingsKeeper::finish() {
     written_ = now_;  // another try only for another change
     std::error_code error;
     std::filesystem::create_directories(file_.parent_path(), error);
-    if (error) throw cannotWrite(file_.parent_path(), error.message());
+    if (error) files::failWriting(file_.parent_path(), error.value());
     writeWhole(file_, toToml(now_));
 }
 

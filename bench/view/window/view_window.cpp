@@ -252,7 +252,7 @@ class Loop {
         now.textScale = panels_.textScale();
         try {
             settings_.keep(now);
-        } catch (const InputError& error) {
+        } catch (const std::runtime_error& error) {
             viewer_.say(error.what());
         }
     }
@@ -260,7 +260,7 @@ class Loop {
     void keepAtEnd() {
         try {
             settings_.finish();
-        } catch (const InputError&) {
+        } catch (const std::runtime_error&) {
         }
     }
     /// False if the window has no area.

@@ -11,12 +11,16 @@
 #include <system_error>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/machine_error.h"
 
 namespace dustbench::files {
 namespace {
 
-std::string systemReason() {
-    return fmt::format("cannot be read: {}", std::generic_category().message(errno));
+/// Throws MachineError if the file is not what is wrong.
+std::string systemReason(const std::filesystem::path& file) {
+    const std::string reason = fmt::format("cannot be read: {}", std::generic_category().message(errno));
+    if (isShortage(errno)) throw MachineError(fmt::format("{} {}", file.string(), reason));
+    return reason;
 }
 
 std::string tooLong(std::uintmax_t maximumBytes) {
@@ -33,7 +37,7 @@ std::string kindOf(mode_t mode) {
 class OpenFile {
  public:
     explicit OpenFile(const std::filesystem::path& file)
-        : handle_(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
+        : file_(file), handle_(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
     ~OpenFile() {
         if (handle_ >= 0) close(handle_);
     }
@@ -42,7 +46,7 @@ class OpenFile {
 
     [[nodiscard]] std::string refusal(std::uintmax_t maximumBytes) const {
         struct stat facts {};
-        if (handle_ < 0 || fstat(handle_, &facts) != 0) return systemReason();
+        if (handle_ < 0 || fstat(handle_, &facts) != 0) return systemReason(file_);
         if (!S_ISREG(facts.st_mode)) return kindOf(facts.st_mode);
         return static_cast<std::uintmax_t>(facts.st_size) > maximumBytes ? tooLong(maximumBytes) : "";
     }
@@ -53,13 +57,14 @@ class OpenFile {
             const ssize_t bytes = read(handle_, block.data(), block.size());
             if (bytes == 0) return "";
             if (bytes < 0 && errno == EINTR) continue;
-            if (bytes < 0) return systemReason();
+            if (bytes < 0) return systemReason(file_);
             if (text.size() + static_cast<std::size_t>(bytes) > maximumBytes) return tooLong(maximumBytes);
             text.append(block.data(), static_cast<std::size_t>(bytes));
         }
     }
 
  private:
+    const std::filesystem::path& file_;
     int handle_;
 };
 
@@ -68,7 +73,7 @@ class OpenFile {
 std::string refusalOf(const std::filesystem::path& file, std::uintmax_t maximumBytes) {
     // Some devices act on being opened, so the kind is asked for first.
     struct stat facts {};
-    if (stat(file.c_str(), &facts) != 0) return systemReason();
+    if (stat(file.c_str(), &facts) != 0) return systemReason(file);
     if (!S_ISREG(facts.st_mode)) return kindOf(facts.st_mode);
     return OpenFile(file).refusal(maximumBytes);
 }

@@ -18,7 +18,8 @@ namespace dustbench::files {
 [[nodiscard]] DUSTBENCH_API std::string refusalOf(const std::filesystem::path& file,
                                                   std::uintmax_t maximumBytes = limits::textBytes);
 
-/// `expected` ends the message: `a TOML file`. Throws InputError with the file and the reason.
+/// `expected` ends the message: `a TOML file`. Throws InputError with the file and the reason; as refusalOf,
+/// MachineError if it is the machine that cannot read it.
 [[nodiscard]] DUSTBENCH_API std::string wholeText(const std::filesystem::path& file, std::string_view expected,
                                                   std::uintmax_t maximumBytes = limits::textBytes);
 

@@ -2,11 +2,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <string>
 #include <system_error>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/machine_error.h"
 #include "methods/kit/pictures/image.h"
 #include "methods/kit/pictures/picture_files.h"
 #include "methods/kit/pictures/picture_limits.h"
@@ -66,15 +68,17 @@ void writeImage(const Image& image, const fs::path& file) {
     // A temporary file beside the target keeps the rename within one file system; the process id makes its name unique.
     fs::path beside = file;
     beside += ".part" + std::to_string(getpid());
-    const auto fail = [&](const std::string& reason) {
+    const auto fail = [&](const std::string& reason, int error) {
         std::error_code ignored;
         fs::remove(beside, ignored);
+        if (files::isOfMachine(error)) files::failWriting(file, error);
         throw InputError("cannot write image '" + file.string() + "': " + reason);
     };
-    if (const std::string reason = tryToWrite(image, beside, extension == ".png"); !reason.empty()) fail(reason);
+    errno = 0;
+    if (const std::string reason = tryToWrite(image, beside, extension == ".png"); !reason.empty()) fail(reason, errno);
     std::error_code error;
     fs::rename(beside, file, error);
-    if (error) fail(error.message());
+    if (error) fail(error.message(), error.value());
 }
 
 Image readImage(const fs::path& file) {
