@@ -8,6 +8,7 @@ PAPER ?= carr2006
 METHOD ?= grid_fluid
 MINUTES ?= 10
 INPUTS ?= 10000
+SEED ?= 17
 KILLS ?= 1000
 JOBS ?= $(shell nproc)
 LINT = $(if $(SINCE),--since $(SINCE)) $(if $(LINT_SECONDS),--seconds $(LINT_SECONDS))
@@ -98,9 +99,9 @@ asan: build/asan/build.ninja ## The unit tests under AddressSanitizer and Undefi
 	@ctest --preset asan --exclude-regex _NOT_BUILT
 
 .PHONY: view-random
-view-random: build/asan/build.ninja ## Random inputs to the window's panels under AddressSanitizer (INPUTS=10000)
+view-random: build/asan/build.ninja ## Random inputs to the window's panels under AddressSanitizer (INPUTS=10000 SEED=17)
 	@cmake --build --preset asan --parallel $(JOBS) --target bench_panels_tests
-	@DUSTBENCH_RANDOM_INPUTS=$(INPUTS) ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 \
+	@DUSTBENCH_RANDOM_INPUTS=$(INPUTS) DUSTBENCH_RANDOM_SEED=$(SEED) ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 \
 		LSAN_OPTIONS=suppressions=tests/sanitizers/leaks.supp build/asan/bench_panels_tests --gtest_filter='*RandomInput*'
 
 .PHONY: golden

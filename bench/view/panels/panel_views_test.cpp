@@ -139,15 +139,23 @@ TEST_F(Panels, TheWheelWithCtrlEnlargesAroundTheCursor) {
     EXPECT_NE(viewer_->line(Half::a), line);
 }
 
+int numberIn(const char* variable, int initial) {
+    const char* const text = std::getenv(variable);
+    return text ? std::stoi(text) : initial;
+}
 /// Few by default; `DUSTBENCH_RANDOM_INPUTS=10000` for all.
 int randomInputs() {
-    const char* const text = std::getenv("DUSTBENCH_RANDOM_INPUTS");
-    return text ? std::stoi(text) : 500;
+    return numberIn("DUSTBENCH_RANDOM_INPUTS", 500);
+}
+unsigned randomSeed() {
+    return static_cast<unsigned>(numberIn("DUSTBENCH_RANDOM_SEED", 17));
 }
 
 TEST_F(Panels, RandomInputDoesNotBreakThem) {
     open(methods().front().id, methods().back().id);
-    std::mt19937 random(17);
+    const unsigned seed = randomSeed();
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
     const auto below = [&](int limit) { return static_cast<int>(random() % static_cast<unsigned>(limit)); };
     const int inputs = randomInputs();
     for (int n = 0; n < inputs; ++n) {

@@ -48,11 +48,14 @@ std::optional<std::string> showList(const char* label, const std::string& now, c
     return chosen;
 }
 
+int sliderFlags(bool logarithmic) {
+    return ImGuiSliderFlags_NoInput | (logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+}
+
 bool showSlider(const char* label, float& value, float minimum, float maximum, const char* format, WidgetMap& widgets,
                 bool logarithmic) {
     ImGui::SetNextItemWidth(fieldWidth());
-    const bool changed = ImGui::SliderFloat(label, &value, minimum, maximum, format,
-                                            logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+    const bool changed = ImGui::SliderFloat(label, &value, minimum, maximum, format, sliderFlags(logarithmic));
     widgets.note(label);
     return changed;
 }

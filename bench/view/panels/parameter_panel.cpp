@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "bench/view/panels/panel_widgets.h"
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
@@ -84,7 +85,7 @@ std::optional<std::string> ParameterPanel::slide(const Parameter& parameter, con
     const bool isWide = parameter.maximum - parameter.minimum > wideRange;
     const char* const format = parameter.type == ParameterType::integer ? "%.0f" : "%.4g";
     if (ImGui::SliderScalar("##value", ImGuiDataType_Double, &now, &parameter.minimum, &parameter.maximum, format,
-                            isWide ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None)) {
+                            sliderFlags(isWide))) {
         edited_ = parameter.name;
         slid_ = now;
     }
