@@ -101,6 +101,7 @@ std::string utf8(unsigned int point) {
 }
 
 void listen(GLFWwindow* window) {
+    glfwSetInputMode(window, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);  // a click may be shorter than a frame
     glfwSetKeyCallback(window, onKey);
     glfwSetCharCallback(window, [](GLFWwindow* to, unsigned int point) { reportedOf(to).input.text += utf8(point); });
     glfwSetScrollCallback(
