@@ -111,6 +111,12 @@ def faults_of(out, expected=None):
     return found
 
 
+def sums_of_runs(out):
+    runs = os.path.join(out, "runs")
+    return {name: sum_of(os.path.join(runs, name, "run.json")) for name in os.listdir(runs)
+            if os.path.isfile(os.path.join(runs, name, "run.json"))}
+
+
 def said_wrong(code, said, what):
     """What the program should not have said."""
     lines = [line for line in said.splitlines() if line.startswith("dustbench:")]
@@ -136,8 +142,7 @@ def try_kind(place, kind, every, chance):
         if not fresh and place.measure()[0]:
             failures.append("the suite does not run")
             return tried
-        before = {} if fresh else {name: sum_of(os.path.join(place.out, "runs", name, "run.json")) for name in os.listdir(
-            os.path.join(place.out, "runs"))}
+        before = {} if fresh else sums_of_runs(place.out)
         code, said = place.measure((kind, 0, 0))
         failures.extend(said_wrong(code, said, f"{kind} counted"))
         for n in chosen(place.calls(), every, chance):
@@ -153,9 +158,11 @@ def try_kind(place, kind, every, chance):
                 if code:
                     failures.append(f"{what}: the same command then ends with {code}: {said[-300:]!r}")
                 failures.extend(f"{what}, then: {each}" for each in faults_of(place.out, 2))
-                for name, total in before.items():
-                    if sum_of(os.path.join(place.out, "runs", name, "run.json")) != total:
-                        failures.append(f"{what}: {name} was measured again")
+                if not fresh and sums_of_runs(place.out) != before:
+                    failures.append(f"{what}: was measured again, or is lost")
+                    place.clear()
+                    place.measure()
+                    before = sums_of_runs(place.out)
                 tried += 1
     return tried
 

@@ -19,7 +19,7 @@ bool isOfMachine(int error) {
 }
 
 bool isShortage(int error) {
-    return error == EMFILE || error == ENFILE || error == ENOMEM;
+    return isOfMachine(error) && error != EIO;
 }
 
 void failWriting(const std::filesystem::path& path, int error) {

@@ -23,7 +23,7 @@ inline constexpr const char* outOfMemory = "out of memory";
 
 /// Whether an error number says so: ENOSPC, EDQUOT, EIO, EFBIG, EMFILE, ENFILE, ENOMEM.
 [[nodiscard]] DUSTBENCH_API bool isOfMachine(int error);
-/// Those of them that say nothing of the file that is read: EMFILE, ENFILE, ENOMEM. EIO is damage of that file.
+/// Those of them that say nothing of the file that is read: all but EIO, which is damage of that file.
 [[nodiscard]] DUSTBENCH_API bool isShortage(int error);
 
 /// `output 'a/b' cannot be written: No space left on device`: MachineError if the error number says so, else

@@ -21,8 +21,8 @@ TEST(MachineError, IsWhatTheMachineLacksAndNothingElse) {
 }
 
 TEST(MachineError, ADamagedFileIsNoShortage) {
-    for (const int error : {EMFILE, ENFILE, ENOMEM}) EXPECT_TRUE(isShortage(error)) << error;
-    for (const int error : {EIO, ENOSPC, ENOENT, EACCES}) EXPECT_FALSE(isShortage(error)) << error;
+    for (const int error : {EMFILE, ENFILE, ENOMEM, ENOSPC, EDQUOT, EFBIG}) EXPECT_TRUE(isShortage(error)) << error;
+    for (const int error : {EIO, ENOENT, EACCES}) EXPECT_FALSE(isShortage(error)) << error;
 }
 
 TEST(MachineError, NamesThePathAndTheReason) {
