@@ -13,7 +13,7 @@ seed="${SEED:-$(date +%s)}"
 cd "$root"
 
 sources=(tests/fuzz/coverage/readers.cpp methods/contract/errors.cpp
-    methods/kit/files/{csv,data_folder,input_log,printable,shipped_folder,toml_nesting,toml_reader,toml_text,whole_text}.cpp
+    methods/kit/files/{csv,data_folder,input_log,machine_error,printable,shipped_folder,toml_nesting,toml_reader,toml_text,whole_text}.cpp
     methods/kit/meshes/{mesh_text,obj_file,ply_file,ply_header,stl_file}.cpp
     methods/kit/volumes/{vti_file,vti_numbers,xml_scan}.cpp)
 flags=(-std=c++20 -O1 -g1 -I. -DDUSTBENCH_API= -DTOML_HEADER_ONLY=0 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all)
