@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
 
@@ -44,8 +45,8 @@ TEST(Provenance, WarnsOfAllThatDisturbs) {
 }
 
 TEST(Provenance, NamesInputsByTheirContent) {
-    const auto file = std::filesystem::path(testing::TempDir()) / "provenance_input.txt";
-    std::ofstream(file) << "abc";
+    const TestFolder folder;
+    const auto file = folder.write("input.txt", "abc");
     const auto hashes = hashInputs({file});
     ASSERT_EQ(hashes.size(), 1u);
     EXPECT_EQ(hashes[0].file, file.generic_string());

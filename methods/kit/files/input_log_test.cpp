@@ -7,6 +7,7 @@
 #include "methods/kit/files/csv.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_reader.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::files {
 namespace {
@@ -14,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(InputLog, NotesEachFileOnceThatIsReadWhileItLives) {
-    const fs::path folder = fs::path(testing::TempDir()) / "input_log";
+    const TestFolder place;
+    const fs::path& folder = place.path();
     fs::create_directories(folder / "deep");
     std::ofstream(folder / "a.toml") << "x = 1\n";
     std::ofstream(folder / "b.csv") << "x\n1\n";

@@ -8,6 +8,7 @@
 #include "methods/kit/maths/logarithm.h"
 #include "methods/kit/particles/part_table.h"
 #include "methods/kit/particles/test_world.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::particles {
 namespace {
@@ -123,8 +124,8 @@ TEST(Bounce, NothingEntersAMeshOrASphereAtAnySpeed) {
     const std::string box =
         "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-    const std::string file = testing::TempDir() + "/bounce_box.obj";
-    std::ofstream(file) << box;
+    const TestFolder folder;
+    const std::string file = folder.write("box.obj", box).string();
     for (const double speed : {5.0, 500.0}) {
         // The box and the ball are closed: particles neither leave nor enter.
         auto held = test::systemFrom(

@@ -11,6 +11,7 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/particles/part_table.h"
 #include "methods/kit/particles/test_world.h"
+#include "methods/kit/testing/test_folder.h"
 #include "source_folder.h"
 
 namespace dustbench::particles {
@@ -178,10 +179,10 @@ TEST(PartToml, MissingFileIsAnErrorWithItsName) {
 
 TEST(PartToml, FilesThatAFileNamesLieBesideItAndElseAmongTheData) {
     namespace fs = std::filesystem;
-    const fs::path folder = fs::path(testing::TempDir()) / "files_beside";
+    const TestFolder place;
+    const fs::path& folder = place.path();
     fs::create_directories(folder / "meshes");
-    fs::copy_file(DUSTBENCH_SOURCE_DIR "/data/shapes/meshes/hare.ply", folder / "meshes/own.ply",
-                  fs::copy_options::overwrite_existing);
+    fs::copy_file(DUSTBENCH_SOURCE_DIR "/data/shapes/meshes/hare.ply", folder / "meshes/own.ply");
     const auto read = [&](const std::string& mesh) {
         std::ofstream(folder / "mine.toml")
             << with(everyForce, "part = \"disc\", radius_metres = 0.2", "part = \"mesh\", mesh = \"" + mesh + "\"");

@@ -14,6 +14,7 @@
 #include "methods/kit/particles/part_table.h"
 #include "methods/kit/particles/test_statistics.h"
 #include "methods/kit/particles/test_world.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::particles {
 namespace {
@@ -127,10 +128,8 @@ TEST(DiscSource, IsUniform) {
 class MeshFile : public testing::Test {
  protected:
     /// Writes an OBJ file and returns a source that uses it.
-    static std::string sourceFrom(const std::string& obj, const std::string& more = "") {
-        const std::string file = testing::TempDir() + "/mesh_source.obj";
-        std::ofstream(file) << obj;
-        return "part = \"mesh\", mesh = \"" + file + "\"" + more;
+    [[nodiscard]] std::string sourceFrom(const std::string& obj, const std::string& more = "") const {
+        return "part = \"mesh\", mesh = \"" + folder_.write("source.obj", obj).string() + "\"" + more;
     }
     static std::string errorOf(const std::string& position) {
         try {
@@ -143,6 +142,9 @@ class MeshFile : public testing::Test {
     /// A right-angled tetrahedron with legs 1, 2 and 3.
     static inline const std::string tetrahedron =
         "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+ private:
+    TestFolder folder_;
 };
 
 TEST_F(MeshFile, SurfaceIsUniform) {
