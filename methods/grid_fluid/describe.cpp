@@ -136,6 +136,16 @@ MethodInfo describe() {
          "distance that the flow covers in a step (the Courant number): maximum since the beginning"},
         {"flow_divergence_max", "share", FactOver::lastFrame,
          "share of its volume that a cell gains in a step, as the pressure leaves it: maximum since the beginning"},
+        {"flow_divergence", "share", FactOver::lastFrame,
+         "share of its volume that a cell gains in a step by the stored speeds of its faces: maximum after the last "
+         "frame"},
+        {"flow_noise_speed", "share", FactOver::lastFrame,
+         "variance of the stored vertical speed along the vertical that lies in the top fifth of the spectrum, waves "
+         "shorter "
+         "than 2.5 cells, in columns clear of solids, after the last frame"},
+        {"flow_noise_density", "share", FactOver::lastFrame,
+         "variance of the density along the vertical that lies in the top fifth of the spectrum, as "
+         "`flow_noise_speed`, after the last frame"},
         {"pressure_unsolved",
          "steps",
          FactOver::lastFrame,

@@ -9,6 +9,7 @@
 #include "methods/contract/scene.h"
 #include "methods/contract/volume.h"
 #include "methods/grid_fluid/dust_mass.h"
+#include "methods/grid_fluid/flow/grid_noise.h"
 #include "methods/grid_fluid/fluid_place.h"
 #include "methods/kit/maths/transmittance.h"
 
@@ -170,15 +171,20 @@ void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
         solver_->gather(from[n], lanes[n]);
     }
     const std::vector<float> pressure = solver_->pressuresM2PerS2();
-    std::vector<float> velocity, reaction(count), solids;
+    std::vector<float> velocity, faces, reaction(count), solids;
     solver_->gather(flow::reaction, reaction);
     for (std::size_t c = 0; c < count; ++c)
         for (std::size_t axis = 0; axis < 3; ++axis) velocity.push_back(lanes[axis][c]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        solver_->gatherStored(std::array{flow::velocityX, flow::velocityY, flow::velocityZ}[axis], lanes[axis]);
+    for (std::size_t c = 0; c < count; ++c)
+        for (std::size_t axis = 0; axis < 3; ++axis) faces.push_back(lanes[axis][c]);
     for (const std::uint8_t body : solids_->bodies()) solids.push_back(body != 0 ? 1.0f : 0.0f);
-    const std::array<GridField, 6> fields{{{"density", "1", 1, density},
+    const std::array<GridField, 7> fields{{{"density", "1", 1, density},
                                            {"temperature", "K above the air", 1, lanes[3]},
                                            {"reaction", "1", 1, reaction},
                                            {"velocity", "m/s", 3, velocity},
+                                           {"face_speeds", "m/s (across the faces towards -x, -y, -z)", 3, faces},
                                            {"pressure", "m2/s2 (by density of the air)", 1, pressure},
                                            {"solids", "1 inside", 1, solids}}};
     visitor.grid({box.originMetres, box.spacingMetres, box.cells, extinction, fields});
@@ -197,8 +203,18 @@ void GridFluid::report(const Frame& frame, Facts& facts) const {
     facts.tell("flow_cells_per_step_max", extremes_.cellsPerStep);
     facts.tell("flow_divergence_max", extremes_.divergencePerStep);
     if (solvesPressure()) facts.tell("pressure_unsolved", extremes_.unsolvedSteps);
+    if (facts.wants("flow_divergence"))
+        facts.tell("flow_divergence", static_cast<double>(solver_->divergencePerStep()));
+    if (facts.wants("flow_noise_speed")) facts.tell("flow_noise_speed", noiseOf(flow::velocityY));
+    if (facts.wants("flow_noise_density")) facts.tell("flow_noise_density", noiseOf(flow::density));
     if (!facts.wants("mass_kept")) return;
     if (const auto kept = massKept(frame.dust)) facts.tell("mass_kept", *kept);
+}
+
+double GridFluid::noiseOf(flow::Lane lane) const {
+    std::vector<float> values(solver_->box().cellCount());
+    solver_->gatherStored(lane, values);
+    return flow::gridNoise(values, solids_->bodies(), solver_->box().cells);
 }
 
 std::optional<double> GridFluid::massKept(const Puffs& dust) const {

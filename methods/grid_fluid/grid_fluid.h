@@ -58,6 +58,8 @@ class GridFluid final : public Method {
     [[nodiscard]] bool solvesPressure() const { return settings_.solver.pressure == flow::PressureMethod::multigrid; }
     /// Optical mass of the fluid relative to that of the shared dust; empty if the box does not follow the vehicle.
     [[nodiscard]] std::optional<double> massKept(const Puffs& dust) const;
+    /// Noise at the grid's scale of the stored numbers (flow/grid_noise.h).
+    [[nodiscard]] double noiseOf(flow::Lane lane) const;
     void placeSolids(const scene::SceneState& state);
     void requireSourcesInside(const scene::SceneState& state);
     void show();

@@ -219,8 +219,8 @@ TEST(GridFluid, FollowsTheVehicleByWholeCellsAndHandsOverAllItHas) {
     EXPECT_EQ(collector.originMetres.y, 0);
     EXPECT_EQ(collector.grids, 2);
     EXPECT_NEAR(collector.mass, method.opticalMassSquareMetres(), 1e-4 * collector.mass);
-    EXPECT_EQ(collector.names,
-              (std::vector<std::string>{"density", "temperature", "reaction", "velocity", "pressure", "solids"}));
+    EXPECT_EQ(collector.names, (std::vector<std::string>{"density", "temperature", "reaction", "velocity",
+                                                         "face_speeds", "pressure", "solids"}));
     // The body and its four wheels, apart from their overlap.
     const double volume = collector.inside * std::pow(0.25, 3);
     EXPECT_NEAR(volume, 4.0 / 3 * std::numbers::pi * (1 + 4 * std::pow(0.33, 3)), 0.6);

@@ -53,7 +53,7 @@ double shareSwallowed(const flow::FluidSolver& solver, const glm::dvec3& centre,
     const auto isNear = [&](const glm::ivec3& cell) {
         return near[static_cast<std::size_t>(cell.x + cells.x * (cell.y + cells.y * cell.z))] != 0;
     };
-    const auto velocity = [&](const glm::ivec3& cell, int axis) {
+    const auto faceSpeed = [&](const glm::ivec3& cell, int axis) {
         return static_cast<double>(solver.cells().cell(solver.layout().at(cell.x, cell.y, cell.z))[axis]);
     };
     double swallowed = 0, undisturbed = 0;
@@ -66,7 +66,7 @@ double shareSwallowed(const flow::FluidSolver& solver, const glm::dvec3& centre,
                     const glm::ivec3 one(i, j, k), other = one + next;
                     if (isNear(one) == isNear(other)) continue;
                     const double inwards = isNear(other) ? 1 : -1;
-                    swallowed += inwards * 0.5 * (velocity(one, axis) + velocity(other, axis));
+                    swallowed += inwards * faceSpeed(other, axis);
                     undisturbed += std::max(inwards * static_cast<double>(stream[axis] - ballVelocity[axis]), 0.0);
                 }
     }

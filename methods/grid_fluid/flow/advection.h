@@ -1,5 +1,7 @@
-// Advects all quantities of a cell: trace back along the path, sample, and correct.
+// Advects all quantities of a cell and the speeds of its faces: trace back along the path, sample, and correct.
 //
+// Velocities lie on the faces that they cross: velocityX of cell (i, j, k) on its face towards −x, and so on. A cell's
+// path follows the midpoint rule; that of a face is the mean of the paths of its two cells, of second order as well.
 // Units: metres per second, cells. Threads: rows in blocks; each cell by itself.
 // Source: Stam1999, 2.2 (semi-Lagrangian); Selle2008, Eq. 4 and 3.2 (MacCormack, clamped to the extrema or reverted).
 // Departs: the forward path is the mirrored backward path: x₊ = x₋ + 2Δt·u(x), also of second order, without another
@@ -25,32 +27,53 @@ struct AdvectionRule {
     Limit limit = Limit::clamp;
 };
 
+/// What moves in a cell, as bits: its faces towards −x, −y, −z (1, 2, 4), and what lies at its centre (8).
+using Moving = std::uint8_t;
+inline constexpr Moving allMoves = 15;
+
+/// Cells by which a path may leave the box and still be corrected: beside a wall, speeds across it are rounding errors.
+inline constexpr float pathTolerance = 1.0f / 64;
+
 class Advection {
  public:
-    Advection(const CellLayout& layout, MemoryAccount& window) : layout_(layout), window_(window), places_(window) {}
+    Advection(const CellLayout& layout, MemoryAccount& window) : layout_(layout), window_(window), centres_(window) {}
 
-    /// Advects `from`, with ghosts filled, by `cellsPerSpeed` = Δt/h into `to`. `fluid` is 1 for fluid cells; others
-    /// are copied. The speed along z must not exceed `maximumSpeedZ`.
-    void advect(const CellField& from, CellField& to, const std::uint8_t* fluid, AdvectionRule rule,
-                float cellsPerSpeed, float maximumSpeedZ);
+    /// Advects `from`, with ghosts filled, by `cellsPerSpeed` = Δt/h into `to`. What does not move is copied. The speed
+    /// along z must not exceed `maximumSpeedZ`.
+    void advect(const CellField& from, CellField& to, const Moving* moving, AdvectionRule rule, float cellsPerSpeed,
+                float maximumSpeedZ);
 
  private:
     struct Pass;
+    class Row;
+    /// Arrays of the window besides the first guesses: velocities at the cells' centres, and half-way along their
+    /// paths.
+    enum Kept : std::size_t { centre = 0, halfway = 3, kept = 6 };
+
     /// Index in the window of a cell of the whole field.
     [[nodiscard]] std::size_t inWindow(std::size_t at) const {
         return at / layout_.slab % heldSlabs_ * layout_.slab + at % layout_.slab;
     }
-    struct KeptRow;
-    /// Of row (j, k) of the whole field.
-    [[nodiscard]] KeptRow keptRow(int j, int k);
+    [[nodiscard]] float* guesses() { return window_.data(); }
+    [[nodiscard]] float* velocities(std::size_t array) {
+        return window_.data() + CellField::floatsBehind + (lanes + array) * heldSlabs_ * layout_.slab;
+    }
+    /// Velocities at the centres of slab k, four floats each; k from −1 to nz.
+    [[nodiscard]] float* centresOf(int k) {
+        return centres_.data() + static_cast<std::size_t>(k + 1) % heldCentres_ * layout_.slab * 4;
+    }
+    void hold(std::size_t slabs, std::size_t centreSlabs);
+    void findCentres(const Pass& pass, int firstSlab, int lastSlab);
+    void findPaths(const Pass& pass, int firstSlab, int lastSlab);
+    void findPathsOfRow(const Pass& pass, int j, int k);
     void predict(const Pass& pass, int firstSlab, int lastSlab);
+    void keepFarFaces(const Pass& pass, int firstSlab, int lastSlab);
     void correct(const Pass& pass, int firstSlab, int lastSlab);
 
     CellLayout layout_;
-    LedgerVector<float> window_;  ///< first guesses of the slabs in progress
-    LedgerVector<float> places_;  ///< for each row of these slabs, its departure points: all x, all y, all z
-    std::size_t heldSlabs_ = 1;
-    std::size_t keptPitch_ = 0;  ///< numbers per row of each, a multiple of sixteen
+    LedgerVector<float> window_;   ///< of the slabs in progress
+    LedgerVector<float> centres_;  ///< of the slabs that paths can reach
+    std::size_t heldSlabs_ = 1, heldCentres_ = 1;
 };
 
 }  // namespace dustbench::grid_fluid::flow

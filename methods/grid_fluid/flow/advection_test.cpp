@@ -33,7 +33,8 @@ Carried carryRound(int n, AdvectionRule rule, double turns) {
     const CellLayout layout(glm::ivec3(n, n, 1));
     MemoryLedger ledger;
     CellField from(layout, ledger.account("a")), to(layout, ledger.account("b"));
-    const SolidCells solids(layout, openOverFloor, ledger.account("c"));
+    SolidCells solids(layout, openOverFloor, ledger.account("c"));
+    (void)solids.set({}, from);
     Advection advection(layout, ledger.account("d"));
     const int steps = static_cast<int>(std::lround(turns * 2 * pi * 0.22 * n / 0.6));
     const double angle = turns * 2 * pi / steps;
@@ -47,7 +48,7 @@ Carried carryRound(int n, AdvectionRule rule, double turns) {
             for (int j = -1; j <= n; ++j)
                 for (int i = -1; i <= n; ++i) {
                     float* record = field.cell(layout.at(i, j, k));
-                    record[velocityX] = static_cast<float>(-angle * (j + 0.5 - n * 0.5));
+                    record[velocityX] = static_cast<float>(-angle * (j + 0.5 - n * 0.5));  // the same on its faces
                     record[velocityY] = static_cast<float>(angle * (i + 0.5 - n * 0.5));
                     record[velocityZ] = 0;
                 }
@@ -56,9 +57,9 @@ Carried carryRound(int n, AdvectionRule rule, double turns) {
         from.cell(at)[density] = static_cast<float>(gaussian(i, j, 0));
     });
     for (int step = 0; step < steps; ++step) {
-        fillGhosts(from, layout, {closed, {}, false}, GhostUse::lookUp);
+        fillGhosts(from, layout, {closed, {}, false});
         setFlow(from);
-        advection.advect(from, to, solids.conductance(), rule, 1, 0);
+        advection.advect(from, to, solids.moving(), rule, 1, 0);
         from.swap(to);
     }
     Carried carried{0, 0};

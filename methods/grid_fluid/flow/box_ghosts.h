@@ -1,4 +1,4 @@
-// Fills the ghost cells, which represent the outside of the six sides of the box.
+// The sides of the box: the speeds of its outermost faces, and the ghost cells beyond, for look-ups.
 //
 // Units: metres per second. Threads: rows in blocks.
 #pragma once
@@ -14,13 +14,11 @@ struct GhostRule {
     bool noSlip = false;
 };
 
-/// Purpose of the ghosts of a wall.
-enum class GhostUse {
-    lookUp,  ///< mirrored flow, which vanishes halfway, at the wall
-    faces,   ///< the speed of the wall itself, as for a solid
-};
+/// The faces on the sides: 0 at a wall, the wind's speed at an inflow, that of the next face at an open side.
+void setSideFaces(CellField& cells, const CellLayout& layout, const GhostRule& rule);
 
-/// Beyond an open side the flow is extended, in clear air; beyond an inflow there is the wind, in clear air.
-void fillGhosts(CellField& cells, const CellLayout& layout, const GhostRule& rule, GhostUse use);
+/// Beyond a wall the flow is mirrored, or reversed if it holds the air; beyond an open side it goes on, in clear air;
+/// beyond an inflow there is the wind, in clear air. The faces on the sides stay.
+void fillGhosts(CellField& cells, const CellLayout& layout, const GhostRule& rule);
 
 }  // namespace dustbench::grid_fluid::flow

@@ -44,7 +44,8 @@ double densityLeaving(const CellField& cells, const CellLayout& layout, const st
                     beyond[axis] += far ? 1 : -1;
                     if (conductance[layout.at(beyond.x, beyond.y, beyond.z)] != 2) continue;
                     const float* record = cells.cell(layout.at(cell.x, cell.y, cell.z));
-                    const float out = (far ? record[axis] : -record[axis]) * cellsPerSpeed;
+                    const float* face = far ? cells.cell(layout.at(beyond.x, beyond.y, beyond.z)) : record;
+                    const float out = (far ? face[axis] : -face[axis]) * cellsPerSpeed;
                     if (out > 0) sum += static_cast<double>(out * record[density]);
                 }
         }

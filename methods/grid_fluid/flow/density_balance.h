@@ -10,7 +10,7 @@
 namespace dustbench::grid_fluid::flow {
 
 [[nodiscard]] double densityTotal(const CellField& cells, const CellLayout& layout);
-/// Density that leaves through open sides within a step, by the speeds of the outermost cells. `cellsPerSpeed` = Δt/h.
+/// Density that leaves through open sides within a step, by the speeds of the faces there. `cellsPerSpeed` = Δt/h.
 [[nodiscard]] double densityLeaving(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
                                     float cellsPerSpeed);
 /// Scales all densities so that they sum to `total`, by at most a tenth.

@@ -132,10 +132,9 @@ struct Kernels {
         borrowed.resize(floats);
         advect({});
         from.swap(to);
-        fill(GhostUse::lookUp);
+        fillGhosts(from, layout, {plume.settings.sides, {}, false});
     }
-    void fill(GhostUse use) { fillGhosts(from, layout, {plume.settings.sides, {}, false}, use); }
-    void advect(AdvectionRule rule) { advection.advect(from, to, solids.conductance(), rule, 1, 1.5f); }
+    void advect(AdvectionRule rule) { advection.advect(from, to, solids.moving(), rule, 1, 1.5f); }
     void build() { pressure.build(borrowed, solids.conductance()); }
     void gather() { gatherDivergence(from, layout, solids.conductance(), pressure.finest()); }
 
@@ -146,8 +145,7 @@ struct Kernels {
     CellField from, to;
     LedgerVector<float> borrowed;  ///< scratch as the solver provides it: aligned, in large pages
     Advection advection;
-    SolidCells solids;
-    Projection projection;
+    const SolidCells& solids;
 };
 
 void advect(benchmark::State& state, AdvectionScheme scheme) {
@@ -160,22 +158,21 @@ void forces(benchmark::State& state) {
     Kernels kernels(boxOf(state));
     // The time step is too short to change the flow over all repetitions.
     for (auto _ : state)
-        applyForces(kernels.from, kernels.layout, kernels.solids.conductance(), kernels.plume.settings.forces, 1, 1e-9f,
-                    kernels.borrowed);
+        applyForces(kernels.from, kernels.layout, kernels.solids.conductance(), kernels.solids.moving(),
+                    kernels.plume.settings.forces, 1, 1e-9f, kernels.borrowed);
     countBytes(state, 24 + 16 + 16 + 48);
 }
 
 /// The whole projection: operator, divergence, solution and gradient.
 void pressure(benchmark::State& state) {
     Kernels kernels(boxOf(state));
-    kernels.fill(GhostUse::faces);
     PressureResult result;
     for (auto _ : state) {
         kernels.build();
         kernels.gather();
         result = kernels.pressure.solve({PressureMethod::multigrid, 0, 30, 1e-3f});
         // Write to an unused copy, so that the input stays the same.
-        kernels.projection.subtractGradient(kernels.to, kernels.layout, kernels.solids, kernels.pressure.finest());
+        subtractGradient(kernels.to, kernels.layout, kernels.solids.conductance(), kernels.pressure.finest());
     }
     state.counters["cycles"] = result.cycles;
     state.counters["divergence"] = static_cast<double>(result.residual);
@@ -208,7 +205,7 @@ void gradient(benchmark::State& state) {
     kernels.build();
     kernels.pressure.finest().clearPressure();
     for (auto _ : state)
-        kernels.projection.subtractGradient(kernels.from, kernels.layout, kernels.solids, kernels.pressure.finest());
+        subtractGradient(kernels.from, kernels.layout, kernels.solids.conductance(), kernels.pressure.finest());
     countBytes(state, 48 + 4);
 }
 

@@ -45,6 +45,7 @@ FluidSolver::FluidSolver(const FluidSettings& settings, MemoryLedger& ledger)
       advection_(layout_, ledger.account("fluid advection window")) {
     for (std::size_t at = 0; at < layout_.padded(); ++at)
         for (int axis = 0; axis < 3; ++axis) cells_.cell(at)[axis] = settings_.windMetresPerSecond[axis];
+    setSideFaces(cells_, layout_, ghostRule());
     (void)solids_.set({}, cells_);
 }
 
@@ -55,10 +56,6 @@ std::size_t FluidSolver::floatsToLend() const {
 void FluidSolver::setSolids(const SolidMask& mask) {
     covered_ += solids_.set(mask, cells_);
     speedsKnown_ = false;
-}
-
-void FluidSolver::fill(GhostUse use) {
-    fillGhosts(cells_, layout_, {settings_.sides, settings_.windMetresPerSecond, settings_.noSlip}, use);
 }
 
 StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> sources, const StageClock& clock) {
@@ -75,8 +72,9 @@ StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> so
         const auto timing = clock.measureDetail("forces");
         addSources(sources, seconds);
         diffuseVelocity(seconds);
-        if (settings_.forces.confinementPerSecond > 0) fill(GhostUse::lookUp);
-        applyForces(cells_, layout_, solids_.conductance(), settings_.forces, spacing, seconds, borrowed());
+        if (settings_.forces.confinementPerSecond > 0) fillGhosts();
+        applyForces(cells_, layout_, solids_.conductance(), solids_.moving(), settings_.forces, spacing, seconds,
+                    borrowed());
     }
     {
         const auto timing = clock.measureDetail("project");
@@ -97,22 +95,23 @@ void FluidSolver::advect(float seconds) {
                                    densityLeaving(cells_, layout_, solids_.conductance(), cellsPerSpeed)
                              : 0;
     solids_.extendInto(cells_, !settings_.noSlip);
-    fill(GhostUse::lookUp);
-    advection_.advect(cells_, spare_, solids_.conductance(), settings_.advection, cellsPerSpeed, maximumSpeeds_.z);
+    fillGhosts();
+    advection_.advect(cells_, spare_, solids_.moving(), settings_.advection, cellsPerSpeed, maximumSpeeds_.z);
     cells_.swap(spare_);
+    setSideFaces(cells_, layout_, ghostRule());
     solids_.restore(cells_);
     if (keeps) scaleDensity(cells_, layout_, due);
     covered_ = 0;
 }
 
 PressureResult FluidSolver::project(float seconds) {
-    fill(GhostUse::faces);
+    setSideFaces(cells_, layout_, ghostRule());
     pressure_.build(borrowed(), solids_.conductance());
     gatherDivergence(cells_, layout_, solids_.conductance(), pressure_.finest());
     const PressureRule rule{settings_.pressure, settings_.jacobiSweeps, settings_.maximumCycles,
                             settings_.divergencePerStep * static_cast<float>(settings_.box.spacingMetres) / seconds};
     const PressureResult result = pressure_.solve(rule);
-    projection_.subtractGradient(cells_, layout_, solids_, pressure_.finest());
+    subtractGradient(cells_, layout_, solids_.conductance(), pressure_.finest());
     return result;
 }
 
@@ -120,31 +119,42 @@ void FluidSolver::addSources(std::span<const FluidSource> sources, float seconds
     const FluidBox& box = settings_.box;
     for (const FluidSource& source : sources) {
         const SourceReach reach = reachOf(source, box);
-        const auto forFluidInReach = [&](const auto& take) {
+        const auto strengthAt = [&](const glm::vec3& place) {
+            const glm::vec3 d = (place - glm::vec3(reach.centreCells)) * reach.perRadius;
+            return std::exp(-0.5f * glm::dot(d, d));
+        };
+        const auto forCellsInReach = [&](const auto& take) {
             for (int k = reach.first.z; k <= reach.last.z; ++k)
                 for (int j = reach.first.y; j <= reach.last.y; ++j)
                     for (int i = reach.first.x; i <= reach.last.x; ++i) {
                         const std::size_t at = layout_.at(i, j, k);
-                        if (solids_.conductance()[at] != 1) continue;
-                        const glm::vec3 d = glm::vec3(glm::dvec3(i, j, k) - reach.centreCells) * reach.perRadius;
-                        take(cells_.cell(at), std::exp(-0.5f * (d.x * d.x + d.y * d.y + d.z * d.z)));
+                        take(cells_.cell(at), solids_.moving()[at], glm::vec3(i, j, k));
                     }
         };
         float added = source.densityPerSecond * seconds;
         if (source.amountM3PerSecond > 0) {
             double sum = 0;
-            forFluidInReach([&](const float*, float strength) { sum += static_cast<double>(strength); });
+            forCellsInReach([&](const float*, Moving moving, const glm::vec3& place) {
+                if ((moving & 8) != 0) sum += static_cast<double>(strengthAt(place));
+            });
             const double cell = box.spacingMetres * box.spacingMetres * box.spacingMetres;
             if (sum > 0)
                 added += static_cast<float>(static_cast<double>(source.amountM3PerSecond * seconds) / (sum * cell));
         }
         const float taken = 1 - std::exp(-source.velocityPerSecond * seconds);
-        forFluidInReach([&](float* record, float strength) {
-            record[density] += strength * added;
-            record[temperature] += strength * source.kelvinPerSecond * seconds;
-            record[reaction] = std::max(record[reaction], strength * source.reaction);
-            for (int axis = 0; axis < 3; ++axis)
-                record[axis] += strength * taken * (source.velocityMetresPerSecond[axis] - record[axis]);
+        forCellsInReach([&](float* record, Moving moving, const glm::vec3& place) {
+            if ((moving & 8) != 0) {
+                const float strength = strengthAt(place);
+                record[density] += strength * added;
+                record[temperature] += strength * source.kelvinPerSecond * seconds;
+                record[reaction] = std::max(record[reaction], strength * source.reaction);
+            }
+            for (int axis = 0; axis < 3; ++axis) {
+                if ((moving >> axis & 1) == 0) continue;
+                glm::vec3 face = place;
+                face[axis] -= 0.5f;
+                record[axis] += strengthAt(face) * taken * (source.velocityMetresPerSecond[axis] - record[axis]);
+            }
         });
     }
 }
@@ -154,8 +164,8 @@ void FluidSolver::diffuseVelocity(float seconds) {
     const float diffusion = settings_.forces.viscosityM2PerSecond * seconds / (spacing * spacing);
     const int parts = diffusionParts(settings_, seconds);
     for (int part = 0; part < parts; ++part) {
-        fill(GhostUse::lookUp);
-        diffuse(cells_, layout_, solids_.conductance(), diffusion / static_cast<float>(parts), borrowed());
+        fillGhosts();
+        diffuse(cells_, layout_, solids_.moving(), diffusion / static_cast<float>(parts), borrowed());
     }
 }
 
@@ -199,23 +209,23 @@ void FluidSolver::findMaximumSpeeds() {
 }
 
 void FluidSolver::scroll(glm::ivec3 by) {
-    const std::array<int, 3> size{layout_.nx, layout_.ny, layout_.nz};
-    parallel::forEachBlock(layout_.rows(), 16, [&](std::size_t first, std::size_t count) {
-        for (std::size_t r = first; r < first + count; ++r) {
-            const int j = layout_.rowJ(r), k = layout_.rowK(r);
-            for (int i = 0; i < size[0]; ++i) {
-                float* record = spare_.cell(layout_.at(i, j, k));
-                const glm::ivec3 from = glm::ivec3(i, j, k) + by;
-                const bool inside = from.x >= 0 && from.y >= 0 && from.z >= 0 && from.x < size[0] && from.y < size[1] &&
-                                    from.z < size[2];
-                if (inside) {
-                    std::memcpy(record, cells_.cell(layout_.at(from.x, from.y, from.z)), lanes * sizeof(float));
-                } else {
-                    for (int axis = 0; axis < 3; ++axis) record[axis] = settings_.windMetresPerSecond[axis];
-                    record[density] = record[temperature] = record[reaction] = 0;
-                }
+    const glm::ivec3 size(layout_.nx, layout_.ny, layout_.nz);
+    // With the records behind the last cells, which hold the faces of the far sides.
+    parallel::forEachBlock(static_cast<std::size_t>(size.z) + 1, 1, [&](std::size_t slab, std::size_t) {
+        for (glm::ivec3 cell(0, 0, static_cast<int>(slab)); cell.y <= size.y; ++cell.y)
+            for (cell.x = 0; cell.x <= size.x; ++cell.x) {
+                float* record = spare_.cell(layout_.at(cell.x, cell.y, cell.z));
+                const glm::ivec3 from = cell + by;
+                const auto had = [&](int farAxis) {  // the records behind the last cells hold faces of one axis each
+                    glm::ivec3 end = size;
+                    if (farAxis >= 0) end[farAxis] += 1;
+                    return glm::all(glm::greaterThanEqual(from, glm::ivec3(0))) && glm::all(glm::lessThan(from, end));
+                };
+                const float* old = cells_.cell(layout_.at(from.x, from.y, from.z));
+                for (int axis = 0; axis < 3; ++axis)
+                    record[axis] = had(axis) ? old[axis] : settings_.windMetresPerSecond[axis];
+                for (std::size_t lane = density; lane < lanes; ++lane) record[lane] = had(-1) ? old[lane] : 0;
             }
-        }
     });
     cells_.swap(spare_);
     settings_.box.originMetres += glm::dvec3(by) * settings_.box.spacingMetres;
@@ -224,13 +234,28 @@ void FluidSolver::scroll(glm::ivec3 by) {
 }
 
 void FluidSolver::gather(Lane lane, std::span<float> to) const {
+    gatherMean(lane, lane > velocityZ ? 0 : std::array{std::size_t{1}, layout_.row, layout_.slab}[lane], to);
+}
+
+void FluidSolver::gatherStored(Lane lane, std::span<float> to) const {
+    gatherMean(lane, 0, to);
+}
+
+/// Of each record and the one `next` behind it.
+void FluidSolver::gatherMean(Lane lane, std::size_t next, std::span<float> to) const {
     const auto width = static_cast<std::size_t>(layout_.nx);
     parallel::forEachBlock(layout_.rows(), 64, [&](std::size_t first, std::size_t count) {
         for (std::size_t r = first; r < first + count; ++r) {
             const float* record = cells_.cell(layout_.at(0, layout_.rowJ(r), layout_.rowK(r)));
-            for (std::size_t i = 0; i < width; ++i) to[r * width + i] = record[i * lanes + lane];
+            for (std::size_t i = 0; i < width; ++i)
+                to[r * width + i] = 0.5f * (record[i * lanes + lane] + record[(i + next) * lanes + lane]);
         }
     });
+}
+
+float FluidSolver::divergencePerStep() const {
+    return maximumDivergence(cells_, layout_, solids_.conductance()) *
+           static_cast<float>(lastStepSeconds_ / settings_.box.spacingMetres);
 }
 
 void FluidSolver::gather(Lane, const gpu::Texture&) const {

@@ -32,6 +32,7 @@ class FluidSolver final : public Solver {
     [[nodiscard]] std::int64_t steps() const override { return steps_; }
     [[nodiscard]] std::uint64_t stateHash() const override;
     void gather(Lane lane, std::span<float> to) const override;
+    void gatherStored(Lane lane, std::span<float> to) const override;
     [[nodiscard]] std::vector<float> pressuresM2PerS2() const override;
     [[nodiscard]] bool onGpu() const override { return false; }
     void gather(Lane lane, const gpu::Texture& to) const override;
@@ -45,8 +46,11 @@ class FluidSolver final : public Solver {
         return cells_;
     }
     [[nodiscard]] const SolidCells& solids() const { return solids_; }
+    /// Greatest |∇·u|·Δt of the stored faces, by the last step's Δt; 0 before the first.
+    [[nodiscard]] float divergencePerStep() const override;
 
  private:
+    void gatherMean(Lane lane, std::size_t next, std::span<float> to) const;
     void addSources(std::span<const FluidSource> sources, float stepSeconds);
     void diffuseVelocity(float stepSeconds);
     void advect(float stepSeconds);
@@ -54,7 +58,10 @@ class FluidSolver final : public Solver {
     void findMaximumSpeeds();
     [[nodiscard]] std::size_t floatsToLend() const;
     [[nodiscard]] std::span<float> borrowed() { return {spare_.data(), spare_.floats()}; }
-    void fill(GhostUse use);
+    [[nodiscard]] GhostRule ghostRule() const {
+        return {settings_.sides, settings_.windMetresPerSecond, settings_.noSlip};
+    }
+    void fillGhosts() { flow::fillGhosts(cells_, layout_, ghostRule()); }
 
     FluidSettings settings_;
     CellLayout layout_;
@@ -62,7 +69,6 @@ class FluidSolver final : public Solver {
     CellField cells_, spare_;  ///< `spare_`: the previous state; between steps, memory for forces and pressure
     SolidCells solids_;
     Advection advection_;
-    Projection projection_;
     glm::vec3 maximumSpeeds_{0};
     bool speedsKnown_ = false;
     double covered_ = 0;  ///< density covered by solids since the last step

@@ -28,13 +28,8 @@ struct Curl {
     float *x, *y, *z, *length;
 };
 
-/// Rows of a force in m/s², ready to be added.
-struct ForceRows {
-    std::array<float, maximumCells> x, y, z;
-};
-
-/// f = ε·h·(N × ω), N = ∇|ω| / |∇|ω||. Beyond the box |ω| is extended.
-void confinementRow(const Curl& curl, const CellLayout& layout, int j, int k, float strength, ForceRows& force) {
+/// f = ε·h·(N × ω), N = ∇|ω| / |∇|ω||, in place of ω. Beyond the box |ω| is extended.
+void confineRow(const Curl& curl, const CellLayout& layout, int j, int k, float strength) {
     const auto nx = static_cast<std::size_t>(layout.nx), slab = nx * static_cast<std::size_t>(layout.ny);
     const std::size_t at = static_cast<std::size_t>(k) * slab + static_cast<std::size_t>(j) * nx;
     const float* own = curl.length + at;
@@ -42,18 +37,71 @@ void confinementRow(const Curl& curl, const CellLayout& layout, int j, int k, fl
     const float* above = j + 1 < layout.ny ? own + nx : own;
     const float* before = k > 0 ? own - slab : own;
     const float* behind = k + 1 < layout.nz ? own + slab : own;
-    const float *wx = curl.x + at, *wy = curl.y + at, *wz = curl.z + at;
+    float *wx = curl.x + at, *wy = curl.y + at, *wz = curl.z + at;
     const auto cell = [&](std::size_t i, float left, float right) {
         const float gx = right - left, gy = above[i] - below[i], gz = behind[i] - before[i];
         const float scale = strength / std::sqrt(gx * gx + gy * gy + gz * gz + 1e-20f);
-        force.x[i] = scale * (gy * wz[i] - gz * wy[i]);
-        force.y[i] = scale * (gz * wx[i] - gx * wz[i]);
-        force.z[i] = scale * (gx * wy[i] - gy * wx[i]);
+        const float x = wx[i], y = wy[i], z = wz[i];
+        wx[i] = scale * (gy * z - gz * y);
+        wy[i] = scale * (gz * x - gx * z);
+        wz[i] = scale * (gx * y - gy * x);
     };
 #pragma GCC ivdep
     for (std::size_t i = 1; i + 1 < nx; ++i) cell(i, own[i - 1], own[i + 1]);
     cell(0, own[0], own[1]);
     cell(nx - 1, own[nx - 2], own[nx - 1]);
+}
+
+/// What is added to the faces of a row's cells, in m/s.
+struct AddedRow {
+    std::array<float, maximumCells> x{}, y{}, z{};
+};
+
+/// Buoyancy and weight at the centres; solids hold neither heat nor density. `force` is that of the cells so far if
+/// `confined`, else it is not set.
+void addLift(const CellField& cells, const CellLayout& layout, int j, int k, float lift, float weight, bool confined,
+             float* force) {
+    const auto nx = static_cast<std::size_t>(layout.nx);
+    float* to =
+        force + (static_cast<std::size_t>(k) * static_cast<std::size_t>(layout.ny) + static_cast<std::size_t>(j)) * nx;
+    const float* record = cells.cell(layout.at(0, j, k));
+    for (std::size_t i = 0; i < nx; ++i, record += lanes)
+        to[i] = (confined ? to[i] : 0.0f) + (lift * record[temperature] - weight * record[density]);
+}
+
+/// A face has the mean force of its two cells. Without confinement there is lift alone.
+void facesOfRow(const Curl& force, const CellLayout& layout, int j, int k, bool confined, AddedRow& row) {
+    const auto nx = static_cast<std::size_t>(layout.nx), slab = nx * static_cast<std::size_t>(layout.ny);
+    const std::size_t at = static_cast<std::size_t>(k) * slab + static_cast<std::size_t>(j) * nx;
+    const float *x = force.x + at, *y = force.y + at, *z = force.z + at;
+    const float* below = j > 0 ? y - nx : y;
+    const float* before = k > 0 ? z - slab : z;
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < nx; ++i) row.y[i] = 0.5f * (below[i] + y[i]);
+    if (!confined) return;
+    row.x[0] = x[0];
+#pragma GCC ivdep
+    for (std::size_t i = 1; i < nx; ++i) row.x[i] = 0.5f * (x[i - 1] + x[i]);
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < nx; ++i) row.z[i] = 0.5f * (before[i] + z[i]);
+}
+
+float orNothing(float value) {
+    return value > nothing || value < -nothing ? value : 0.0f;
+}
+
+/// `sixteenCells(first)` where everything of sixteen cells moves, otherwise `cell(i)` one by one.
+template <typename SixteenCells, typename Cell>
+void forMoving(const Moving* moving, std::size_t cells, const SixteenCells& sixteenCells, const Cell& cell) {
+    for (std::size_t i = 0; i < cells; i += SixteenRecords::count) {
+        const std::size_t end = std::min(i + SixteenRecords::count, cells);
+        const bool allOfThem = sixteenAtOnce && end == i + SixteenRecords::count &&
+                               std::all_of(moving + i, moving + end, [](Moving m) { return m == allMoves; });
+        if (allOfThem)
+            sixteenCells(i);
+        else
+            for (std::size_t c = i; c < end; ++c) cell(c);
+    }
 }
 
 }  // namespace
@@ -65,34 +113,41 @@ std::size_t forceFloats(const CellLayout& layout) {
 void gatherCurl(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, float spacingMetres,
                 std::span<float> memory) {
     const Curl curl(layout, memory);
-    const float perTwoCells = 0.5f / spacingMetres;
+    // Central differences of the speeds at the centres, each the mean of two faces.
+    const float perFourCells = 0.25f / spacingMetres;
     const auto nx = static_cast<std::size_t>(layout.nx);
+    const std::size_t row = layout.row * lanes, slab = layout.slab * lanes;
     struct Nothing {};
     forRowsInTiles<Nothing>(layout, [&](int j, int k, Nothing&) {
         const std::size_t at = layout.at(0, j, k);
         const std::size_t r =
             static_cast<std::size_t>(k) * static_cast<std::size_t>(layout.ny) + static_cast<std::size_t>(j);
         const float* own = cells.cell(at);
-        const std::size_t row = layout.row * lanes, slab = layout.slab * lanes;
         float *x = curl.x + r * nx, *y = curl.y + r * nx, *z = curl.z + r * nx, *length = curl.length + r * nx;
         const auto cell = [&](std::size_t i) {
-            const float fluid = conductance[at + i] == 1 ? perTwoCells : 0.0f;
+            const float fluid = conductance[at + i] == 1 ? perFourCells : 0.0f;
             const float* record = own + i * lanes;
-            const Float4 alongX = load<Float4>(record + lanes) - load<Float4>(record - lanes);
-            const Float4 alongY = load<Float4>(record + row) - load<Float4>(record - row);
-            const Float4 alongZ = load<Float4>(record + slab) - load<Float4>(record - slab);
-            x[i] = (alongY[2] - alongZ[1]) * fluid;
-            y[i] = (alongZ[0] - alongX[2]) * fluid;
-            z[i] = (alongX[1] - alongY[0]) * fluid;
+            // Of lane u between the neighbours a step ahead and behind; `half` leads to its other face.
+            const auto along = [record](std::size_t step, std::size_t half, std::size_t u) {
+                const auto forth = static_cast<std::ptrdiff_t>(step);
+                return (record[forth + static_cast<std::ptrdiff_t>(u)] +
+                        (record + half)[forth + static_cast<std::ptrdiff_t>(u)]) -
+                       (record[static_cast<std::ptrdiff_t>(u) - forth] +
+                        (record + half)[static_cast<std::ptrdiff_t>(u) - forth]);
+            };
+            x[i] = (along(row, slab, 2) - along(slab, row, 1)) * fluid;
+            y[i] = (along(slab, lanes, 0) - along(lanes, slab, 2)) * fluid;
+            z[i] = (along(lanes, row, 1) - along(row, lanes, 0)) * fluid;
         };
         const auto sixteenCells = [&](std::size_t i) {
             const float* records = own + i * lanes;
-            const SixteenRecords alongX = SixteenRecords(records + lanes) - SixteenRecords(records - lanes);
-            const SixteenRecords alongY = SixteenRecords(records + row) - SixteenRecords(records - row);
-            const SixteenRecords alongZ = SixteenRecords(records + slab) - SixteenRecords(records - slab);
-            store(x + i, (alongY.get<2>() - alongZ.get<1>()) * perTwoCells);
-            store(y + i, (alongZ.get<0>() - alongX.get<2>()) * perTwoCells);
-            store(z + i, (alongX.get<1>() - alongY.get<0>()) * perTwoCells);
+            const auto between = [records](std::size_t step, std::size_t half) {
+                return (SixteenRecords(records + step) + SixteenRecords(records + half + step)) -
+                       (SixteenRecords(records - step) + SixteenRecords(records + half - step));
+            };
+            store(x + i, (between(row, slab).get<2>() - between(slab, row).get<1>()) * perFourCells);
+            store(y + i, (between(slab, lanes).get<0>() - between(lanes, slab).get<2>()) * perFourCells);
+            store(z + i, (between(lanes, row).get<1>() - between(row, lanes).get<0>()) * perFourCells);
         };
         forCells(conductance + at, nx, sixteenCells, cell);
 #pragma GCC ivdep
@@ -100,37 +155,42 @@ void gatherCurl(const CellField& cells, const CellLayout& layout, const std::uin
     });
 }
 
-void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
+void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, const Moving* moving,
                  const ForceSettings& settings, float spacingMetres, float stepSeconds, std::span<float> borrowed) {
     const Curl curl(layout, borrowed);
     const bool confined = settings.confinementPerSecond > 0;
     if (confined) gatherCurl(cells, layout, conductance, spacingMetres, borrowed);
     const float strength = settings.confinementPerSecond * spacingMetres * stepSeconds;
+    const float lift = settings.buoyancyPerKelvin * stepSeconds, weight = settings.weightPerDensity * stepSeconds;
+    parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
+        for (std::size_t r = first; r < first + count; ++r) {
+            const int j = layout.rowJ(r), k = layout.rowK(r);
+            if (confined) confineRow(curl, layout, j, k, strength);
+            addLift(cells, layout, j, k, lift, weight, confined, curl.y);
+        }
+    });
     const float keptDensity = std::exp(-settings.densityDecayPerSecond * stepSeconds);
     const float keptHeat = std::exp(-settings.coolingPerSecond * stepSeconds);
     const float lost = settings.reactionLossPerSecond * stepSeconds;
-    const Float8 kept{1, 1, 1, keptDensity, keptHeat, 1, 0, 0};
-    const float lift = settings.buoyancyPerKelvin * stepSeconds, weight = settings.weightPerDensity * stepSeconds;
     const auto nx = static_cast<std::size_t>(layout.nx);
-    forRowsInTiles<ForceRows>(layout, [&](int j, int k, ForceRows& force) {
+    forRowsInTiles<AddedRow>(layout, [&](int j, int k, AddedRow& force) {
         const std::size_t at = layout.at(0, j, k);
         float* records = cells.cell(at);
-        if (confined) confinementRow(curl, layout, j, k, strength, force);
+        facesOfRow(curl, layout, j, k, confined, force);
         const auto cell = [&](std::size_t i) {
-            if (conductance[at + i] != 1) return;
             float* record = records + i * lanes;
-            const auto old = load<Float8>(record);
-            const float rise = force.y[i] + (lift * old[temperature] - weight * old[density]);
-            Float8 now = old * kept + Float8{force.x[i], rise, force.z[i], 0, 0, -lost, 0, 0};
-            now = now > nothing || now < -nothing ? now : Float8{};
-            store(record, __builtin_shufflevector(now, now, 0, 1, 2, 3));
-            record[temperature] = now[temperature];
-            record[reaction] = now[reaction] > 0 ? now[reaction] : 0.0f;
+            const std::array<float, 3> added{force.x[i], force.y[i], force.z[i]};
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                if ((moving[at + i] >> axis & 1) != 0) record[axis] = orNothing(record[axis] + added[axis]);
+            if ((moving[at + i] & 8) == 0) return;
+            record[density] = orNothing(record[density] * keptDensity);
+            record[temperature] = orNothing(record[temperature] * keptHeat);
+            record[reaction] = std::max(orNothing(record[reaction] - lost), 0.0f);
         };
         const auto sixteenCells = [&](std::size_t i) {
             SixteenRecords::Quantities now = SixteenRecords(records + i * lanes).all();
             now[velocityX] += load<Float16>(&force.x[i]);
-            now[velocityY] += load<Float16>(&force.y[i]) + (lift * now[temperature] - weight * now[density]);
+            now[velocityY] += load<Float16>(&force.y[i]);
             now[velocityZ] += load<Float16>(&force.z[i]);
             now[density] *= keptDensity;
             now[temperature] *= keptHeat;
@@ -139,11 +199,11 @@ void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t*
             now[reaction] = atLeast(now[reaction], Float16{});
             SixteenRecords(now).storeTo(records + i * lanes);
         };
-        forCells(conductance + at, nx, sixteenCells, cell);
+        forMoving(moving + at, nx, sixteenCells, cell);
     });
 }
 
-void diffuse(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, float diffusion,
+void diffuse(CellField& cells, const CellLayout& layout, const Moving* moving, float diffusion,
              std::span<float> borrowed) {
     const auto nx = static_cast<std::size_t>(layout.nx);
     const std::size_t row = layout.row * lanes, slab = layout.slab * lanes;
@@ -152,16 +212,19 @@ void diffuse(CellField& cells, const CellLayout& layout, const std::uint8_t* con
             for (std::size_t r = first; r < first + count; ++r) {
                 const std::size_t at = layout.at(0, layout.rowJ(r), layout.rowK(r));
                 for (std::size_t i = 0; i < nx; ++i)
-                    if (conductance[at + i] == 1) cell(cells.cell(at + i), borrowed.data() + 3 * (r * nx + i));
+                    cell(cells.cell(at + i), borrowed.data() + 3 * (r * nx + i), moving[at + i]);
             }
         });
     };
-    forRows([&](const float* own, float* change) {
+    forRows([&](const float* own, float* change, Moving moves) {
         for (std::size_t lane = 0; lane < 3; ++lane)
-            change[lane] = diffusion * ((own + lanes)[lane] + (own - lanes)[lane] + (own + row)[lane] +
-                                        (own - row)[lane] + (own + slab)[lane] + (own - slab)[lane] - 6 * own[lane]);
+            change[lane] =
+                (moves >> lane & 1) == 0
+                    ? 0.0f
+                    : diffusion * ((own + lanes)[lane] + (own - lanes)[lane] + (own + row)[lane] + (own - row)[lane] +
+                                   (own + slab)[lane] + (own - slab)[lane] - 6 * own[lane]);
     });
-    forRows([&](float* own, const float* change) {
+    forRows([&](float* own, const float* change, Moving) {
         for (std::size_t lane = 0; lane < 3; ++lane) own[lane] += change[lane];
     });
 }

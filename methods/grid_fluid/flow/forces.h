@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "methods/grid_fluid/flow/advection.h"
 #include "methods/grid_fluid/flow/cell_field.h"
 
 namespace dustbench::grid_fluid::flow {
@@ -23,16 +24,18 @@ struct ForceSettings {
     float viscosityM2PerSecond = 0;   ///< ν
 };
 
-/// Applies all forces except viscosity over a step; `cells` with ghosts. `borrowed` has at least `forceFloats` floats.
-void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
+/// Applies all forces except viscosity over a step; `cells` with ghosts, `conductance` and `moving` of SolidCells.
+/// Forces are found at the centres; a face has the mean of its two cells. `borrowed` has at least `forceFloats` floats.
+void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, const Moving* moving,
                  const ForceSettings& settings, float spacingMetres, float stepSeconds, std::span<float> borrowed);
 [[nodiscard]] std::size_t forceFloats(const CellLayout& layout);
 
 /// One explicit step of ∂u/∂t = ν·∇²u; `diffusion` = ν·Δt/h² must not exceed 1/6. `cells` with ghosts.
-void diffuse(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, float diffusion,
+void diffuse(CellField& cells, const CellLayout& layout, const Moving* moving, float diffusion,
              std::span<float> borrowed);
 
-/// Curl of the velocity in 1/s and its magnitude, as four arrays of all cells, x fastest, without ghosts.
+/// Curl of the velocity at the centres in 1/s and its magnitude, as four arrays of all cells, x fastest, without
+/// ghosts.
 void gatherCurl(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, float spacingMetres,
                 std::span<float> curl);
 

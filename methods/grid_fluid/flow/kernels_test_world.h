@@ -25,8 +25,10 @@ struct World {
         for (std::size_t at = 0; at < layout.padded(); ++at)
             for (std::size_t lane = 0; lane < lanes; ++lane)
                 from.cell(at)[lane] = value(random) * (lane < 3 ? speed : 1.0f);
-        fillGhosts(from, layout, {sides, {0.3f, 0, 0}, false}, GhostUse::lookUp);
+        setSideFaces(from, layout, ghostRule());
+        fillGhosts(from, layout, ghostRule());
     }
+    [[nodiscard]] GhostRule ghostRule() const { return {sides, {0.3f, 0, 0}, false}; }
     /// Makes each cell solid with probability `share`, as part of one of many bodies.
     void setRandomSolids(double share) {
         const std::size_t count = layout.rows() * static_cast<std::size_t>(layout.nx);

@@ -59,7 +59,12 @@ template <typename Vector>
     return result;
 }
 
-/// a + share·(b − a), lane by lane.
+/// a + share·(b − a), lane by lane; the share of each.
+template <typename Vector>
+[[gnu::always_inline]] inline Vector mixed(const Vector& a, const Vector& b, const Vector& share) {
+    return fused(share, b - a, a);
+}
+/// The same with one share.
 template <typename Vector>
 [[gnu::always_inline]] inline Vector mix(const Vector& a, const Vector& b, float share) {
     return fused(everywhere<Vector>(share), b - a, a);

@@ -7,32 +7,32 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-/// φ at positions in cells from the centre of the first ghost cell.
+/// Where the quantities of a cell are looked up: each at its own place, in cells from that of the first ghost.
+struct PlainPlaces {
+    std::array<glm::dvec3, 4> at;  ///< of the faces across x, y, z and of the centre
+    [[nodiscard]] const glm::dvec3& of(std::size_t lane) const { return at[std::min<std::size_t>(lane, 3)]; }
+};
+
+/// φ at such places.
 struct Field {
     const CellLayout& layout;
     std::vector<PlainRecord> values;
 
-    /// Calls `take(φ of a cell, weight)` for the eight cells around a position.
+    /// Calls `take(φ of a corner, weight)` for the eight numbers of a quantity around its place.
     template <typename Take>
-    void around(glm::dvec3 x, const Take& take) const {
-        const glm::ivec3 cell = glm::min(glm::ivec3(glm::floor(x)), glm::ivec3(layout.nx, layout.ny, layout.nz));
-        const glm::dvec3 f = x - glm::dvec3(cell);
+    void around(const glm::dvec3& x, std::size_t lane, const Take& take) const {
+        const glm::ivec3 corner = glm::min(glm::ivec3(glm::floor(x)), glm::ivec3(layout.nx, layout.ny, layout.nz));
+        const glm::dvec3 f = x - glm::dvec3(corner);
         for (const int i : {0, 1})
             for (const int j : {0, 1})
                 for (const int k : {0, 1})
-                    take(values[layout.at(cell.x + i - 1, cell.y + j - 1, cell.z + k - 1)],
+                    take(values[layout.at(corner.x + i - 1, corner.y + j - 1, corner.z + k - 1)][lane],
                          (i == 1 ? f.x : 1 - f.x) * (j == 1 ? f.y : 1 - f.y) * (k == 1 ? f.z : 1 - f.z));
     }
-    [[nodiscard]] PlainRecord at(glm::dvec3 x) const {
-        PlainRecord sum{};
-        around(x, [&](const PlainRecord& phi, double weight) {
-            for (std::size_t lane = 0; lane < lanes; ++lane) sum[lane] += weight * phi[lane];
-        });
+    [[nodiscard]] double at(const glm::dvec3& x, std::size_t lane) const {
+        double sum = 0;
+        around(x, lane, [&](double phi, double weight) { sum += weight * phi; });
         return sum;
-    }
-    [[nodiscard]] glm::dvec3 velocity(glm::dvec3 x) const {
-        const PlainRecord phi = at(x);
-        return {phi[velocityX], phi[velocityY], phi[velocityZ]};
     }
 };
 
@@ -42,47 +42,117 @@ double limited(Limit limit, double corrected, double guess, double minimum, doub
     return corrected;
 }
 
+/// Paths of cells and faces through the velocities at a time.
+class Paths {
+ public:
+    Paths(const Field& phi, double dt)
+        : layout_(phi.layout), size_(layout_.nx, layout_.ny, layout_.nz), dt_(dt), centre_(layout_.padded()) {
+        forPadded([&](glm::ivec3 cell, glm::ivec3 inner) {
+            const std::size_t own = layout_.at(inner.x, inner.y, inner.z);
+            const std::array<std::size_t, 3> next{own + 1, own + layout_.row, own + layout_.slab};
+            glm::dvec3& u = centre_[layout_.at(cell.x, cell.y, cell.z)];
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                u[static_cast<int>(axis)] = 0.5 * (phi.values[own][axis] + phi.values[next[axis]][axis]);
+        });
+        halfway_ = centre_;
+        forPadded([&](glm::ivec3 cell, glm::ivec3 inner) {
+            const glm::dvec3 x(inner + 1), u = centre_[layout_.at(inner.x, inner.y, inner.z)];
+            halfway_[layout_.at(cell.x, cell.y, cell.z)] =
+                velocity(glm::clamp(x - 0.5 * dt_ * u, glm::dvec3(0), glm::dvec3(size_ + 1)));
+        });
+    }
+    /// x₋ = x − Δt·u, and from there 2Δt·u(x) on.
+    struct Ends {
+        PlainPlaces began, ahead;
+    };
+    [[nodiscard]] Ends of(glm::ivec3 cell) const {
+        Ends ends;
+        const glm::dvec3 x(cell + 1);
+        for (int place = 0; place < 4; ++place) {
+            glm::ivec3 other = cell;
+            if (place < 3) other[place] -= 1;
+            const std::size_t a = layout_.at(cell.x, cell.y, cell.z), b = layout_.at(other.x, other.y, other.z);
+            glm::dvec3 began = x - dt_ * 0.5 * (halfway_[a] + halfway_[b]);
+            began = glm::clamp(began, glm::dvec3(0), glm::dvec3(size_ + 1));
+            ends.began.at[static_cast<std::size_t>(place)] = began;
+            ends.ahead.at[static_cast<std::size_t>(place)] = began + 2 * dt_ * 0.5 * (centre_[a] + centre_[b]);
+        }
+        return ends;
+    }
+
+ private:
+    /// Calls `take(cell, the nearest in the box)`.
+    template <typename Take>
+    void forPadded(const Take& take) const {
+        for (int k = -1; k <= size_.z; ++k)
+            for (int j = -1; j <= size_.y; ++j)
+                for (int i = -1; i <= size_.x; ++i)
+                    take(glm::ivec3(i, j, k), glm::clamp(glm::ivec3(i, j, k), glm::ivec3(0), size_ - 1));
+    }
+    [[nodiscard]] glm::dvec3 velocity(glm::dvec3 x) const {
+        const glm::ivec3 corner = glm::min(glm::ivec3(glm::floor(x)), size_);
+        const glm::dvec3 f = x - glm::dvec3(corner);
+        glm::dvec3 sum(0);
+        for (const int i : {0, 1})
+            for (const int j : {0, 1})
+                for (const int k : {0, 1})
+                    sum += centre_[layout_.at(corner.x + i - 1, corner.y + j - 1, corner.z + k - 1)] *
+                           ((i == 1 ? f.x : 1 - f.x) * (j == 1 ? f.y : 1 - f.y) * (k == 1 ? f.z : 1 - f.z));
+        return sum;
+    }
+
+    const CellLayout& layout_;
+    glm::ivec3 size_;
+    double dt_;
+    std::vector<glm::dvec3> centre_, halfway_;
+};
+
 }  // namespace
 
-std::vector<PlainRecord> plainAdvection(const CellField& from, const CellLayout& layout, const std::uint8_t* fluid,
+std::vector<PlainRecord> plainAdvection(const CellField& from, const CellLayout& layout, const Moving* moving,
                                         AdvectionRule rule, double dt, double maximumSpeedZ) {
     Field phi{layout, std::vector<PlainRecord>(layout.padded())};
     for (std::size_t at = 0; at < layout.padded(); ++at) std::copy_n(from.cell(at), lanes, phi.values[at].begin());
-    const glm::dvec3 last(layout.nx + 1, layout.ny + 1, layout.nz + 1);  // centre of the last ghost cell
-    const auto within = [&](glm::dvec3 x) { return glm::clamp(x, glm::dvec3(0), last); };
-    const auto behind = [&](glm::dvec3 x) {
-        return within(x - dt * phi.velocity(within(x - 0.5 * dt * phi.velocity(x))));
-    };
-    const auto forFluid = [&](const auto& cell) {
+    const Paths paths(phi, dt);
+    const auto forMoving = [&](const auto& take) {
         for (int k = 0; k < layout.nz; ++k)
             for (int j = 0; j < layout.ny; ++j)
-                for (int i = 0; i < layout.nx; ++i)
-                    if (fluid[layout.at(i, j, k)] == 1) cell(layout.at(i, j, k), glm::dvec3(i + 1, j + 1, k + 1));
+                for (int i = 0; i < layout.nx; ++i) {
+                    const std::size_t at = layout.at(i, j, k);
+                    const auto [began, ahead] = paths.of({i, j, k});
+                    for (std::size_t lane = 0; lane < lanes; ++lane)
+                        if ((moving[at] >> std::min<std::size_t>(lane, 3) & 1) != 0)
+                            take(at, lane, k, began.of(lane), ahead.of(lane));
+                }
     };
 
     Field guess = phi;
-    forFluid([&](std::size_t at, glm::dvec3 x) { guess.values[at] = phi.at(behind(x)); });
+    forMoving([&](std::size_t at, std::size_t lane, int, const glm::dvec3& began, const glm::dvec3&) {
+        guess.values[at][lane] = phi.at(began, lane);
+    });
     if (rule.scheme == AdvectionScheme::semiLagrangian) return guess.values;
 
     std::vector<PlainRecord> result = guess.values;
     // The first guess is kept if a path leaves the box, or goes farther along z than the maximum speed.
     const double maximumSlabs = std::ceil(dt * maximumSpeedZ) + 1;
-    const auto leaves = [&](glm::dvec3 x) {
-        return glm::any(glm::lessThan(x, glm::dvec3(1))) || glm::any(glm::greaterThan(x, last - 1.0));
-    };
-    forFluid([&](std::size_t at, glm::dvec3 x) {
-        const glm::dvec3 began = behind(x), ahead = began + 2 * dt * phi.velocity(x);
-        if (leaves(began) || leaves(ahead) || std::fabs(ahead.z - x.z) > maximumSlabs) return;
-        const PlainRecord there = guess.at(ahead);
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            double minimum = INFINITY, maximum = -INFINITY;
-            phi.around(began, [&](const PlainRecord& corner, double) {
-                minimum = std::min(minimum, corner[lane]);
-                maximum = std::max(maximum, corner[lane]);
-            });
-            const double corrected = guess.values[at][lane] + 0.5 * (phi.values[at][lane] - there[lane]);
-            result[at][lane] = limited(rule.limit, corrected, guess.values[at][lane], minimum, maximum);
-        }
+    forMoving([&](std::size_t at, std::size_t lane, int k, const glm::dvec3& began, const glm::dvec3& ahead) {
+        glm::dvec3 last(layout.nx, layout.ny, layout.nz);
+        if (lane < 3) last[static_cast<int>(lane)] += 1;  // the face on the far side
+        const auto almost = static_cast<double>(pathTolerance);
+        const glm::dvec3 low(1, 1, std::max(1.0, k + 1 - maximumSlabs));
+        last.z = std::min(last.z, k + 1 + maximumSlabs);
+        const auto leaves = [&](const glm::dvec3& x) {
+            return glm::any(glm::lessThan(x, low - almost)) || glm::any(glm::greaterThan(x, last + almost));
+        };
+        if (leaves(began) || leaves(ahead)) return;
+        double minimum = INFINITY, maximum = -INFINITY;
+        phi.around(began, lane, [&](double corner, double) {
+            minimum = std::min(minimum, corner);
+            maximum = std::max(maximum, corner);
+        });
+        const double corrected =
+            guess.values[at][lane] + 0.5 * (phi.values[at][lane] - guess.at(glm::clamp(ahead, low, last), lane));
+        result[at][lane] = limited(rule.limit, corrected, guess.values[at][lane], minimum, maximum);
     });
     return result;
 }

@@ -21,7 +21,7 @@ using PlainRecord = std::array<double, lanes>;
 /// The records of all padded cells after `cellsPerSpeed` = Δt/h; cells that are not fluid are unchanged. Parameters as
 /// in Advection::advect.
 [[nodiscard]] std::vector<PlainRecord> plainAdvection(const CellField& from, const CellLayout& layout,
-                                                      const std::uint8_t* fluid, AdvectionRule rule,
-                                                      double cellsPerSpeed, double maximumSpeedZ);
+                                                      const Moving* moving, AdvectionRule rule, double cellsPerSpeed,
+                                                      double maximumSpeedZ);
 
 }  // namespace dustbench::grid_fluid::flow

@@ -1,10 +1,9 @@
-// Plain projection, cell by cell: the reference for gatherDivergence and Projection.
+// Plain projection, face by face: the reference for gatherDivergence and subtractGradient.
 //
-//     h·∇·u = Σ ±u_f                   over the six faces: u_f = ½(u + uₙ), that of the neighbour where w = 0
-//     u ← u − ½Σ ±w·(qₙ − q)           along each axis, over the two faces across it; u = ½Σ u_f beside one of w = 0
+//     h·∇·u = Σ ±u_f           over the six faces of a cell of fluid
+//     u_f ← u_f − w·(q − q₋)    w is 0 beside a solid, wall or inflow, 1 in fluid, 2 at an open side, where q is 0
 //
-// w is the conductance of the neighbour (SolidCells). In double precision. Units: see projection.h.
-// Source: Crane2007, 30.2.4 (solids); Almgren1996, 2 (cells take the mean of their faces).
+// In double precision. Units: see projection.h. Source: Harlow1965 (staggered grid); Crane2007, 30.2.4 (solids).
 #pragma once
 
 #include <cstdint>
@@ -19,7 +18,7 @@ namespace dustbench::grid_fluid::flow {
 [[nodiscard]] std::vector<double> plainDivergence(const CellField& cells, const CellLayout& layout,
                                                   const std::uint8_t* conductance);
 
-/// u − h·∇q of all padded cells, u outside the fluid; `q` of all padded cells.
+/// u − h·∇q on the faces towards −x, −y, −z of all padded cells; `q` of all padded cells.
 [[nodiscard]] std::vector<glm::dvec3> plainProjection(const CellField& cells, const CellLayout& layout,
                                                       const std::uint8_t* conductance, const std::vector<double>& q);
 

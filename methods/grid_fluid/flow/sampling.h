@@ -2,10 +2,15 @@
 //
 // First the positions of all samples are computed, sixteen cells per vector; then the samples are read cell by cell,
 // six quantities per vector, so that many reads are in flight at once.
-// Frame: cells from the first ghost cell's centre, so that the centre of cell (i, j, k) is at (i + 1, j + 1, k + 1).
+// The faces of a cell have paths of their own, a little beside that of its centre. All quantities are read from the
+// eight records around the centre's position, each at its own share of the way between them; a face that lies between
+// other records is read again by itself. Frame: cells from the first ghost's own place, so that a quantity of cell (i,
+// j, k) lies at (i + 1, j + 1, k + 1), whether at the cell's centre or on its face.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,6 +28,9 @@ struct Triples {
     Float16 x, y, z;
 };
 
+/// The same for the faces of each cell across x, y and z, and for its centre.
+using PlacesOfCells = std::array<Triples, 4>;
+
 /// The velocities at the beginning of each of sixteen records.
 [[gnu::always_inline]] inline Triples velocitiesOf(const float* records) {
     if constexpr (sixteenAtOnce) {
@@ -37,6 +45,14 @@ struct Triples {
         }
         return velocities;
     }
+}
+
+/// Within the centres of the outermost ghost cells.
+[[gnu::always_inline]] inline Triples inBox(const Triples& place, const CellLayout& layout) {
+    const auto within = [](const Float16& x, int cells) {
+        return atMost(atLeast(x, Float16{}), everywhere<Float16>(static_cast<float>(cells + 1)));
+    };
+    return {within(place.x, layout.nx), within(place.y, layout.ny), within(place.z, layout.nz)};
 }
 
 /// A field in memory: whole, or as a ring of slabs, in which slab k has index k mod `slabs`.
@@ -55,21 +71,22 @@ class CornerStrip {
     /// For a ring: samples will use slabs from here on, at most as many as the ring holds.
     void lookFrom(int slab) { shift_ = slab % view_.slabs - slab; }
 
-    /// `placesOf(i)`: the Triples of cells i to i + 15, up to the next multiple of sixteen. All sampled positions must
-    /// lie within `0…last`, the centres of the outermost ghost cells.
+    /// `placesOf(i)`: the PlacesOfCells of cells i to i + 15, up to the next multiple of sixteen. All positions
+    /// must lie within the places of the outermost ghosts.
     template <typename PlacesOf>
     [[gnu::always_inline]] void find(std::size_t count, const PlacesOf& placesOf) {
-        const int row = static_cast<int>(row_), slab = static_cast<int>(slab_);
         for (std::size_t i = 0; i < count; i += SixteenRecords::count) {
-            const Triples place = placesOf(i);
-            const Int16 x = cellAlong<0>(place.x, i), y = cellAlong<1>(place.y, i), z = cellAlong<2>(place.z, i);
-            const Int16 inSlab = x * static_cast<int>(lanes) + y * row;
-            if constexpr (ring) {
-                store(&low_[i], inSlab + inRing(z + shift_) * slab);
-                store(&high_[i], inSlab + inRing(z + (shift_ + 1)) * slab);
-            } else {
-                store(&low_[i], inSlab + z * slab);
+            const PlacesOfCells p = placesOf(i);
+            const Cells x = cellsAlong<0>(p[0].x, p[1].x, p[2].x, p[3].x, i);
+            const Cells y = cellsAlong<1>(p[0].y, p[1].y, p[2].y, p[3].y, i);
+            const Cells z = cellsAlong<2>(p[0].z, p[1].z, p[2].z, p[3].z, i);
+            Int16 elsewhere{};
+            for (std::size_t place = 0; place < 3; ++place) {
+                const Int16 differs = (x[place] != x[3]) | (y[place] != y[3]) | (z[place] != z[3]);
+                elsewhere |= differs & (1 << place);
             }
+            store(&elsewhere_[i], elsewhere);
+            for (std::size_t place = 0; place < 4; ++place) findCorner(place, i, x[place], y[place], z[place]);
         }
     }
 
@@ -81,22 +98,44 @@ class CornerStrip {
               row_(strip.row_),
               slab_(strip.slab_),
               fractions_(strip.fractions_.data()->data()),
-              low_(strip.low_.data()),
-              high_(strip.high_.data()) {}
+              low_(strip.low_.data()->data()),
+              high_(strip.high_.data()->data()),
+              elsewhere_(strip.elsewhere_.data()) {}
 
         /// Six quantities at position `i`, and two meaningless numbers.
         [[gnu::always_inline]] Float8 sample(std::size_t i) const {
-            const float fx = fractions_[i], fy = fractions_[stripCells + i], fz = fractions_[2 * stripCells + i];
-            const auto along = [&](const auto& c) { return mix(mix(c.a, c.b, fy), mix(c.c, c.d, fy), fz); };
-            if constexpr (sixteenAtOnce) {
-                const Float16 both = along(column<Float16>(i, 0));
-                return mix(firstOf(both), secondOf(both), fx);
-            } else {
-                return mix(along(column<Float8>(i, 0)), along(column<Float8>(i, lanes)), fx);
+            Float8 all = sampleAroundCentre(i);
+            for (int rest = elsewhere_[i]; rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(rest)));
+                all[lane] = sampleOf(lane, i);
+            }
+            return all;
+        }
+        /// Minimum and maximum of the eight numbers around, per quantity.
+        [[gnu::always_inline]] void extrema(std::size_t i, Float8& minimum, Float8& maximum) const {
+            extremaAroundCentre(i, minimum, maximum);
+            for (int rest = elsewhere_[i]; rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(rest)));
+                const std::array<float, 8> c = cornersOf(lane, i);
+                minimum[lane] = *std::ranges::min_element(c);
+                maximum[lane] = *std::ranges::max_element(c);
             }
         }
-        /// Minimum and maximum of the eight cells, per quantity.
-        [[gnu::always_inline]] void extrema(std::size_t i, Float8& minimum, Float8& maximum) const {
+
+     private:
+        [[gnu::always_inline]] Float8 sampleAroundCentre(std::size_t i) const {
+            const auto along = [&](const auto& c, const auto& y, const auto& z) {
+                return mixed(mixed(c.a, c.b, y), mixed(c.c, c.d, y), z);
+            };
+            if constexpr (sixteenAtOnce) {
+                const Float16 both = along(column<Float16>(i, 0), ofTwoRecords(i, 1), ofTwoRecords(i, 2));
+                return mixed(firstOf(both), secondOf(both), ofRecord(i, 0));
+            } else {
+                const Float8 y = ofRecord(i, 1), z = ofRecord(i, 2);
+                return mixed(along(column<Float8>(i, 0), y, z), along(column<Float8>(i, lanes), y, z), ofRecord(i, 0));
+            }
+        }
+        [[gnu::always_inline]] void extremaAroundCentre(std::size_t i, Float8& minimum, Float8& maximum) const {
             const auto minimumOf = [](const auto& c) { return atMost(atMost(c.a, c.b), atMost(c.c, c.d)); };
             const auto maximumOf = [](const auto& c) { return atLeast(atLeast(c.a, c.b), atLeast(c.c, c.d)); };
             if constexpr (sixteenAtOnce) {
@@ -110,8 +149,21 @@ class CornerStrip {
                 maximum = atLeast(maximumOf(first), maximumOf(second));
             }
         }
-
-     private:
+        /// One quantity's numbers around its own place: x runs fastest, z slowest.
+        [[nodiscard]] std::array<float, 8> cornersOf(std::size_t lane, std::size_t i) const {
+            const float* low = base_ + lane + std::size_t{low_[lane * stripCells + i]};
+            const float* high = ring ? base_ + lane + std::size_t{high_[lane * stripCells + i]} : low + slab_;
+            return {low[0],  low[lanes],  low[row_],  low[row_ + lanes],
+                    high[0], high[lanes], high[row_], high[row_ + lanes]};
+        }
+        [[nodiscard]] float sampleOf(std::size_t lane, std::size_t i) const {
+            const auto share = [&](std::size_t axis) { return fractions_[axis * fractionPitch + 4 * i + lane]; };
+            const auto mix = [](float a, float b, float f) { return std::fma(f, b - a, a); };
+            const std::array<float, 8> c = cornersOf(lane, i);
+            const float y = share(1), z = share(2);
+            return mix(mix(mix(c[0], c[2], y), mix(c[4], c[6], y), z), mix(mix(c[1], c[3], y), mix(c[5], c[7], y), z),
+                       share(0));
+        }
         /// Four records of equal x: those of larger y second, of larger z last. In a Float16 each is together with its
         /// neighbour in x, which is adjacent in memory.
         template <typename Vector>
@@ -120,9 +172,19 @@ class CornerStrip {
         };
         template <typename Vector>
         [[gnu::always_inline]] Column<Vector> column(std::size_t i, std::size_t from) const {
-            const float* low = base_ + from + std::size_t{low_[i]};
-            const float* high = ring ? base_ + from + std::size_t{high_[i]} : low + slab_;
+            const float* low = base_ + from + std::size_t{low_[3 * stripCells + i]};
+            const float* high = ring ? base_ + from + std::size_t{high_[3 * stripCells + i]} : low + slab_;
             return {load<Vector>(low), load<Vector>(low + row_), load<Vector>(high), load<Vector>(high + row_)};
+        }
+        /// The shares of a cell's faces across x, y, z and of its centre, by quantity. They are loaded as the vectors
+        /// that they become, for a wider shuffle of a narrow vector would pass through memory.
+        [[gnu::always_inline]] Float8 ofRecord(std::size_t i, std::size_t axis) const {
+            const auto f = load<Float8>(fractions_ + axis * fractionPitch + 4 * i);
+            return __builtin_shufflevector(f, f, 0, 1, 2, 3, 3, 3, 3, 3);
+        }
+        [[gnu::always_inline]] Float16 ofTwoRecords(std::size_t i, std::size_t axis) const {
+            const auto f = load<Float16>(fractions_ + axis * fractionPitch + 4 * i);
+            return __builtin_shufflevector(f, f, 0, 1, 2, 3, 3, 3, 0, 1, 2, 3, 3, 3, 3, 3, 3, 3);
         }
         [[gnu::always_inline]] static Float8 firstOf(const Float16& both) {
             return __builtin_shufflevector(both, both, 0, 1, 2, 3, 4, 5, 6, 7);
@@ -135,15 +197,59 @@ class CornerStrip {
         std::size_t row_, slab_;
         const float* fractions_;
         const std::uint32_t *low_, *high_;
+        const int* elsewhere_;
     };
 
  private:
-    /// Index of the cell before each position; stores the fraction beyond it.
+    /// Of the faces across x, y, z and of the centre.
+    using Cells = std::array<Int16, 4>;
+
+    /// Index of the cell before each position; stores the fractions beyond it.
     template <std::size_t axis>
-    [[gnu::always_inline]] Int16 cellAlong(const Float16& place, std::size_t i) {
-        const Int16 cell = atMost(__builtin_convertvector(place, Int16), Int16{} + last_[axis]);
-        store(&fractions_[axis][i], place - __builtin_convertvector(cell, Float16));
-        return cell;
+    [[gnu::always_inline]] Cells cellsAlong(const Float16& onX, const Float16& onY, const Float16& onZ,
+                                            const Float16& centre, std::size_t i) {
+        const auto cellOf = [&](const Float16& place) {
+            return atMost(__builtin_convertvector(place, Int16), Int16{} + last_[axis]);
+        };
+        const Cells cells{cellOf(onX), cellOf(onY), cellOf(onZ), cellOf(centre)};
+        const auto share = [](const Float16& place, const Int16& cell) {
+            return place - __builtin_convertvector(cell, Float16);
+        };
+        storeInterleaved(&fractions_[axis][4 * i], share(onX, cells[0]), share(onY, cells[1]), share(onZ, cells[2]),
+                         share(centre, cells[3]));
+        return cells;
+    }
+    [[gnu::always_inline]] void findCorner(std::size_t place, std::size_t i, const Int16& x, const Int16& y,
+                                           const Int16& z) {
+        const int row = static_cast<int>(row_), slab = static_cast<int>(slab_);
+        const Int16 inSlab = x * static_cast<int>(lanes) + y * row;
+        if constexpr (ring) {
+            store(&low_[place][i], inSlab + inRing(z + shift_) * slab);
+            store(&high_[place][i], inSlab + inRing(z + (shift_ + 1)) * slab);
+        } else {
+            store(&low_[place][i], inSlab + z * slab);
+        }
+    }
+    /// a₀ b₀ c₀ d₀ a₁ …
+    [[gnu::always_inline]] static void storeInterleaved(float* to, const Float16& a, const Float16& b, const Float16& c,
+                                                        const Float16& d) {
+        const auto evens = [](const Float16& p, const Float16& q) {
+            return __builtin_shufflevector(p, q, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+        };
+        const auto odds = [](const Float16& p, const Float16& q) {
+            return __builtin_shufflevector(p, q, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
+        };
+        const auto lower = [](const Float16& p, const Float16& q) {
+            return __builtin_shufflevector(p, q, 0, 1, 16, 17, 2, 3, 18, 19, 4, 5, 20, 21, 6, 7, 22, 23);
+        };
+        const auto upper = [](const Float16& p, const Float16& q) {
+            return __builtin_shufflevector(p, q, 8, 9, 24, 25, 10, 11, 26, 27, 12, 13, 28, 29, 14, 15, 30, 31);
+        };
+        const Float16 ab = evens(a, b), cd = evens(c, d), abHigh = odds(a, b), cdHigh = odds(c, d);
+        store(to, lower(ab, cd));
+        store(to + 16, upper(ab, cd));
+        store(to + 32, lower(abHigh, cdHigh));
+        store(to + 48, upper(abHigh, cdHigh));
     }
     [[gnu::always_inline]] Int16 inRing(const Int16& slab) const {
         return slab - ((slab >= view_.slabs) & view_.slabs);
@@ -153,8 +259,56 @@ class CornerStrip {
     std::array<int, 3> last_;
     std::size_t row_, slab_;  ///< floats from one row or slab to the next
     int shift_ = 0;
-    std::array<std::array<float, stripCells>, 3> fractions_{};  ///< of the way to the next cell, 0…1; along x, y, z
-    std::array<std::uint32_t, stripCells> low_{}, high_{};
+    /// Of the way to the next cell, 0…1; along x, y, z, for the faces across x, y, z and for the centre.
+    static constexpr std::size_t fractionPitch = 4 * stripCells + 16;
+    alignas(64) std::array<std::array<float, fractionPitch>, 3> fractions_{};
+    std::array<std::array<std::uint32_t, stripCells>, 4> low_{}, high_{};
+    std::array<int, stripCells> elsewhere_{};  ///< bits of the faces that lie between other records than the centre
+};
+
+/// Trilinear samples of vectors of four floats in a ring of slabs, at sixteen positions.
+class CentreStrip {
+ public:
+    CentreStrip(const float* base, int slabs, const CellLayout& layout)
+        : base_(base),
+          slabs_(slabs),
+          last_{layout.nx, layout.ny, layout.nz},
+          row_(4 * layout.row),
+          slab_(4 * layout.slab) {}
+
+    /// Samples will use slabs from here on, at most as many as the ring holds.
+    void lookFrom(int slab) { shift_ = slab % slabs_ - slab; }
+    [[gnu::always_inline]] void find(const Triples& place) {
+        const Int16 x = cellAlong<0>(place.x), y = cellAlong<1>(place.y), z = cellAlong<2>(place.z);
+        const Int16 inSlab = x * 4 + y * static_cast<int>(row_);
+        store(low_.data(), inSlab + inRing(z + shift_) * static_cast<int>(slab_));
+        store(high_.data(), inSlab + inRing(z + (shift_ + 1)) * static_cast<int>(slab_));
+    }
+    [[gnu::always_inline]] Float4 sample(std::size_t i) const {
+        const float *low = base_ + low_[i], *high = base_ + high_[i];
+        const float fx = fractions_[0][i], fy = fractions_[1][i], fz = fractions_[2][i];
+        const Float8 both = mix(mix(load<Float8>(low), load<Float8>(low + row_), fy),
+                                mix(load<Float8>(high), load<Float8>(high + row_), fy), fz);
+        return mix(__builtin_shufflevector(both, both, 0, 1, 2, 3), __builtin_shufflevector(both, both, 4, 5, 6, 7),
+                   fx);
+    }
+
+ private:
+    template <std::size_t axis>
+    [[gnu::always_inline]] Int16 cellAlong(const Float16& place) {
+        const Int16 cell = atMost(__builtin_convertvector(place, Int16), Int16{} + last_[axis]);
+        store(fractions_[axis].data(), place - __builtin_convertvector(cell, Float16));
+        return cell;
+    }
+    [[gnu::always_inline]] Int16 inRing(const Int16& slab) const { return slab - ((slab >= slabs_) & slabs_); }
+
+    const float* base_;
+    int slabs_;
+    std::array<int, 3> last_;
+    std::size_t row_, slab_;
+    int shift_ = 0;
+    std::array<std::array<float, 16>, 3> fractions_{};
+    std::array<std::uint32_t, 16> low_{}, high_{};
 };
 
 }  // namespace dustbench::grid_fluid::flow

@@ -10,27 +10,43 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
+constexpr std::size_t rowsInABlock = 64;
+
 /// The six neighbours of a cell.
 std::array<std::ptrdiff_t, 6> around(const CellLayout& layout) {
     const auto row = static_cast<std::ptrdiff_t>(layout.row), slab = static_cast<std::ptrdiff_t>(layout.slab);
     return {-1, 1, -row, row, -slab, slab};
 }
 
+/// What of a cell moves: bit `lane` of a velocity, that of the centre for all else.
+Moving bitOf(std::size_t lane) {
+    return static_cast<Moving>(1u << std::min<std::size_t>(lane, 3));
+}
+
 }  // namespace
 
 SolidCells::SolidCells(const CellLayout& layout, const Sides& sides, MemoryAccount& account)
-    : layout_(layout), conductance_(account) {
-    conductance_.resize(layout.padded());
-    conductEverywhere(layout, sides, conductance_);
+    : layout_(layout), conductance_(account), moving_(account) {
+    // Kernels read sixteen bytes at once.
+    conductance_.resize(layout.padded() + 16);
+    moving_.resize(layout.padded() + 16);
+    conductEverywhere(layout, sides, std::span(conductance_).first(layout.padded()));
     rimOfSlab_.resize(static_cast<std::size_t>(layout.nz));
-    besideOfSlab_.resize(static_cast<std::size_t>(layout.nz));
 }
 
 double SolidCells::set(const SolidMask& mask, CellField& cells) {
     check(mask, layout_);
+    const double covered = cover(mask, cells);
+    if (!mask.body.empty()) setFaces(mask, cells);
+    findMoving();
+    findRim(cells);
+    return covered;
+}
+
+double SolidCells::cover(const SolidMask& mask, CellField& cells) {
     const auto width = static_cast<std::size_t>(layout_.nx);
     std::vector<float> covered(layout_.rows());
-    parallel::forEachBlock(layout_.rows(), 64, [&](std::size_t first, std::size_t rows) {
+    parallel::forEachBlock(layout_.rows(), rowsInABlock, [&](std::size_t first, std::size_t rows) {
         for (std::size_t r = first; r < first + rows; ++r) {
             const std::size_t at = layout_.at(0, layout_.rowJ(r), layout_.rowK(r));
             std::uint8_t* conductance = conductance_.data() + at;
@@ -39,99 +55,134 @@ double SolidCells::set(const SolidMask& mask, CellField& cells) {
                 continue;
             }
             const std::uint8_t* body = mask.body.data() + r * width;
-            std::uint8_t any = 0;
-            for (std::size_t i = 0; i < width; ++i) {
-                conductance[i] = body[i] == 0 ? 1 : 0;
-                any |= body[i];
-            }
-            if (any == 0) continue;
+            for (std::size_t i = 0; i < width; ++i) conductance[i] = body[i] == 0 ? 1 : 0;
             for (std::size_t i = 0; i < width; ++i) {
                 if (body[i] == 0) continue;
-                const std::size_t n = body[i] - std::size_t{1};
-                const glm::vec3 velocity =
-                    n < mask.motions.size()
-                        ? mask.motions[n].velocityAt(static_cast<int>(i), layout_.rowJ(r), layout_.rowK(r))
-                        : glm::vec3(0);
                 float* record = cells.cell(at + i);
                 covered[r] += record[density];
-                for (std::size_t lane = 0; lane < lanes; ++lane)
-                    record[lane] = lane < 3 ? velocity[static_cast<int>(lane)] : 0;
+                record[density] = record[temperature] = record[reaction] = 0;
             }
         }
     });
-    findEdges(cells);
     return std::accumulate(covered.begin(), covered.end(), 0.0);
 }
 
-void SolidCells::findEdges(const CellField& cells) {
+/// Each face between two cells belongs to the solid ahead of it, else to that behind; the far sides' included.
+void SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
+    const glm::ivec3 size(layout_.nx, layout_.ny, layout_.nz);
+    const auto bodyOf = [&](glm::ivec3 cell) {
+        const auto index =
+            (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(cell.y)) *
+                static_cast<std::size_t>(size.x) +
+            static_cast<std::size_t>(cell.x);
+        return mask.body[index];
+    };
+    const auto speedOf = [&](std::uint8_t body, glm::ivec3 cell, int axis, float ahead) {
+        const std::size_t n = body - std::size_t{1};
+        if (n >= mask.motions.size()) return 0.0f;
+        glm::vec3 place = glm::vec3(cell) + 0.5f;
+        place[axis] += ahead;
+        return mask.motions[n].velocityAt(place)[axis];
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto step = std::array<std::size_t, 3>{1, layout_.row, layout_.slab}[static_cast<std::size_t>(axis)];
+        parallel::forEachBlock(layout_.rows(), rowsInABlock, [&](std::size_t first, std::size_t rows) {
+            for (std::size_t r = first; r < first + rows; ++r)
+                for (glm::ivec3 cell(0, layout_.rowJ(r), layout_.rowK(r)); cell.x < size.x; ++cell.x) {
+                    const std::uint8_t own = bodyOf(cell);
+                    const std::size_t at = layout_.at(cell.x, cell.y, cell.z);
+                    glm::ivec3 before = cell;
+                    before[axis] -= 1;
+                    const std::uint8_t other = before[axis] < 0 ? 0 : bodyOf(before);
+                    if (own != 0)
+                        cells.cell(at)[axis] = speedOf(own, cell, axis, -0.5f);
+                    else if (other != 0)
+                        cells.cell(at)[axis] = speedOf(other, before, axis, 0.5f);
+                    if (own != 0 && cell[axis] == size[axis] - 1)
+                        cells.cell(at + step)[axis] = speedOf(own, cell, axis, 0.5f);
+                }
+        });
+    }
+}
+
+void SolidCells::findMoving() {
+    const std::array<std::size_t, 3> steps{1, layout_.row, layout_.slab};
+    parallel::forEachBlock(layout_.rows(), rowsInABlock, [&](std::size_t first, std::size_t rows) {
+        for (std::size_t r = first; r < first + rows; ++r) {
+            const std::size_t at = layout_.at(0, layout_.rowJ(r), layout_.rowK(r));
+            const std::uint8_t* own = conductance_.data() + at;
+            Moving* moving = moving_.data() + at;
+            for (int i = 0; i < layout_.nx; ++i) {
+                const auto isFluid = [&](std::size_t step) {
+                    return (own + i)[-static_cast<std::ptrdiff_t>(step)] == 1 ? 1u : 0u;
+                };
+                const unsigned faces = isFluid(steps[0]) | isFluid(steps[1]) << 1 | isFluid(steps[2]) << 2;
+                moving[i] = own[i] == 1 ? static_cast<Moving>(faces | 8u) : Moving{0};
+            }
+        }
+    });
+}
+
+void SolidCells::findRim(const CellField& cells) {
     const auto neighbours = around(layout_);
     const auto row = static_cast<std::ptrdiff_t>(layout_.row), slab = static_cast<std::ptrdiff_t>(layout_.slab);
+    const std::array<std::ptrdiff_t, 3> steps{1, row, slab};
     parallel::forEachBlock(static_cast<std::size_t>(layout_.nz), 1, [&](std::size_t k, std::size_t) {
         auto& rim = rimOfSlab_[k];
-        auto& beside = besideOfSlab_[k];
         rim.clear();
-        beside.clear();
         for (int j = 0; j < layout_.ny; ++j) {
             const std::size_t first = layout_.at(0, j, static_cast<int>(k));
             const std::uint8_t* own = conductance_.data() + first;
-            // 64 cells at once: all fluid beside fluid or open sides, or all solid beside solid, has no edge.
-            for (int start = 0; start < layout_.nx; start += 64) {
-                const int end = std::min(start + 64, layout_.nx);
-                std::uint8_t edge = 0;
-                for (int i = start; i < end; ++i) {
-                    const std::uint8_t minimum =
-                        std::min({own[i - 1], own[i + 1], own[i - row], own[i + row], own[i - slab], own[i + slab]});
-                    const auto any = static_cast<std::uint8_t>(own[i - 1] | own[i + 1] | own[i - row] | own[i + row] |
-                                                               own[i - slab] | own[i + slab]);
-                    edge |= own[i] == 1 ? std::uint8_t{minimum == 0} : static_cast<std::uint8_t>(any & 1);
-                }
-                if (edge == 0) continue;
-                for (int i = start; i < end; ++i) {
-                    const auto blocked = [&](std::ptrdiff_t to) { return own[i + to] == 0; };
-                    const auto fluid = [&](std::ptrdiff_t to) { return own[i + to] == 1; };
-                    const auto at = static_cast<std::uint32_t>(first + static_cast<std::size_t>(i));
-                    if (own[i] == 1 && std::any_of(neighbours.begin(), neighbours.end(), blocked))
-                        beside.push_back(at);
-                    else if (own[i] != 1 && std::any_of(neighbours.begin(), neighbours.end(), fluid))
-                        rim.push_back(at);
-                }
+            for (int i = 0; i < layout_.nx; ++i) {
+                if (own[i] == 1) continue;
+                const std::size_t at = first + static_cast<std::size_t>(i);
+                const auto add = [&](std::size_t lane) {
+                    const bool isBeside = std::ranges::any_of(neighbours, [&](std::ptrdiff_t to) {
+                        return (moving_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) + to)] &
+                                bitOf(lane)) != 0;
+                    });
+                    if (isBeside)
+                        rim.push_back({static_cast<std::uint32_t>(at), static_cast<std::uint8_t>(lane),
+                                       lane < 3 ? cells.cell(at)[lane] : 0});
+                };
+                add(density);
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    if ((own + i)[-steps[axis]] != 1) add(axis);  // else it is the surface itself
             }
         }
     });
     rim_.clear();
-    besideBlocked_.clear();
-    for (std::size_t k = 0; k < rimOfSlab_.size(); ++k) {
-        for (const std::uint32_t at : rimOfSlab_[k]) {
-            const float* record = cells.cell(at);
-            rim_.push_back({at, {record[0], record[1], record[2]}});
-        }
-        besideBlocked_.insert(besideBlocked_.end(), besideOfSlab_[k].begin(), besideOfSlab_[k].end());
-    }
+    for (const auto& ofSlab : rimOfSlab_) rim_.insert(rim_.end(), ofSlab.begin(), ofSlab.end());
 }
 
 void SolidCells::extendInto(CellField& cells, bool slip) const {
     const auto neighbours = around(layout_);
     parallel::forEachBlock(rim_.size(), 4096, [&](std::size_t first, std::size_t count) {
         for (std::size_t r = first; r < first + count; ++r) {
-            float* own = cells.cell(rim_[r].at);
+            const auto [at, lane, solid] = rim_[r];
+            if (lane < 3 && !slip) continue;
+            float* own = cells.cell(at) + lane;
+            const std::size_t quantities = lane < 3 ? 1 : lanes - density;
             std::array<float, lanes> sum{};
             float found = 0;
             for (const std::ptrdiff_t to : neighbours) {
-                if (conductance_[static_cast<std::size_t>(rim_[r].at + to)] != 1) continue;
+                if ((moving_[static_cast<std::size_t>(at + to)] & bitOf(lane)) == 0) continue;
                 const float* other = own + to * static_cast<std::ptrdiff_t>(lanes);
-                for (std::size_t lane = 0; lane < lanes; ++lane) sum[lane] += other[lane];
+                for (std::size_t q = 0; q < quantities; ++q) sum[q] += other[q];
                 found += 1;
             }
-            for (std::size_t lane = slip ? 0 : 3; lane < lanes; ++lane) own[lane] = sum[lane] / found;
+            for (std::size_t q = 0; q < quantities; ++q) own[q] = sum[q] / found;
         }
     });
 }
 
 void SolidCells::restore(CellField& cells) const {
-    for (const Rim& rim : rim_) {
-        float* record = cells.cell(rim.at);
-        for (int lane = 0; lane < 3; ++lane) record[lane] = rim.velocity[lane];
-        record[density] = record[temperature] = record[reaction] = 0;
+    for (const auto& [at, lane, solid] : rim_) {
+        float* record = cells.cell(at);
+        if (lane < 3)
+            record[lane] = solid;
+        else
+            record[density] = record[temperature] = record[reaction] = 0;
     }
 }
 

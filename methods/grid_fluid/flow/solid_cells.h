@@ -1,7 +1,7 @@
-// The solid cells, the velocity of their surfaces, and the resulting conductance of faces between cells.
+// The solid cells, the speeds of their faces, what moves between them, and the resulting conductance between cells.
 //
 // Units: metres per second. Owns copies of what it is given. Threads: one writer.
-// Source: Crane2007, 30.2.4. Departs: inside or outside by cell; the solid's speed is kept in its cells.
+// Source: Crane2007, 30.2.4. Departs: inside or outside by cell; a solid's speed is kept on the faces of its cells.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "methods/grid_fluid/flow/advection.h"
 #include "methods/grid_fluid/flow/cell_field.h"
 #include "methods/grid_fluid/flow/fluid_box.h"
 #include "methods/grid_fluid/flow/solid_mask.h"
@@ -19,36 +20,39 @@ class SolidCells {
  public:
     SolidCells(const CellLayout& layout, const Sides& sides, MemoryAccount& account);
 
-    /// Replaces all solids. Uncovered air gets the solids' velocity, written to `cells`. Returns the density that is
-    /// lost because solids cover it, summed over cells. Throws InputError if sizes do not fit, a velocity is not
-    /// finite, or no fluid remains.
+    /// Replaces all solids. Faces of solids get their speeds, those of uncovered air keep them; both are written to
+    /// `cells`. Returns the density that is lost because solids cover it, summed over cells. Throws InputError if sizes
+    /// do not fit, a velocity is not finite, or no fluid remains.
     double set(const SolidMask& mask, CellField& cells);
 
     /// For each padded cell, the conductance of a face between it and a fluid cell: 1 for fluid, 2 for air beyond an
     /// open side, whose pressure is known half a cell away, 0 for solids, walls and inflows.
     [[nodiscard]] const std::uint8_t* conductance() const { return conductance_.data(); }
-    /// Cells of fluid beside a face that conducts nothing.
-    [[nodiscard]] std::span<const std::uint32_t> besideBlocked() const { return besideBlocked_; }
+    /// For each padded cell: faces between two cells of fluid, and cells of fluid.
+    [[nodiscard]] const Moving* moving() const { return moving_.data(); }
 
-    /// Sets the outermost solid cells to the mean of the adjacent fluid, so that samples near the surface do not mix in
-    /// the inside; includes the velocity if the surface is frictionless.
+    /// Sets what lies just inside the solids to the mean of what moves beside it, so that samples near the surface do
+    /// not mix in the inside: at centres, and if the surface is frictionless on faces between two solid cells.
     void extendInto(CellField& cells, bool slip) const;
-    /// Restores solid cells: the solid's own velocity, no transported quantities.
+    /// Restores it: the solid's own speed on faces, nothing at centres.
     void restore(CellField& cells) const;
 
  private:
-    /// A solid cell that touches fluid.
+    /// A number inside a solid, beside one that moves.
     struct Rim {
         std::uint32_t at;
-        glm::vec3 velocity;
+        std::uint8_t lane;  ///< a velocity's, or `density` for all that lies at the centre
+        float solid;        ///< the solid's own speed
     };
-    void findEdges(const CellField& cells);
+    double cover(const SolidMask& mask, CellField& cells);
+    void setFaces(const SolidMask& mask, CellField& cells) const;
+    void findMoving();
+    void findRim(const CellField& cells);
 
     CellLayout layout_;
-    LedgerVector<std::uint8_t> conductance_;
+    LedgerVector<std::uint8_t> conductance_, moving_;
     std::vector<Rim> rim_;
-    std::vector<std::uint32_t> besideBlocked_;
-    std::vector<std::vector<std::uint32_t>> rimOfSlab_, besideOfSlab_;
+    std::vector<std::vector<Rim>> rimOfSlab_;
 };
 
 }  // namespace dustbench::grid_fluid::flow

@@ -18,8 +18,9 @@ struct BodyMotion {
     glm::vec3 turnPerCell{0};  ///< metres per second per cell of distance: angular velocity times spacing
     glm::vec3 centreCells{0};  ///< from the minimum corner of the box
 
-    [[nodiscard]] glm::vec3 velocityAt(int i, int j, int k) const {
-        return velocity + glm::cross(turnPerCell, glm::vec3(i, j, k) + 0.5f - centreCells);
+    /// At a place in cells from the minimum corner of the box.
+    [[nodiscard]] glm::vec3 velocityAt(const glm::vec3& place) const {
+        return velocity + glm::cross(turnPerCell, place - centreCells);
     }
 };
 

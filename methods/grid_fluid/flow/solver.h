@@ -37,10 +37,15 @@ class Solver {
     /// Hash of all records, without ghosts (hashOf).
     [[nodiscard]] virtual std::uint64_t stateHash() const = 0;
 
-    /// Copies one quantity of all cells, x fastest, without ghosts.
+    /// Copies one quantity of all cells, x fastest, without ghosts; of a velocity, the mean of the cell's two faces.
     virtual void gather(Lane lane, std::span<float> to) const = 0;
+    /// The same as it is stored: of a velocity, the speed of the face towards −x, −y or −z.
+    virtual void gatherStored(Lane lane, std::span<float> to) const = 0;
     /// Kinematic pressure p/ρ of the last step in m²/s², 0 in solids, in the same order.
     [[nodiscard]] virtual std::vector<float> pressuresM2PerS2() const = 0;
+
+    /// Greatest |∇·u|·Δt over the cells by the stored speeds of their faces, with the last step's Δt; 0 before it.
+    [[nodiscard]] virtual float divergencePerStep() const = 0;
 
     /// Whether the state is on the GPU.
     [[nodiscard]] virtual bool onGpu() const = 0;

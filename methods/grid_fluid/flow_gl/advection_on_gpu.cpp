@@ -7,34 +7,46 @@ namespace {
 
 using namespace grid_fluid_flow_gl_shaders;
 
-std::map<std::string, std::string> predictionOf(const flow::AdvectionRule& rule) {
-    if (rule.scheme != flow::AdvectionScheme::macCormack) return {};
-    return {{"CORRECTED", ""}};
+std::map<std::string, std::string> correctionOf(const flow::AdvectionRule& rule) {
+    return {{"LIMIT", std::to_string(static_cast<int>(rule.limit))},
+            {"PATH_TOLERANCE", std::to_string(flow::pathTolerance)}};
 }
 
 }  // namespace
 
-AdvectionOnGpu::AdvectionOnGpu(gpu::Device& device, const glm::ivec3& cells, flow::AdvectionRule rule)
-    : cells_(cells),
+AdvectionOnGpu::AdvectionOnGpu(gpu::Device& device, const flow::CellLayout& layout, flow::AdvectionRule rule)
+    : cells_(layout.nx, layout.ny, layout.nz),
       corrected_(rule.scheme == flow::AdvectionScheme::macCormack),
-      predict_(device, {grid_glsl, kinds_glsl, sampling_glsl, predict_comp}, predictionOf(rule)),
-      correct_(device, {grid_glsl, kinds_glsl, sampling_glsl, correct_comp},
-               {{"LIMIT", std::to_string(static_cast<int>(rule.limit))}}) {
-    predict_.set("cells", cells);
-    correct_.set("cells", cells);
+      halfway_(device, "fluid paths", layout.padded() * CellsOnGpu::bytesMoving),
+      centres_(device, {grid_glsl, centres_comp}),
+      findHalfway_(device, {grid_glsl, sampling_glsl, halfway_comp}),
+      predict_(device, {grid_glsl, kinds_glsl, sampling_glsl, paths_glsl, predict_comp}),
+      correct_(device, {grid_glsl, kinds_glsl, sampling_glsl, paths_glsl, correct_comp}, correctionOf(rule)) {
+    for (Kernel* kernel : {&centres_, &findHalfway_, &predict_, &correct_}) kernel->set("cells", cells_);
+}
+
+void AdvectionOnGpu::findPaths(const CellsOnGpu& from, const CellsOnGpu& to, const StepReportOnGpu& report,
+                               float cellsPerSpeed) {
+    from.moving.bindStorage(1);
+    to.moving.bindStorage(5);  // the centres' velocities, until the next state is written
+    centres_.run(cells_ + 2);
+    halfway_.bindStorage(6);
+    report.bind();
+    findHalfway_.set("cellsPerSpeed", cellsPerSpeed);
+    findHalfway_.run(cells_ + 2);
 }
 
 void AdvectionOnGpu::advect(const CellsOnGpu& from, const CellsOnGpu& to, const CellsOnGpu& guess,
                             const gpu::Buffer& kinds, const StepReportOnGpu& report, float cellsPerSpeed) {
+    findPaths(from, to, report, cellsPerSpeed);
     kinds.bindStorage(0);
     from.bind(1);
     (corrected_ ? guess : to).bind(3);
+    halfway_.bindStorage(5);
     predict_.set("cellsPerSpeed", cellsPerSpeed);
-    if (corrected_) to.moving.bindStorage(5);
-    predict_.run(cells_);
+    predict_.run(cells_ + 1);
     if (!corrected_) return;
-    to.bind(5);
-    report.bind();
+    to.bind(6);
     correct_.set("cellsPerSpeed", cellsPerSpeed);
     correct_.run(cells_);
 }

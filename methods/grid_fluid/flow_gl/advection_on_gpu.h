@@ -13,17 +13,21 @@ namespace dustbench::grid_fluid::flow_gl {
 
 class AdvectionOnGpu {
  public:
-    AdvectionOnGpu(gpu::Device& device, const glm::ivec3& cells, flow::AdvectionRule rule);
+    AdvectionOnGpu(gpu::Device& device, const flow::CellLayout& layout, flow::AdvectionRule rule);
 
     /// Advects `from`, with ghosts filled, by `cellsPerSpeed` = Δt/h into `to`; `guess` is temporary. The report must
     /// contain the maximum speeds.
     void advect(const CellsOnGpu& from, const CellsOnGpu& to, const CellsOnGpu& guess, const gpu::Buffer& kinds,
                 const StepReportOnGpu& report, float cellsPerSpeed);
+    [[nodiscard]] std::size_t bytes() const { return halfway_.bytes(); }
 
  private:
+    void findPaths(const CellsOnGpu& from, const CellsOnGpu& to, const StepReportOnGpu& report, float cellsPerSpeed);
+
     glm::ivec3 cells_;
     bool corrected_;
-    Kernel predict_, correct_;
+    gpu::Buffer halfway_;  ///< velocities half-way along the cells' paths
+    Kernel centres_, findHalfway_, predict_, correct_;
 };
 
 }  // namespace dustbench::grid_fluid::flow_gl

@@ -4,64 +4,87 @@ layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };
 layout(std430, binding = 3) restrict readonly buffer GuessMoving { vec4 guessMoving[]; };
 layout(std430, binding = 4) restrict readonly buffer GuessCarried { vec2 guessCarried[]; };
-layout(std430, binding = 5) restrict buffer MovingThen { vec4 movingThen[]; };  // initially the departure points
-layout(std430, binding = 6) restrict writeonly buffer CarriedThen { vec2 carriedThen[]; };
-layout(std430, binding = 7) restrict readonly buffer Report { uint maximum[]; };
-uniform float cellsPerSpeed;
+layout(std430, binding = 6) restrict writeonly buffer MovingThen { vec4 movingThen[]; };
+layout(std430, binding = 7) restrict writeonly buffer CarriedThen { vec2 carriedThen[]; };
 
-// The eight surrounding cells in sequence.
-int corner(int low, int n) {
-    return low + (n & 1) + (n >> 1 & 1) * stepAlong(1) + (n >> 2) * stepAlong(2);
-}
+const float almost = PATH_TOLERANCE;  // cells by which a path may leave: along a wall, speeds across it are rounding errors
 
 // LIMIT as flow::Limit: 0 clamp, 1 revert, 2 none.
-vec4 limited(vec4 value, vec4 first, vec4 low, vec4 high) {
+vec3 limited(vec3 value, vec3 first, vec3 low, vec3 high) {
 #if LIMIT == 0
     return clamp(value, low, high);
+#elif LIMIT == 1
+    vec3 kept = vec3(greaterThanEqual(value, low)) * vec3(lessThanEqual(value, high));
+    return mix(first, value, greaterThan(kept, vec3(0)));
 #else
-    vec4 kept = vec4(greaterThanEqual(value, low)) * vec4(lessThanEqual(value, high));
-    return mix(first, value, greaterThan(kept, vec4(0)));
+    return value;
 #endif
+}
+
+vec3 speedOf(ivec3 c) {
+    int cell = at(max(c, ivec3(0)));
+    vec3 next = vec3(moving[cell + 1].x, moving[cell + stepAlong(1)].y, moving[cell + stepAlong(2)].z);
+    return 0.5 * (moving[cell].xyz + next);
+}
+
+// The first guess has no value beyond the outermost places that move, and is not used farther along z than the greatest speed.
+// Moves `place` to the end of its path, if that is allowed.
+bool follow(ivec3 c, int kind, vec3 velocity, inout vec3 place) {
+    float reach = halfway[at(c)].w;
+    vec3 low = vec3(1), high = vec3(cells);
+    if (kind < 3) high[kind] += 1.0;
+    low.z = max(low.z, float(c.z + 1) - reach);
+    high.z = min(high.z, float(c.z + 1) + reach);
+    vec3 ahead = place + 2.0 * cellsPerSpeed * velocity;
+    bool stays = all(greaterThanEqual(min(ahead, place), low - almost)) && all(lessThanEqual(max(ahead, place), high + almost));
+    place = clamp(ahead, low, high);
+    return stays;
+}
+
+float correctedFace(ivec3 c, int axis, vec3 velocity, float first) {
+    vec3 began = behind(c, axis), ended = began;
+    if (!follow(c, axis, velocity, ended)) return first;
+    float value = first + 0.5 * (moving[at(c)][axis] - SAMPLED(guessMoving, [axis], cornersAround(ended)));
+    int low = cornersAround(began).low;
+    float minimum = moving[low][axis], maximum = minimum;
+    for (int n = 1; n < 8; ++n) {
+        float there = moving[corner(low, n)][axis];
+        minimum = min(minimum, there);
+        maximum = max(maximum, there);
+    }
+    return limited(vec3(value), vec3(first), vec3(minimum), vec3(maximum)).x;
+}
+
+// Density, temperature and reaction.
+vec3 correctedCentre(ivec3 c, vec3 velocity, vec3 first) {
+    vec3 began = behind(c, 3), ended = began;
+    if (!follow(c, 3, velocity, ended)) return first;
+    Corners there = cornersAround(ended);
+    vec3 own = vec3(moving[at(c)].w, carried[at(c)]);
+    vec3 value = first + 0.5 * (own - vec3(SAMPLED(guessMoving, .w, there), SAMPLED(guessCarried, .xy, there)));
+    int low = cornersAround(began).low;
+    vec3 minimum = vec3(moving[low].w, carried[low]), maximum = minimum;
+    for (int n = 1; n < 8; ++n) {
+        int other = corner(low, n);
+        vec3 value = vec3(moving[other].w, carried[other]);
+        minimum = min(minimum, value);
+        maximum = max(maximum, value);
+    }
+    return limited(value, first, minimum, maximum);
 }
 
 void main() {
     ivec3 c = ivec3(gl_GlobalInvocationID);
     if (!inside(c)) return;
     int cell = at(c);
-    vec4 movingFirst = guessMoving[cell];
-    vec2 carriedFirst = guessCarried[cell];
-    vec3 behind = movingThen[cell].xyz;
-    vec4 own = moving[cell];
-    vec3 ahead = behind + 2.0 * cellsPerSpeed * own.xyz;
-    // The first guess has no value beyond the outermost centres, and is not used farther along z than the maximum speed.
-    float reach = min(ceil(uintBitsToFloat(maximum[2]) * cellsPerSpeed), float(cells.z)) + 1.0;
-    vec3 low = vec3(1, 1, max(1.0, float(c.z + 1) - reach));
-    vec3 high = vec3(cells.xy, min(float(cells.z), float(c.z + 1) + reach));
-    bool corrected = isFluid(cell) && all(greaterThanEqual(min(ahead, behind), low)) &&
-                     all(lessThanEqual(max(ahead, behind), high));
-    vec4 movingValue = movingFirst;
-    vec2 carriedValue = carriedFirst;
-    if (corrected) {
-        Corners there = cornersAround(ahead);
-        movingValue += 0.5 * (own - SAMPLED(guessMoving, there));
-        carriedValue += 0.5 * (carried[cell] - SAMPLED(guessCarried, there));
-#if LIMIT != 2
-        int from = cornersAround(behind).low;
-        vec4 movingMinimum = moving[from], movingMaximum = movingMinimum;
-        vec2 carriedMinimum = carried[from], carriedMaximum = carriedMinimum;
-        for (int n = 1; n < 8; ++n) {
-            vec4 m = moving[corner(from, n)];
-            vec2 t = carried[corner(from, n)];
-            movingMinimum = min(movingMinimum, m);
-            movingMaximum = max(movingMaximum, m);
-            carriedMinimum = min(carriedMinimum, t);
-            carriedMaximum = max(carriedMaximum, t);
-        }
-        movingValue = limited(movingValue, movingFirst, movingMinimum, movingMaximum);
-        carriedValue = limited(vec4(carriedValue, 0, 0), vec4(carriedFirst, 0, 0), vec4(carriedMinimum, 0, 0),
-                               vec4(carriedMaximum, 0, 0)).xy;
-#endif
+    vec4 value = guessMoving[cell];
+    vec3 carriedValue = vec3(value.w, guessCarried[cell]);
+    if (isFluid(cell)) {
+        vec3 own = speedOf(c);
+        for (int axis = 0; axis < 3; ++axis)
+            if (moves(cell, axis)) value[axis] = correctedFace(c, axis, 0.5 * (own + speedOf(c - unit(axis))), value[axis]);
+        carriedValue = correctedCentre(c, own, carriedValue);
     }
-    movingThen[cell] = movingValue;
-    carriedThen[cell] = carriedValue;
+    movingThen[cell] = vec4(value.xyz, carriedValue.x);
+    carriedThen[cell] = carriedValue.yz;
 }

@@ -9,9 +9,10 @@ shared double columns[GROUP];
 float leaving(ivec3 c, int cell, vec4 record) {
     float sum = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-        float outward = record[axis] * cellsPerSpeed;
-        if (c[axis] == 0 && conductance(cell - stepAlong(axis)) == 2u) sum += max(-outward, 0.0);
-        if (c[axis] == cells[axis] - 1 && conductance(cell + stepAlong(axis)) == 2u) sum += max(outward, 0.0);
+        int step = stepAlong(axis);
+        if (c[axis] == 0 && conductance(cell - step) == 2u) sum += max(-record[axis] * cellsPerSpeed, 0.0);
+        if (c[axis] == cells[axis] - 1 && conductance(cell + step) == 2u)
+            sum += max(moving[cell + step][axis] * cellsPerSpeed, 0.0);
     }
     return sum * record.w;
 }

@@ -5,14 +5,15 @@ uniform float diffusion;
 
 void main() {
     ivec3 c = ivec3(gl_GlobalInvocationID);
-    if (!inside(c)) return;
+    if (!insideOrFar(c)) return;
     int cell = at(c);
     vec4 own = moving[cell];
     if (isFluid(cell)) {
         vec3 around = -6.0 * own.xyz;
         for (int axis = 0; axis < 3; ++axis)
             around += moving[cell + stepAlong(axis)].xyz + moving[cell - stepAlong(axis)].xyz;
-        own.xyz += diffusion * around;
+        for (int axis = 0; axis < 3; ++axis)
+            if (moves(cell, axis)) own[axis] += diffusion * around[axis];
     }
     movingThen[cell] = own;
 }

@@ -1,25 +1,49 @@
-// Sets the outermost solid cells to the mean of the adjacent fluid; includes the velocity if solids are frictionless.
+// Sets what lies just inside the solids to the mean of what moves beside it, as flow::SolidCells::extendInto: at centres, and on
+// faces between two solid cells if solids are frictionless.
 layout(std430, binding = 1) restrict buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict buffer Carried { vec2 carried[]; };
 uniform int slip;
+
+int beside(int cell, int face) {
+    return cell + (face % 2 == 0 ? -1 : 1) * stepAlong(face / 2);
+}
+
+void extendCentre(int cell) {
+    vec3 sum = vec3(0);
+    float found = 0.0;
+    for (int face = 0; face < 6; ++face) {
+        int other = beside(cell, face);
+        if (!isFluid(other)) continue;
+        sum += vec3(moving[other].w, carried[other]);
+        found += 1.0;
+    }
+    if (found == 0.0) return;
+    moving[cell].w = sum.x / found;
+    carried[cell] = sum.yz / found;
+}
+
+void extendFace(int cell, int axis) {
+    float sum = 0.0, found = 0.0;
+    for (int face = 0; face < 6; ++face) {
+        int other = beside(cell, face);
+        if (!moves(other, axis)) continue;
+        sum += moving[other][axis];
+        found += 1.0;
+    }
+    if (found == 0.0) return;
+    // Other threads read the other components.
+    if (axis == 0) moving[cell].x = sum / found;
+    else if (axis == 1) moving[cell].y = sum / found;
+    else moving[cell].z = sum / found;
+}
 
 void main() {
     ivec3 c = ivec3(gl_GlobalInvocationID);
     if (!inside(c)) return;
     int cell = at(c);
     if (isFluid(cell)) return;
-    vec4 movingSum = vec4(0);
-    vec2 carriedSum = vec2(0);
-    float found = 0.0;
-    for (int face = 0; face < 6; ++face) {
-        int other = cell + (face % 2 == 0 ? -1 : 1) * stepAlong(face / 2);
-        if (!isFluid(other)) continue;
-        movingSum += moving[other];
-        carriedSum += carried[other];
-        found += 1.0;
-    }
-    if (found == 0.0) return;
-    movingSum /= found;
-    moving[cell] = slip != 0 ? movingSum : vec4(moving[cell].xyz, movingSum.w);
-    carried[cell] = carriedSum / found;
+    extendCentre(cell);
+    if (slip == 0) return;
+    for (int axis = 0; axis < 3; ++axis)
+        if (!isFluid(cell - stepAlong(axis))) extendFace(cell, axis);  // else it is the surface itself
 }

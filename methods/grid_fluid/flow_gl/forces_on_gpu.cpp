@@ -22,22 +22,26 @@ ForcesOnGpu::ForcesOnGpu(gpu::Device& device, const glm::ivec3& cells, const flo
       settings_(settings),
       spacingMetres_(spacingMetres),
       curl_(device, {grid_glsl, kinds_glsl, curl_comp}),
-      forces_(device, {grid_glsl, kinds_glsl, forces_comp}, definitionsFor(settings)),
+      centreForces_(device, {grid_glsl, centre_forces_comp}, definitionsFor(settings)),
+      forces_(device, {grid_glsl, kinds_glsl, forces_comp}),
       diffuse_(device, {grid_glsl, kinds_glsl, diffuse_comp}) {
-    for (Kernel* kernel : {&curl_, &forces_, &diffuse_}) kernel->set("cells", cells);
+    for (Kernel* kernel : {&curl_, &centreForces_, &forces_, &diffuse_}) kernel->set("cells", cells);
     curl_.set("spacing", spacingMetres);
 }
 
-void ForcesOnGpu::apply(const CellsOnGpu& state, const CellsOnGpu& spare, const gpu::Buffer& kinds, float seconds) {
+void ForcesOnGpu::apply(const CellsOnGpu& state, const CellsOnGpu& spare, const CellsOnGpu& otherSpare,
+                        const gpu::Buffer& kinds, float seconds) {
     kinds.bindStorage(0);
     state.bind(1);
     if (settings_.confinementPerSecond > 0) {
         spare.moving.bindStorage(5);
         curl_.run(cells_);
-        forces_.set("strength", settings_.confinementPerSecond * spacingMetres_ * seconds);
+        centreForces_.set("strength", settings_.confinementPerSecond * spacingMetres_ * seconds);
     }
-    forces_.set("lift", settings_.buoyancyPerKelvin * seconds);
-    forces_.set("weight", settings_.weightPerDensity * seconds);
+    otherSpare.moving.bindStorage(6);
+    centreForces_.set("lift", settings_.buoyancyPerKelvin * seconds);
+    centreForces_.set("weight", settings_.weightPerDensity * seconds);
+    centreForces_.run(cells_);
     forces_.set("keptDensity", std::exp(-settings_.densityDecayPerSecond * seconds));
     forces_.set("keptHeat", std::exp(-settings_.coolingPerSecond * seconds));
     forces_.set("lost", settings_.reactionLossPerSecond * seconds);
@@ -49,7 +53,7 @@ void ForcesOnGpu::diffuse(const CellsOnGpu& from, const CellsOnGpu& to, const gp
     from.moving.bindStorage(1);
     to.moving.bindStorage(3);
     diffuse_.set("diffusion", diffusion);
-    diffuse_.run(cells_);
+    diffuse_.run(cells_ + 1);
 }
 
 }  // namespace dustbench::grid_fluid::flow_gl

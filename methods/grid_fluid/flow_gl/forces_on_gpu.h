@@ -13,8 +13,9 @@ class ForcesOnGpu {
  public:
     ForcesOnGpu(gpu::Device& device, const glm::ivec3& cells, const flow::ForceSettings& settings, float spacingMetres);
 
-    /// Applies all forces except viscosity; `state` needs ghosts if there is confinement. `spare` is overwritten.
-    void apply(const CellsOnGpu& state, const CellsOnGpu& spare, const gpu::Buffer& kinds, float stepSeconds);
+    /// Applies all forces except viscosity; `state` needs ghosts if there is confinement. Both spares are overwritten.
+    void apply(const CellsOnGpu& state, const CellsOnGpu& spare, const CellsOnGpu& otherSpare, const gpu::Buffer& kinds,
+               float stepSeconds);
     /// One explicit step of viscosity, from one field to another; `diffusion` = ν·Δt/h².
     void diffuse(const CellsOnGpu& from, const CellsOnGpu& to, const gpu::Buffer& kinds, float diffusion);
 
@@ -22,7 +23,7 @@ class ForcesOnGpu {
     glm::ivec3 cells_;
     flow::ForceSettings settings_;
     float spacingMetres_;
-    Kernel curl_, forces_, diffuse_;
+    Kernel curl_, centreForces_, forces_, diffuse_;
 };
 
 }  // namespace dustbench::grid_fluid::flow_gl

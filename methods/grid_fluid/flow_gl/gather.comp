@@ -1,4 +1,4 @@
-// Copies one quantity of all cells, without ghosts, to a 3D texture or to an array.
+// Copies one quantity of all cells, without ghosts, to a 3D texture or to an array. A cell's velocity is the mean of its two faces.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };
 #ifdef TEXTURE
@@ -7,11 +7,18 @@ layout(binding = 0, r32f) restrict writeonly uniform image3D picture;
 layout(std430, binding = 3) restrict writeonly buffer Values { float values[]; };
 #endif
 uniform int lane;
+#ifndef TEXTURE
+uniform int asStored;  // a velocity on the face towards -x, -y or -z
+#else
+const int asStored = 0;
+#endif
 
 void main() {
     ivec3 c = ivec3(gl_GlobalInvocationID);
     if (!inside(c)) return;
-    float value = lane < 4 ? moving[at(c)][lane] : carried[at(c)][lane - 4];
+    int cell = at(c);
+    float value = lane < 4 ? moving[cell][lane] : carried[cell][lane - 4];
+    if (lane < 3 && asStored == 0) value = 0.5 * (value + moving[cell + stepAlong(lane)][lane]);
 #ifdef TEXTURE
     imageStore(picture, c, vec4(value));
 #else

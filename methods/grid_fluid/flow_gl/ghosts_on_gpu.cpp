@@ -1,24 +1,41 @@
 #include "methods/grid_fluid/flow_gl/ghosts_on_gpu.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "grid_fluid_flow_gl_shaders.h"
 
 namespace dustbench::grid_fluid::flow_gl {
 
-GhostsOnGpu::GhostsOnGpu(gpu::Device& device, const glm::ivec3& cells, const flow::GhostRule& rule)
-    : cells_(cells),
-      kernel_(device, {grid_fluid_flow_gl_shaders::grid_glsl, grid_fluid_flow_gl_shaders::ghosts_comp},
-              {{"SIDES", sidesText(rule.sides)}}) {
-    kernel_.set("cells", cells);
-    kernel_.set("wind", rule.windMetresPerSecond);
-    kernel_.set("noSlip", rule.noSlip ? 1 : 0);
+using namespace grid_fluid_flow_gl_shaders;
+
+namespace {
+
+std::map<std::string, std::string> definitionsFor(const flow::GhostRule& rule) {
+    const glm::vec3& wind = rule.windMetresPerSecond;
+    return {{"SIDES", sidesText(rule.sides)},
+            {"WIND", fmt::format("vec3({:.9e}, {:.9e}, {:.9e})", wind.x, wind.y, wind.z)}};
 }
 
-void GhostsOnGpu::fill(const CellsOnGpu& state, flow::GhostUse use) {
+}  // namespace
+
+GhostsOnGpu::GhostsOnGpu(gpu::Device& device, const glm::ivec3& cells, const flow::GhostRule& rule)
+    : cells_(cells),
+      ghosts_(device, {grid_glsl, ghosts_comp}, definitionsFor(rule)),
+      sideFaces_(device, {grid_glsl, side_faces_comp}, definitionsFor(rule)) {
+    for (Kernel* kernel : {&ghosts_, &sideFaces_}) kernel->set("cells", cells);
+    ghosts_.set("noSlip", rule.noSlip ? 1 : 0);
+}
+
+void GhostsOnGpu::fill(const CellsOnGpu& state) {
     state.bind(1);
-    kernel_.set("forFaces", use == flow::GhostUse::faces ? 1 : 0);
-    kernel_.run({std::max(cells_.x, cells_.y) + 2, std::max(cells_.y, cells_.z) + 2, 6});
+    ghosts_.run({std::max(cells_.x, cells_.y) + 2, std::max(cells_.y, cells_.z) + 2, 6});
+}
+
+void GhostsOnGpu::setSideFaces(const CellsOnGpu& state) {
+    state.moving.bindStorage(1);
+    sideFaces_.run({std::max(cells_.x, cells_.y), std::max(cells_.y, cells_.z), 6});
 }
 
 }  // namespace dustbench::grid_fluid::flow_gl

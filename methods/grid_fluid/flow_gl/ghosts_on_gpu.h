@@ -12,11 +12,13 @@ namespace dustbench::grid_fluid::flow_gl {
 class GhostsOnGpu {
  public:
     GhostsOnGpu(gpu::Device& device, const glm::ivec3& cells, const flow::GhostRule& rule);
-    void fill(const CellsOnGpu& state, flow::GhostUse use);
+    /// As flow::fillGhosts and flow::setSideFaces.
+    void fill(const CellsOnGpu& state);
+    void setSideFaces(const CellsOnGpu& state);
 
  private:
     glm::ivec3 cells_;
-    Kernel kernel_;
+    Kernel ghosts_, sideFaces_;
 };
 
 }  // namespace dustbench::grid_fluid::flow_gl

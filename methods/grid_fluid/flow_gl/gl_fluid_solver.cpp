@@ -1,6 +1,7 @@
 #include "methods/grid_fluid/flow_gl/gl_fluid_solver.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "grid_fluid_flow_gl_shaders.h"
@@ -22,8 +23,9 @@ const flow::FluidSettings& checked(const flow::FluidSettings& settings, const gp
                ", allowed: " + std::to_string(allowed);
     };
     if (bytes > maximum) throw InputError(text("in one buffer of OpenGL", bytes, maximum));
-    // Per cell three fields, its kind, and the pressure: 16 bytes and a quarter more for the coarser levels.
-    const std::size_t all = padded * (3 * (CellsOnGpu::bytesMoving + CellsOnGpu::bytesCarried) + 4 + 20);
+    // Per cell three fields, its path, its kind, and the pressure: 16 bytes and a quarter more for the coarser levels.
+    const std::size_t all =
+        padded * (3 * (CellsOnGpu::bytesMoving + CellsOnGpu::bytesCarried) + CellsOnGpu::bytesMoving + 4 + 20);
     if (const auto free = device.driverFreeBytes(); free && static_cast<std::int64_t>(all) > *free)
         throw InputError(text("in all", all, static_cast<std::size_t>(*free)));
     return settings;
@@ -41,12 +43,12 @@ GlFluidSolver::GlFluidSolver(const flow::FluidSettings& settings, gpu::Device& d
       report_(device, std::max(settings.maximumCycles, 0) + 1),
       solids_(device, layout_, settings.sides, ledger.account("fluid solids")),
       ghosts_(device, settings.box.cells, {settings.sides, settings.windMetresPerSecond, settings.noSlip}),
-      advection_(device, settings.box.cells, settings.advection),
+      advection_(device, layout_, settings.advection),
       sources_(device, settings.box.cells),
       forces_(device, settings.box.cells, settings.forces, static_cast<float>(settings.box.spacingMetres)),
       pressure_(device, settings.box.cells, settings.sides, settings.pressure),
-      divergence_(device, {grid_glsl, level_glsl, kinds_glsl, face_speed_glsl, divergence_comp}),
-      gradient_(device, {grid_glsl, level_glsl, kinds_glsl, face_speed_glsl, gradient_comp}),
+      divergence_(device, {grid_glsl, level_glsl, kinds_glsl, divergence_comp}),
+      gradient_(device, {grid_glsl, level_glsl, kinds_glsl, gradient_comp}),
       maximum_(device, {grid_glsl, maximum_comp}),
       scroll_(device, {grid_glsl, scroll_comp}),
       gather_(device, {grid_glsl, gather_comp}),
@@ -56,6 +58,7 @@ GlFluidSolver::GlFluidSolver(const flow::FluidSettings& settings, gpu::Device& d
     scroll_.set("wind", settings.windMetresPerSecond);
     if (settings.keepsDensity) density_.emplace(device, settings.box.cells);
     move(settings.box.cells);  // move by the whole box: only the wind remains
+    ghosts_.setSideFaces(cells_);
 }
 
 void GlFluidSolver::setSolids(const flow::SolidMask& mask) {
@@ -80,8 +83,8 @@ flow::StepReport GlFluidSolver::step(double stepSeconds, std::span<const flow::F
         const auto timing = clock.measureDetail("forces");
         sources_.add(cells_, solids_.kinds(), settings_.box, sources, seconds);
         diffuseVelocity(seconds);
-        if (settings_.forces.confinementPerSecond > 0) ghosts_.fill(cells_, flow::GhostUse::lookUp);
-        forces_.apply(cells_, guess_, solids_.kinds(), seconds);
+        if (settings_.forces.confinementPerSecond > 0) ghosts_.fill(cells_);
+        forces_.apply(cells_, guess_, spare_, solids_.kinds(), seconds);
     }
     {
         const auto timing = clock.measureDetail("project");
@@ -101,9 +104,10 @@ void GlFluidSolver::advect(float seconds) {
     const float cellsPerSpeed = seconds / static_cast<float>(settings_.box.spacingMetres);
     if (density_) density_->noteDue(cells_, solids_.kinds(), cellsPerSpeed);
     solids_.extendInto(cells_, !settings_.noSlip);
-    ghosts_.fill(cells_, flow::GhostUse::lookUp);
+    ghosts_.fill(cells_);
     advection_.advect(cells_, spare_, guess_, solids_.kinds(), report_, cellsPerSpeed);
     std::swap(cells_, spare_);
+    ghosts_.setSideFaces(cells_);
     solids_.fill(cells_);
     if (density_) density_->restore(cells_, solids_.kinds());
 }
@@ -113,7 +117,7 @@ void GlFluidSolver::diffuseVelocity(float seconds) {
     const float diffusion = settings_.forces.viscosityM2PerSecond * seconds / (spacing * spacing);
     const int parts = flow::diffusionParts(settings_, seconds);
     for (int part = 0; part < parts; ++part) {
-        ghosts_.fill(cells_, flow::GhostUse::lookUp);
+        ghosts_.fill(cells_);
         forces_.diffuse(cells_, spare_, solids_.kinds(), diffusion / static_cast<float>(parts));
         std::swap(cells_.moving, spare_.moving);
     }
@@ -123,11 +127,8 @@ void GlFluidSolver::project(float seconds) {
     const gpu::Buffer& kinds = solids_.kinds();
     if (!operatorKnown_) pressure_.build(kinds, solids_.closedRegions());
     operatorKnown_ = true;
-    ghosts_.fill(cells_, flow::GhostUse::faces);
-    kinds.bindStorage(0);
-    cells_.moving.bindStorage(1);
-    pressure_.rightSide().bindStorage(4);
-    divergence_.run(settings_.box.cells);
+    ghosts_.setSideFaces(cells_);
+    gatherDivergence();
     report_.restart();
     pressure_.start({settings_.pressure, settings_.jacobiSweeps, settings_.maximumCycles,
                      settings_.divergencePerStep * static_cast<float>(settings_.box.spacingMetres) / seconds},
@@ -138,13 +139,29 @@ void GlFluidSolver::project(float seconds) {
         cells_.moving.bindStorage(1);
         spare_.moving.bindStorage(2);
         pressure_.pressure().bindStorage(5);
-        gradient_.run(settings_.box.cells);
+        gradient_.run(settings_.box.cells + 1);
         std::swap(cells_.moving, spare_.moving);
         findMaximum();
         std::swap(cells_.moving, spare_.moving);
         report_.read();
     } while (!pressure_.enough(report_));
     std::swap(cells_.moving, spare_.moving);
+}
+
+void GlFluidSolver::gatherDivergence() const {
+    solids_.kinds().bindStorage(0);
+    cells_.moving.bindStorage(1);
+    pressure_.rightSide().bindStorage(4);
+    divergence_.run(settings_.box.cells);
+}
+
+float GlFluidSolver::divergencePerStep() const {
+    gatherDivergence();
+    std::vector<float> values(pressure_.rightSide().bytes() / sizeof(float));
+    pressure_.rightSide().read(std::span<float>(values));
+    float maximum = 0;
+    for (const float value : values) maximum = std::max(maximum, std::fabs(value));
+    return maximum * static_cast<float>(lastStepSeconds_ / settings_.box.spacingMetres);
 }
 
 void GlFluidSolver::findMaximum() {
@@ -167,7 +184,7 @@ void GlFluidSolver::move(const glm::ivec3& by) {
     cells_.bind(1);
     spare_.bind(3);
     scroll_.set("by", by);
-    scroll_.run(settings_.box.cells);
+    scroll_.run(settings_.box.cells + 1);
     std::swap(cells_, spare_);
     speedsKnown_ = false;
 }
@@ -207,10 +224,19 @@ void GlFluidSolver::readCells(flow::CellField& state) const {
 }
 
 void GlFluidSolver::gather(flow::Lane lane, std::span<float> to) const {
+    gather(lane, false, to);
+}
+
+void GlFluidSolver::gatherStored(flow::Lane lane, std::span<float> to) const {
+    gather(lane, true, to);
+}
+
+void GlFluidSolver::gather(flow::Lane lane, bool asStored, std::span<float> to) const {
     // First guesses are used within a step only.
     cells_.bind(1);
     guess_.moving.bindStorage(3);
     gather_.set("lane", static_cast<int>(lane));
+    gather_.set("asStored", asStored ? 1 : 0);
     gather_.run(settings_.box.cells);
     guess_.moving.read(to);
 }
@@ -238,13 +264,10 @@ std::uint64_t GlFluidSolver::stateHash() const {
 }
 
 MemoryReport GlFluidSolver::gpuMemory() const {
-    return {{"fluid cells", 0, cells_.bytes()},
-            {"fluid cells of the last step", 0, spare_.bytes()},
-            {"fluid first guesses", 0, guess_.bytes()},
-            {"fluid solids", 0, solids_.bytes()},
-            {"fluid density", 0, density_ ? density_->bytes() : 0},
-            {"fluid sources", 0, sources_.bytes()},
-            {"fluid pressure", 0, pressure_.bytes()}};
+    return {{"fluid cells", 0, cells_.bytes()},         {"fluid cells of the last step", 0, spare_.bytes()},
+            {"fluid first guesses", 0, guess_.bytes()}, {"fluid paths", 0, advection_.bytes()},
+            {"fluid solids", 0, solids_.bytes()},       {"fluid density", 0, density_ ? density_->bytes() : 0},
+            {"fluid sources", 0, sources_.bytes()},     {"fluid pressure", 0, pressure_.bytes()}};
 }
 
 }  // namespace dustbench::grid_fluid::flow_gl

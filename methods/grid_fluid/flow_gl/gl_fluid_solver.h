@@ -38,7 +38,9 @@ class GlFluidSolver final : public flow::Solver {
     /// Waits for the GPU, as all functions that read back do.
     [[nodiscard]] std::uint64_t stateHash() const override;
     void gather(flow::Lane lane, std::span<float> to) const override;
+    void gatherStored(flow::Lane lane, std::span<float> to) const override;
     [[nodiscard]] std::vector<float> pressuresM2PerS2() const override;
+    [[nodiscard]] float divergencePerStep() const override;
     [[nodiscard]] bool onGpu() const override { return true; }
     void gather(flow::Lane lane, const gpu::Texture& to) const override;
     [[nodiscard]] MemoryReport gpuMemory() const override;
@@ -54,6 +56,8 @@ class GlFluidSolver final : public flow::Solver {
     void diffuseVelocity(float stepSeconds);
     void project(float stepSeconds);
     void move(const glm::ivec3& by);
+    void gatherDivergence() const;
+    void gather(flow::Lane lane, bool asStored, std::span<float> to) const;
     void findMaximum();
     void requireNumbers();
 

@@ -11,6 +11,11 @@ bool inside(ivec3 c) {
     return all(greaterThanEqual(c, ivec3(0))) && all(lessThan(c, cells));
 }
 
+// Also the records behind the last cells, which hold the faces on the far sides.
+bool insideOrFar(ivec3 c) {
+    return all(greaterThanEqual(c, ivec3(0))) && all(lessThanEqual(c, cells));
+}
+
 int atIn(ivec3 c, ivec3 size) {
     return c.x + 1 + (size.x + 2) * (c.y + 1 + (size.y + 2) * (c.z + 1));
 }

@@ -9,3 +9,8 @@ uint conductance(int cell) {
 bool isFluid(int cell) {
     return conductance(cell) == 1u;
 }
+
+// Whether the speed of a cell's face towards -x, -y or -z is that of air: between two cells of fluid.
+bool moves(int cell, int axis) {
+    return isFluid(cell) && isFluid(cell - stepAlong(axis));
+}

@@ -1,22 +1,39 @@
-// Sets cells in solids to the solid's velocity and all other quantities to 0.
-layout(std430, binding = 1) restrict writeonly buffer Moving { vec4 moving[]; };
-layout(std430, binding = 2) restrict writeonly buffer Carried { vec2 carried[]; };
+// Sets the faces of solids to their speeds, and all that lies at the centre of a solid cell to 0. A face between two solids
+// belongs to the one ahead of it.
+layout(std430, binding = 1) restrict buffer Moving { vec4 moving[]; };
+layout(std430, binding = 2) restrict buffer Carried { vec2 carried[]; };
 struct Motion {
     vec4 velocity, turnPerCell, centreCells;
 };
 layout(std430, binding = 3) restrict readonly buffer Motions { Motion motions[]; };
 uniform int motionCount;
 
+int bodyAt(ivec3 c) {
+    return inside(c) ? int(kinds[at(c)] >> 2) : 0;
+}
+
+float speedOf(int body, ivec3 c, int axis) {
+    if (body > motionCount) return 0.0;
+    Motion motion = motions[body - 1];
+    vec3 place = vec3(c) + 0.5;
+    place[axis] -= 0.5;
+    return (motion.velocity.xyz + cross(motion.turnPerCell.xyz, place - motion.centreCells.xyz))[axis];
+}
+
 void main() {
     ivec3 c = ivec3(gl_GlobalInvocationID);
-    if (!inside(c)) return;
-    int body = int(kinds[at(c)] >> 2);
-    if (body == 0) return;
-    vec3 velocity = vec3(0);
-    if (body <= motionCount) {
-        Motion motion = motions[body - 1];
-        velocity = motion.velocity.xyz + cross(motion.turnPerCell.xyz, vec3(c) + 0.5 - motion.centreCells.xyz);
+    if (!insideOrFar(c)) return;
+    int cell = at(c);
+    vec4 record = moving[cell];
+    for (int axis = 0; axis < 3; ++axis) {
+        ivec3 before = c;
+        before[axis] -= 1;
+        int own = bodyAt(c), other = bodyAt(before), body = own != 0 ? own : other;
+        if (body != 0) record[axis] = speedOf(body, c, axis);
     }
-    moving[at(c)] = vec4(velocity, 0);
-    carried[at(c)] = vec2(0);
+    if (bodyAt(c) != 0) {
+        record.w = 0.0;
+        carried[cell] = vec2(0);
+    }
+    moving[cell] = record;
 }

@@ -68,7 +68,7 @@ void SolidsOnGpu::fill(const CellsOnGpu& cells) const {
     kinds_.bindStorage(0);
     cells.bind(1);
     motions_.bindStorage(3);
-    fill_.run({layout_.nx, layout_.ny, layout_.nz});
+    fill_.run(glm::ivec3(layout_.nx, layout_.ny, layout_.nz) + 1);
 }
 
 void SolidsOnGpu::extendInto(const CellsOnGpu& cells, bool slip) {

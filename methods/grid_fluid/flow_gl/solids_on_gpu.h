@@ -22,9 +22,9 @@ class SolidsOnGpu {
     /// Replaces all solids, without updating the state. False if nothing changes because there are none, as before.
     /// Throws InputError as flow::check does.
     [[nodiscard]] bool set(const flow::SolidMask& mask);
-    /// Gives solid cells the velocity of their solid and no other quantities.
+    /// Gives the faces of solids their speeds, and their cells nothing else.
     void fill(const CellsOnGpu& cells) const;
-    /// Sets the outermost solid cells to the mean of the adjacent fluid; includes the velocity if `slip`.
+    /// Sets what lies just inside the solids to the mean of what moves beside it; includes the velocity if `slip`.
     void extendInto(const CellsOnGpu& cells, bool slip);
 
     [[nodiscard]] bool any() const { return any_; }

@@ -11,7 +11,7 @@ void main() {
     float sum = 0.0;
     for (int n = own; n < reached; n += GROUP) {
         ivec3 c = first + ivec3(n % size.x, n / size.x % size.y, n / size.x / size.y);
-        if (isFluid(at(c))) sum += strengthAt(c, s);
+        if (isFluid(at(c))) sum += strengthAt(vec3(c), s);
     }
     parts[own] = sum;
     for (int width = GROUP / 2; width > 0; width /= 2) {

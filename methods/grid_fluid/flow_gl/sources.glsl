@@ -8,7 +8,8 @@ struct Source {
 };
 layout(std430, binding = 3) restrict readonly buffer Sources { Source sources[]; };
 
-float strengthAt(ivec3 c, int s) {
-    vec3 d = (vec3(c - sources[s].middle.xyz) - sources[s].offset.xyz) * sources[s].offset.w;
+// `place` in cells, whole at their centres.
+float strengthAt(vec3 place, int s) {
+    vec3 d = (place - vec3(sources[s].middle.xyz) - sources[s].offset.xyz) * sources[s].offset.w;
     return exp(-0.5 * dot(d, d));
 }

@@ -1,0 +1,14 @@
+// Where the paths of a cell begin: those of its faces across x, y and z (0 to 2), and of its centre (3).
+layout(std430, binding = 5) restrict readonly buffer Halfway { vec4 halfway[]; };
+uniform float cellsPerSpeed;
+
+ivec3 unit(int axis) {
+    return ivec3(axis == 0, axis == 1, axis == 2);
+}
+
+// x - dt u; a face has the mean velocity of its two cells.
+vec3 behind(ivec3 c, int place) {
+    vec3 u = halfway[at(c)].xyz;
+    if (place < 3) u = 0.5 * (u + halfway[at(c - unit(place))].xyz);
+    return within(vec3(c + 1) - cellsPerSpeed * u);
+}
