@@ -44,6 +44,11 @@ build/%/build.ninja: CMakePresets.json | packages
 build: build/release/build.ninja ## The program, build/release/dustbench
 	@cmake --build --preset release --parallel $(JOBS) --target dustbench
 
+.PHONY: package
+package: build ## The Debian package, build/release/dustbench_*.deb
+	@.ci/install package
+	@cpack --config build/release/CPackConfig.cmake -B build/release
+
 .PHONY: view
 view: build ## Billboards beside an octree in a window (needs a display)
 	@$(PROGRAM) view --method billboard --with octree_search

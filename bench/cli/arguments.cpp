@@ -78,7 +78,47 @@ InputError unexpected(const CLI::App& app, const CLI::App* command, const std::v
     return InputError(error.what());
 }
 
+DeclaredOption declaredOption(const CLI::Option& option) {
+    DeclaredOption declared;
+    for (const std::string& name : option.get_snames()) declared.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames()) declared.names.push_back("--" + name);
+    declared.isPositional = option.get_positional();
+    if (declared.isPositional) declared.names = {option.get_name()};
+    if (option.get_type_size_max() > 0) declared.placeholder = option.get_type_name();
+    declared.help = option.get_description();
+    declared.initial = option.get_default_str();
+    declared.isRequired = option.get_required();
+    declared.repeats =
+        option.get_expected_max() > 1 || option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+    return declared;
+}
+
+std::vector<DeclaredOption> declaredOptionsOf(const CLI::App& app) {
+    std::vector<DeclaredOption> options;
+    for (const CLI::Option* option : app.get_options()) options.push_back(declaredOption(*option));
+    return options;
+}
+
 }  // namespace
+
+std::vector<DeclaredCommand> declaredCommands(const std::vector<Command>& commands) {
+    std::vector<DeclaredCommand> declared;
+    for (const Command& command : commands) {
+        CLI::App app;
+        app.set_help_flag();
+        Arguments arguments(app);
+        command.declare(arguments);
+        declared.push_back({command.name, command.summary, command.footer, declaredOptionsOf(app)});
+    }
+    return declared;
+}
+
+std::vector<DeclaredOption> declaredOptions(const CommonOptions& common) {
+    CLI::App app;
+    Arguments arguments(app);
+    common.declare(arguments);
+    return declaredOptionsOf(app);
+}
 
 void Arguments::flag(const std::string& name, const std::string& help, bool& value) {
     app_.add_flag(name, value, help);

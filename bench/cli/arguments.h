@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/cli/declared_command.h"
+
 namespace CLI {  // NOLINT(readability-identifier-naming): the library's
 class App;
 class Option;
@@ -64,5 +66,9 @@ struct CommonOptions {
 /// Throws InputError for invalid usage.
 [[nodiscard]] int dispatch(const std::vector<Command>& commands, const CommonOptions& common, std::string_view version,
                            const std::vector<std::string>& argv);
+
+/// What the commands declare, without the common options, and these, with `--help`.
+[[nodiscard]] std::vector<DeclaredCommand> declaredCommands(const std::vector<Command>& commands);
+[[nodiscard]] std::vector<DeclaredOption> declaredOptions(const CommonOptions& common);
 
 }  // namespace dustbench::cli

@@ -1,5 +1,6 @@
 // `dustbench list`: what this build and its data provide.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iostream>
@@ -9,7 +10,9 @@
 #include "bench/cli/exit_codes.h"
 #include "bench/cli/suite_listing.h"
 #include "bench/suite/catalogue.h"
+#include "bench/suite/method_libraries.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/printable.h"
 #include "methods/kit/particles/part_toml.h"
 
 namespace dustbench::cli {
@@ -19,6 +22,7 @@ struct ListOptions {
     std::string what;
     std::string id;
     bool json = false;
+    bool ids = false;
 };
 
 void printParameters(const std::vector<Parameter>& parameters) {
@@ -41,6 +45,7 @@ void printKeys(const std::vector<Parameter>& keys) {
 void printItem(const bench::CatalogueItem& item, bool inDetail) {
     std::cout << fmt::format("  {:<20} {}\n", item.id, item.title);
     if (!item.summary.empty()) std::cout << fmt::format("  {:<20} {}\n", "", item.summary);
+    if (!item.origin.empty()) std::cout << fmt::format("  {:<20} from {}\n", "", item.origin);
     if (!inDetail) return;
     if (item.kind == "methods") printParameters(item.parameters);
     if (item.kind == "parts") {
@@ -49,7 +54,16 @@ void printItem(const bench::CatalogueItem& item, bool inDetail) {
     }
 }
 
+void printRefusedLibraries() {
+    for (const bench::MethodLibrary& library : bench::methodLibraries())
+        if (!library.whyNot.empty())
+            std::cout << files::printable(fmt::format("  {:<20} {} is not taken: {}", library.id, library.file.string(),
+                                                      library.whyNot))
+                      << '\n';
+}
+
 int list(const ListOptions& options) {
+    if (options.ids && options.json) throw InputError("--ids: got --json as well, allowed: one of them");
     if (!options.what.empty()) {
         const std::vector<std::string>& kinds = bench::catalogueKinds();
         if (std::ranges::find(kinds, options.what) == kinds.end()) throw unknownName("list", options.what, kinds);
@@ -59,10 +73,14 @@ int list(const ListOptions& options) {
         if (!options.what.empty() && options.what != kind) continue;
         std::vector<bench::CatalogueItem> items = bench::catalogue(kind);
         if (!options.id.empty()) items = {bench::findItem(kind, items, options.id)};
-        if (!options.json) {
+        if (options.ids) {
+            for (const bench::CatalogueItem& item : items) std::cout << item.id << '\n';
+        } else if (!options.json) {
             std::cout << kind << ":\n";
             for (const bench::CatalogueItem& item : items) printItem(item, !options.what.empty());
             if (kind == "suites" && !options.id.empty()) std::cout << describeSuite(options.id);
+            const bool ofLibraries = kind == "methods" || (kind == "parts" && !options.what.empty());
+            if (ofLibraries && options.id.empty()) printRefusedLibraries();
             if (kind == "methods" && !options.what.empty() && options.id.empty()) {
                 std::cout << "every method also has the parameters of the world:\n";
                 printParameters(bench::worldParameterList());
@@ -84,9 +102,10 @@ Command listCommand() {
         "list parts` is the manual of particle systems, the files of data/particles: `size/linear` is a table [size] "
         "with part = \"linear\" and any of the keys shown. There may be several of life, shading and force: [[force]].",
         [options](Arguments& arguments) {
-            arguments.text("what", "", "methods, scenes, drives, suites, experiments, metrics or parts; default: all",
+            arguments.text("what", fmt::format("{}", fmt::join(bench::catalogueKinds(), "|")), "default: all",
                            options->what);
             arguments.text("id", "", "only this one", options->id);
+            arguments.flag("--ids", "the ids alone, one a line", options->ids);
             arguments.flag("--json", "an array of objects with `id`", options->json);
         },
         [options] { return list(*options); }};

@@ -19,6 +19,7 @@
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
 #include "bench/measure/provenance.h"
+#include "bench/suite/method_libraries.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/machine_error.h"
@@ -39,12 +40,18 @@ int abort(std::string_view what) {
     return exitAborted;
 }
 
-/// `--adapter` and `--data`, for this process and its children.
+/// `--adapter`, `--data` and `--method-path`, for this process and its children.
 CommonOptions commonOptions() {
     auto adapter = std::make_shared<std::string>();
     // Accepted before and after the subcommand, in the order given.
     auto data = std::make_shared<std::list<std::vector<std::string>>>();
-    return {[adapter, data](Arguments& arguments) {
+    auto methodPath = std::make_shared<std::list<std::vector<std::string>>>();
+    const auto all = [](const std::list<std::vector<std::string>>& given) {
+        std::vector<std::string> folders;
+        for (const auto& some : given) folders.insert(folders.end(), some.begin(), some.end());
+        return folders;
+    };
+    return {[adapter, data, methodPath](Arguments& arguments) {
                 arguments.texts("--data", "DIR",
                                 "folder of data to search before the delivered data; may be given several times, the "
                                 "first that has a name wins; replaces DUSTBENCH_DATA (folders separated by ':')",
@@ -53,13 +60,19 @@ CommonOptions commonOptions() {
                                "adapter to draw with: index or part of a name listed by `dustbench env`; default: the "
                                "first hardware adapter",
                                *adapter);
+                arguments.texts(
+                    "--method-path", "DIR",
+                    "folder of methods from outside, *.dustmethod.so; may be given several times, the first "
+                    "that has a name wins; replaces DUSTBENCH_METHOD_PATH (folders separated by ':')",
+                    methodPath->emplace_back());
             },
-            [adapter, data] {
+            [adapter, data, methodPath, all] {
                 if (!adapter->empty()) gpu::askForAdapter(*adapter);
-                std::vector<std::string> folders;
-                for (const auto& given : *data) folders.insert(folders.end(), given.begin(), given.end());
-                if (!folders.empty()) files::useDataFolders("--data", folders);
+                if (const auto folders = all(*data); !folders.empty()) files::useDataFolders("--data", folders);
                 (void)files::namedDataFolders();  // a missing folder is an error for every command
+                if (const auto folders = all(*methodPath); !folders.empty())
+                    bench::useMethodFolders("--method-path", folders);
+                bench::loadMethodLibraries();
             }};
 }
 
@@ -73,13 +86,17 @@ void requireWritten() {
 }
 
 int run(const std::vector<std::string>& argv) {
-    if (!argv.empty() && argv.front() == measureRunName) return measureRunCommand(argv);
-    if (!argv.empty() && argv.front() == forecastRunName) return forecastRunCommand(argv);
+    if (!argv.empty() && (argv.front() == measureRunName || argv.front() == forecastRunName)) {
+        bench::loadMethodLibraries();
+        return argv.front() == measureRunName ? measureRunCommand(argv) : forecastRunCommand(argv);
+    }
     std::vector<Command> commands{listCommand(),   envCommand(),   runCommand(),       compareCommand(),
                                   suiteCommand(),  mergeCommand(), reproduceCommand(), reportCommand(),
-                                  exportCommand(), diffCommand(),  viewCommand()};
+                                  exportCommand(), diffCommand(),  viewCommand(),      newMethodCommand()};
     std::ranges::move(toolCommands(), std::back_inserter(commands));
-    return dispatch(commands, commonOptions(), "dustbench " + bench::buildFacts().version, argv);
+    const CommonOptions common = commonOptions();
+    std::ranges::move(manualCommands(commands, common), std::back_inserter(commands));
+    return dispatch(commands, common, "dustbench " + bench::buildFacts().version, argv);
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ std::vector<CatalogueItem> listMetrics() {
 std::vector<CatalogueItem> listMethods() {
     std::vector<CatalogueItem> items;
     for (const MethodInfo& info : methods())
-        items.push_back({"methods", info.id, info.title, info.summary, info.source, info.parameters.all()});
+        items.push_back(
+            {"methods", info.id, info.title, info.summary, info.source, info.parameters.all(), 0, info.library});
     return items;
 }
 
@@ -68,7 +69,7 @@ std::vector<CatalogueItem> listParts() {
     std::vector<CatalogueItem> items;
     for (const particles::PartInfo& info : particles::partTable())
         items.push_back({"parts", fmt::format("{}/{}", particles::kindName(info.kind), info.name), info.help, "",
-                         info.source, particles::tableKeys(info.parameters)});
+                         info.source, particles::tableKeys(info.parameters), 0, info.library});
     return items;
 }
 
@@ -135,6 +136,7 @@ std::string catalogueJson(const std::vector<CatalogueItem>& items) {
         if (item.kind == "scenes") entry.cells.emplace_back("panels", item.panels);
         if (!item.summary.empty()) entry.cells.emplace_back("summary", item.summary);
         if (!item.source.empty()) entry.cells.emplace_back(item.kind == "suites" ? "paper" : "source", item.source);
+        if (!item.origin.empty()) entry.cells.emplace_back("origin", item.origin);
         listed.push_back(std::move(entry));
     }
     return listToJson(listed);

@@ -17,6 +17,7 @@ struct CatalogueItem {
     std::string source;                   ///< key in data/references.bib, for a part with section; or empty
     std::vector<Parameter> parameters{};  ///< of a part: the keys of its table
     std::int64_t panels = 0;              ///< of a scene
+    std::string origin{};                 ///< of a method from outside: its library; otherwise empty
 };
 
 /// `methods scenes drives suites experiments metrics parts`

@@ -96,7 +96,8 @@ struct MethodInfo {
     /// Returns why the method cannot take this scene (`needs a vehicle`), or an empty text if it can. Unset: takes
     /// every scene.
     std::function<std::string(const scene::Scene&)> cannotTake;
-    std::string id{};  ///< the folder's name; set by the registry
+    std::string id{};       ///< the folder's name; set by the registry
+    std::string library{};  ///< the file that it was loaded from; empty for methods of this build; set by the registry
 };
 
 }  // namespace dustbench

@@ -1,14 +1,32 @@
 #include "methods/kit/files/loaded_library.h"
 
 #include <dlfcn.h>
+#include <link.h>
 
-#include <filesystem>
 #include <stdexcept>
 
 namespace dustbench::files {
+namespace fs = std::filesystem;
+namespace {
+
+/// Of the library or the program that holds this code.
+fs::path ownFile() {
+    Dl_info info{};
+    void* loaded = nullptr;
+    if (dladdr1(reinterpret_cast<const void*>(&ownFile), &info, &loaded, RTLD_DL_LINKMAP) == 0)
+        throw std::runtime_error("cannot find the folder of dustbench's libraries");
+    const std::string name = static_cast<const link_map*>(loaded)->l_name;
+    return name.empty() ? fs::read_symlink("/proc/self/exe") : fs::canonical(name);  // the program has no name there
+}
+
+}  // namespace
+
+fs::path besideKit(const std::string& name) {
+    return ownFile().parent_path() / name;
+}
 
 void* functionOf(const std::string& name, const std::string& function, const std::string& what) {
-    const auto file = std::filesystem::read_symlink("/proc/self/exe").parent_path() / ("lib" + name + ".so");
+    const fs::path file = besideKit("lib" + name + ".so");
     void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     void* address = library == nullptr ? nullptr : dlsym(library, function.c_str());
     if (address == nullptr) {

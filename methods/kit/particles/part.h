@@ -60,6 +60,7 @@ struct PartInfo {
     ParameterSet parameters{};
     /// Throws InputError if values that are allowed individually are inconsistent.
     std::function<std::unique_ptr<Part>(const ParameterValues&)> create{};
+    std::string library{};  ///< the file that it was loaded from; empty for parts of this build; set by the table
 };
 
 }  // namespace dustbench::particles

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
 
 namespace dustbench::particles {
 
@@ -11,10 +12,30 @@ std::vector<PartInfo> describeParts();
 
 namespace {
 
+std::pair<PartKind, std::string> place(const PartInfo& info) {
+    return {info.kind, info.name};
+}
+
+/// Its parts know their name.
+PartInfo naming(PartInfo info) {
+    info.create = [name = info.name, create = std::move(info.create)](const ParameterValues& values) {
+        std::unique_ptr<Part> part = create(values);
+        part->setName(name);
+        return part;
+    };
+    return info;
+}
+
 std::vector<PartInfo> sortedParts() {
     std::vector<PartInfo> parts = describeParts();
-    std::ranges::sort(parts, {}, [](const PartInfo& info) { return std::pair(info.kind, info.name); });
+    std::ranges::transform(parts, parts.begin(), naming);
+    std::ranges::sort(parts, {}, place);
     return parts;
+}
+
+std::vector<PartInfo>& allParts() {
+    static std::vector<PartInfo> table = sortedParts();
+    return table;
 }
 
 }  // namespace
@@ -22,15 +43,30 @@ std::vector<PartInfo> sortedParts() {
 Part::~Part() = default;
 
 const std::vector<PartInfo>& partTable() {
-    static const std::vector<PartInfo> table = sortedParts();
-    return table;
+    return allParts();
+}
+
+void requireNewPart(const PartInfo& info) {
+    const auto same = std::ranges::find(allParts(), place(info), place);
+    if (same != allParts().end())
+        throw InputError(std::string(kindName(info.kind)) + " part '" + info.name + "' is there already, " +
+                         (same->library.empty() ? "in this build" : "from " + same->library));
+}
+
+void addPart(PartInfo info) {
+    requireNewPart(info);
+    const auto at = std::ranges::lower_bound(allParts(), place(info), {}, place);
+    allParts().insert(at, naming(std::move(info)));
 }
 
 const PartInfo& findPart(PartKind kind, std::string_view name) {
     std::vector<std::string> known;
     for (const PartInfo& info : partTable()) {
         if (info.kind != kind) continue;
-        if (info.name == name) return info;
+        if (info.name == name) {
+            if (!info.library.empty()) files::noteInput(info.library);
+            return info;
+        }
         known.push_back(info.name);
     }
     throw unknownName(std::string(kindName(kind)) + " part", name, known);

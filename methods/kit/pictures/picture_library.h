@@ -2,7 +2,7 @@
 //
 // OpenImageIO brings some 250 libraries with it, and linking them took most of every start; the files that runs read
 // and write do not need it (picture_files.h). openimageio/ implements this interface, built as libdustbench_pictures.so
-// beside the program.
+// beside the kit.
 // Units: pixels, rows from the top. Errors: returned as text, empty on success. Threads: any; calls are independent.
 #pragma once
 
@@ -53,7 +53,7 @@ class PictureLibrary {
                                              std::span<float> to, int width, int height) const = 0;
 };
 
-/// Loads the library on first call. Throws std::runtime_error if it is not beside the program.
+/// Loads the library on first call. Throws std::runtime_error if it is not there.
 [[nodiscard]] DUSTBENCH_API const PictureLibrary& pictureLibrary();
 
 }  // namespace dustbench::pictures

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "methods/kit/files/limits.h"
+#include "methods/kit/files/loaded_library.h"
 #include "methods/kit/volumes/vdb_message.h"
 
 namespace dustbench::volumes {
@@ -68,7 +69,7 @@ class Reader {
 
  private:
     int spawn(const std::filesystem::path& file, const std::string& field, int output) {
-        const std::string program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / vdbReaderName;
+        const std::string program = files::besideKit(vdbReaderName);
         std::string name = std::filesystem::absolute(file), argument = field, self = vdbReaderName;
         std::array<char*, 4> argv{self.data(), name.data(), argument.data(), nullptr};
         posix_spawn_file_actions_t actions;

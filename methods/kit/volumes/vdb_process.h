@@ -1,7 +1,7 @@
 // Reads a `.vdb` in a process of its own, because OpenVDB trusts what it reads: lengths in a damaged file make it write
 // beyond its memory. What happens to that process is a reason to refuse the file.
 //
-// It runs the program dustbench_vdb_reader beside this one (openvdb/), so that methods do not link OpenVDB.
+// It runs the program dustbench_vdb_reader beside the kit (openvdb/), so that methods do not link OpenVDB.
 #pragma once
 
 #include <filesystem>
