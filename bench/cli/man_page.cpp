@@ -78,7 +78,8 @@ std::string synopsis(const DeclaredCommand& command) {
 
 constexpr std::array<std::pair<int, const char*>, 7> exitStatuses{
     {{exitOk, "Everything was done."},
-     {exitRunFailed, "A run failed or timed out; the others were done."},
+     {exitRunFailed,
+      "A run failed or timed out; the others were done. verify: what was run again is not what the bundle says."},
      {exitAborted, "Interrupted, or the machine lacks something, such as room on the disk. The same command resumes."},
      {exitBadInput, "Wrong use, bad input or a machine without OpenGL; nothing was measured."},
      {exitInternal, "Internal error: a fault of dustbench."},

@@ -1,0 +1,161 @@
+// `dustbench bundle` and `dustbench verify`: results with all that they depend on in one file, and whether they hold.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "bench/cli/commands.h"
+#include "bench/cli/exit_codes.h"
+#include "bench/cli/plan_runner.h"
+#include "bench/cli/progress_printer.h"
+#include "bench/measure/sha256.h"
+#include "bench/results/stored_folder.h"
+#include "bench/results/temporary_folder.h"
+#include "bench/suite/bundle/bundle.h"
+#include "bench/suite/bundle/exact_runs.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/printable.h"
+
+namespace dustbench::cli {
+namespace fs = std::filesystem;
+namespace {
+
+struct BundleOptions {
+    std::string results;
+    std::string out;
+};
+
+int writeBundle(const BundleOptions& options) {
+    const fs::path results = fs::absolute(options.results).lexically_normal();
+    const fs::path folder = results.has_filename() ? results : results.parent_path();
+    const fs::path archive =
+        options.out.empty() ? fs::path(folder.filename().string() + ".tar") : fs::path(options.out);
+    if (fs::exists(fs::symlink_status(archive)))
+        throw InputError(fmt::format("bundle '{}': is there already, expected a new name", archive.string()));
+    const bench::PackedBundle packed = bench::packBundle(folder, archive);
+    for (const std::string& missing : packed.missing) std::cerr << "note: " << files::printable(missing) << "\n";
+    std::cerr << fmt::format("{} files, {:.1f} MB\n", packed.files, static_cast<double>(packed.bytes) / 1e6);
+    std::cout << archive.string() << "\n";
+    return exitOk;
+}
+
+struct VerifyOptions {
+    std::string bundle;
+    std::int64_t runs = -1;
+    double timeoutSeconds = 600;
+};
+
+/// As many as told, evenly spread; all if the number is negative.
+std::vector<bench::ExactRun> chosen(std::vector<bench::ExactRun> all, std::int64_t most) {
+    const std::size_t count = most < 0 ? all.size() : std::min(all.size(), static_cast<std::size_t>(most));
+    std::vector<bench::ExactRun> some;
+    some.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) some.push_back(std::move(all[i * all.size() / count]));
+    return some;
+}
+
+/// Why it cannot be run here, or nothing: files elsewhere are not replaced by those of the bundle.
+std::string whyNotHere(const bench::ExactRun& exact, const bench::StoredRun& run) {
+    for (const bench::InputHash& input : run.inputs)
+        if (fs::path(input.file).is_absolute() && bench::sha256OfFile(input.file) != input.sha256)
+            return fmt::format("'{}' is not here as it was", input.file);
+    try {
+        (void)bench::canonicalParameters(findMethod(exact.spec.method), exact.spec.parameters);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+std::string nameOf(const bench::ExactRun& exact) {
+    const std::size_t others = exact.runIds.size() - 1;
+    return exact.runIds.front() + (others == 0 ? "" : fmt::format(" and {} more", others));
+}
+
+/// How what was run again compares, one line each; false unless all hashes are the same.
+bool printComparison(const std::vector<bench::ExactRun>& repeated, const bench::StoredRuns& again) {
+    bool isSame = true;
+    for (const bench::ExactRun& exact : repeated) {
+        const bench::StoredRun& run = again.at(bench::runId(exact.spec));
+        const std::string difference = run.status == bench::RunStatus::done
+                                           ? bench::hashDifference(run, exact)
+                                           : "did not run again: " + files::printable(run.reason);
+        isSame = isSame && difference.empty();
+        std::cout << fmt::format("{}: {}\n", nameOf(exact), difference.empty() ? "the same hashes" : difference);
+    }
+    return isSame;
+}
+
+/// Runs the simulations again with the bundle's data and compares their hashes.
+int repeatRuns(const bench::OpenedBundle& bundle, const std::vector<bench::ExactRun>& exact, double timeoutSeconds,
+               const fs::path& below) {
+    if (const fs::path inputs = bundle.folder / "inputs"; fs::is_directory(inputs)) {
+        std::vector<std::string> folders{inputs.string()};
+        for (const fs::path& named : files::namedDataFolders()) folders.push_back(named.string());
+        files::useDataFolders("bundle", folders);
+    }
+    std::vector<bench::ExactRun> repeated;
+    std::vector<bench::PlannedRun> plan;
+    for (const bench::ExactRun& each : exact) {
+        const std::string whyNot = whyNotHere(each, bundle.runs.at(each.runIds.front()));
+        if (!whyNot.empty()) {
+            std::cout << fmt::format("{}: not run again: {}\n", nameOf(each), files::printable(whyNot));
+            continue;
+        }
+        plan.push_back({each.spec, ""});
+        repeated.push_back(each);
+    }
+    if (plan.empty()) return exitOk;
+    requireOpenGl();
+    bench::ResultsFolder again(below / "again");
+    bench::ExecutionOptions execution = childExecution();
+    execution.timeoutSeconds = timeoutSeconds;
+    ProgressPrinter printer;
+    if (bench::execute(plan, 1, again, execution, printer).aborted) {
+        std::cerr << "aborted" << std::endl;
+        return exitAborted;
+    }
+    return printComparison(repeated, again.runs()) ? exitOk : exitRunFailed;
+}
+
+int verifyBundle(const VerifyOptions& options) {
+    const bench::TemporaryFolder temporary;
+    const bench::OpenedBundle bundle = bench::openBundle(options.bundle, temporary.path());
+    const std::vector<bench::ExactRun> exact = bench::exactRuns(bundle.runs);
+    std::cout << fmt::format("{} files are as they were packed: {} runs of {} simulations\n", bundle.files,
+                             bundle.runs.size(), exact.size());
+    return repeatRuns(bundle, chosen(exact, options.runs), options.timeoutSeconds, temporary.path());
+}
+
+}  // namespace
+
+Command bundleCommand() {
+    auto options = std::make_shared<BundleOptions>();
+    return {"bundle", "Pack results with their suite, inputs and checksums into one file",
+            "The file is a tar archive; `sha256sum --check SHA256SUMS` in it needs no dustbench.",
+            [options](Arguments& arguments) {
+                arguments.required("dir", "DIR", "a folder that `suite`, `run`, `compare` or `reproduce` wrote",
+                                   options->results);
+                arguments.text("--out", "FILE", "the bundle; default: the folder's name with .tar", options->out);
+            },
+            [options] { return writeBundle(*options); }};
+}
+
+Command verifyCommand() {
+    auto options = std::make_shared<VerifyOptions>();
+    return {
+        "verify", "Check a bundle, and run again what is exact",
+        "Exact is the state after the last frame: its hashes are the same on every machine. Times are not compared.",
+        [options](Arguments& arguments) {
+            arguments.required("bundle", "FILE", "a file that `bundle` wrote", options->bundle);
+            arguments.integer("--runs", "simulations to run again, evenly spread; -1: all", options->runs, -1,
+                              std::numeric_limits<std::int64_t>::max());
+            arguments.number("--timeout", "seconds after which a run is ended", options->timeoutSeconds, 1, 1e6);
+        },
+        [options] { return verifyBundle(*options); }};
+}
+
+}  // namespace dustbench::cli

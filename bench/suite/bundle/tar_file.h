@@ -1,0 +1,42 @@
+// Archives of files alone, as every `tar` reads them. Equal contents give equal bytes: entries have no owner, and time
+// 0.
+//
+// The format is `ustar`, of IEEE Std 1003.1-2017. Units: bytes. Threads: one for each archive.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dustbench::bench {
+
+/// Writes an archive in order of the calls; it ends with `finish`.
+class TarWriter {
+ public:
+    /// Throws as files::failWriting.
+    explicit TarWriter(std::filesystem::path file);
+
+    /// `name` in the archive: relative, `/` between folders, at most 255 bytes. Throws InputError if it is too long or
+    /// `file` is not as long as it was when it was opened.
+    void add(const std::string& name, const std::filesystem::path& file);
+    void addText(const std::string& name, std::string_view text);
+    void finish();
+
+ private:
+    void header(const std::string& name, std::uintmax_t bytes);
+    void pad(std::uintmax_t bytes);
+    void write(const char* from, std::size_t bytes);
+
+    std::filesystem::path file_;
+    std::ofstream stream_;
+};
+
+/// Writes all files of the archive below `folder` and returns their names, in order. Throws InputError with the archive
+/// and the reason: it is cut short, a header is damaged, an entry is no file, leads out of the folder or is there
+/// twice. Of an archive that is refused some files may have been written.
+std::vector<std::string> extractTar(const std::filesystem::path& archive, const std::filesystem::path& folder);
+
+}  // namespace dustbench::bench
