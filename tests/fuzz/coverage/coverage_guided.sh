@@ -2,9 +2,10 @@
 # Our own readers under Clang's libFuzzer, AddressSanitizer and UndefinedBehaviorSanitizer, each for a while, beginning with
 # delivered files. What is new for a reader's branches is kept; what fails stays in FOLDER/findings.
 #   coverage_guided.sh SECONDS FOLDER [READER...]       readers: toml csv obj ply stl vti; the seed is the clock's unless SEED gives it
+#   coverage_guided.sh valgrind FOLDER [READER...]      reads all that was kept once more, without sanitizers, under valgrind
 set -euo pipefail
 root="$(cd "$(dirname "$0")/../../.." && pwd)"
-seconds="$1"
+what="$1"
 mkdir -p "$2"
 folder="$(cd "$2" && pwd)"
 shift 2
@@ -17,7 +18,21 @@ sources=(tests/fuzz/coverage/readers.cpp methods/contract/errors.cpp
     methods/kit/meshes/{mesh_text,obj_file,ply_file,ply_header,stl_file}.cpp
     methods/kit/volumes/{vti_file,vti_numbers,xml_scan}.cpp)
 flags=(-std=c++20 -O1 -g1 -I. -DDUSTBENCH_API= -DTOML_HEADER_ONLY=0 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all)
-clang++-16 "${flags[@]}" "${sources[@]}" -o "$folder/readers" -ltomlplusplus -lfmt -lz -llz4
+libraries=(-ltomlplusplus -lfmt -lz -llz4)
+
+if [[ $what == valgrind ]]; then
+    g++ -std=c++20 -O1 -g -I. -DDUSTBENCH_API= -DTOML_HEADER_ONLY=0 -DDUSTBENCH_ALONE "${sources[@]}" -o "$folder/readers_alone" \
+        "${libraries[@]}"
+    for reader in "$@"; do
+        echo "== $reader: $(find "$folder/$reader" -type f | wc -l) files"
+        find "$folder/$reader" -type f -print0 | DUSTBENCH_FUZZ_READER="$reader" xargs -0 -n 5000 \
+            valgrind --quiet --error-exitcode=1 --leak-check=full --errors-for-leak-kinds=definite "$folder/readers_alone"
+    done
+    exit
+fi
+
+seconds="$what"
+clang++-16 "${flags[@]}" "${sources[@]}" -o "$folder/readers" "${libraries[@]}"
 
 seeds() {
     case "$1" in

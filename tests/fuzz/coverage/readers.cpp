@@ -2,7 +2,9 @@
 // or refused by InputError; anything else is a finding.
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <string>
 #include <string_view>
@@ -57,3 +59,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     return 0;
 }
+
+#ifdef DUSTBENCH_ALONE
+/// Reads the files named.
+int main(int count, char** names) {
+    for (int n = 1; n < count; ++n) {
+        std::ifstream file(names[n], std::ios::binary);
+        const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+        LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+    }
+    return 0;
+}
+#endif
