@@ -168,6 +168,13 @@ TEST(DustMass, IsThatOfTheSharedCloudWhileAllIsWithinTheBox) {
     method.report(drive.frame(), facts);
     const double share = std::get<double>(facts.value("mass_kept").value());
     EXPECT_NEAR(share, expected / (240 * puff), 0.03 * expected / (240 * puff));
+    const auto fact = [&](const char* name) { return std::get<double>(facts.value(name).value()); };
+    EXPECT_GT(fact("flow_divergence"), 0);
+    EXPECT_LE(fact("flow_divergence"), 1.01 * static_cast<double>(settings.solver.divergencePerStep));
+    for (const char* noise : {"flow_noise_speed", "flow_noise_density"}) {
+        EXPECT_GT(fact(noise), 0) << noise;
+        EXPECT_LT(fact(noise), 0.05) << noise;  // of random numbers it is 0.2
+    }
 }
 
 /// Returns whether the cells of the flow are in GPU memory.

@@ -77,12 +77,10 @@ void SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
             static_cast<std::size_t>(cell.x);
         return mask.body[index];
     };
-    const auto speedOf = [&](std::uint8_t body, glm::ivec3 cell, int axis, float ahead) {
+    // Along its own axis a rigid body has the same speed everywhere, so the cell's centre does for its face.
+    const auto speedOf = [&](std::uint8_t body, glm::ivec3 cell, int axis) {
         const std::size_t n = body - std::size_t{1};
-        if (n >= mask.motions.size()) return 0.0f;
-        glm::vec3 place = glm::vec3(cell) + 0.5f;
-        place[axis] += ahead;
-        return mask.motions[n].velocityAt(place)[axis];
+        return n < mask.motions.size() ? mask.motions[n].velocityAt(glm::vec3(cell) + 0.5f)[axis] : 0.0f;
     };
     for (int axis = 0; axis < 3; ++axis) {
         const auto step = std::array<std::size_t, 3>{1, layout_.row, layout_.slab}[static_cast<std::size_t>(axis)];
@@ -95,11 +93,11 @@ void SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
                     before[axis] -= 1;
                     const std::uint8_t other = before[axis] < 0 ? 0 : bodyOf(before);
                     if (own != 0)
-                        cells.cell(at)[axis] = speedOf(own, cell, axis, -0.5f);
+                        cells.cell(at)[axis] = speedOf(own, cell, axis);
                     else if (other != 0)
-                        cells.cell(at)[axis] = speedOf(other, before, axis, 0.5f);
+                        cells.cell(at)[axis] = speedOf(other, before, axis);
                     if (own != 0 && cell[axis] == size[axis] - 1)
-                        cells.cell(at + step)[axis] = speedOf(own, cell, axis, 0.5f);
+                        cells.cell(at + step)[axis] = speedOf(own, cell, axis);
                 }
         });
     }

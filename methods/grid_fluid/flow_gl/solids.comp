@@ -15,9 +15,8 @@ int bodyAt(ivec3 c) {
 float speedOf(int body, ivec3 c, int axis) {
     if (body > motionCount) return 0.0;
     Motion motion = motions[body - 1];
-    vec3 place = vec3(c) + 0.5;
-    place[axis] -= 0.5;
-    return (motion.velocity.xyz + cross(motion.turnPerCell.xyz, place - motion.centreCells.xyz))[axis];
+    // Along its own axis a rigid body has the same speed everywhere, so the cell's centre does for its face.
+    return (motion.velocity.xyz + cross(motion.turnPerCell.xyz, vec3(c) + 0.5 - motion.centreCells.xyz))[axis];
 }
 
 void main() {
