@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/report/page_template.h"
 #include "bench/results/shell_words.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/whole_text.h"
 
 namespace dustbench::cli {
 namespace {
@@ -53,50 +57,20 @@ std::string slurmScript(const SlurmJob& job) {
         secondsAroundShard + static_cast<double>(job.maximumRunsOfShard) * (job.timeoutSeconds + around);
     std::string arguments;
     for (const std::string& word : job.arguments) arguments += " " + bench::shellQuoted(word);
-    return fmt::format(
-        R"script(#!/bin/bash
-#SBATCH --job-name=dustbench-{name}
-#SBATCH --array=1-{shards}
-#SBATCH --nodes=1
-#SBATCH --exclusive
-#SBATCH --time={time}
-#SBATCH --output=dustbench-{name}-%A_%a.log
-#
-# {runs} runs in {shards} shards, {most} in the largest. The time limit is what they may take at most: {timeout:g} s a run and
-# {around:g} s around it (--timeout), {extra:g} s a shard.
-#
-#     bash THIS_FILE      submits this array, and after it a job that merges the shards into the results folder
-#     sbatch THIS_FILE    submits the array alone
-#
-# Shards that were stopped go on when this is done again. After the merge, `dustbench suite` with the same options and
-# --out prints the tables; it finds nothing to do. All nodes must see these paths:
-dustbench={program}
-folder={folder}
-out={out}
-
-set -euo pipefail
-if [[ -n ${{SLURM_ARRAY_TASK_ID:-}} ]]; then
-    cd "$folder"
-    exec "$dustbench"{arguments} \
-        --shard "$SLURM_ARRAY_TASK_ID/{shards}" --out "$out/shards/$SLURM_ARRAY_TASK_ID-of-{shards}"
-fi
-
-array="$(sbatch --parsable "$0")"
-array="${{array%%;*}}" # a cluster's name may follow
-merge=("$dustbench" merge --out "$out")
-for ((shard = 1; shard <= {shards}; ++shard)); do
-    merge+=("$out/shards/$shard-of-{shards}")
-done
-merging="$({{ echo '#!/bin/bash' && printf 'exec' && printf ' %q' "${{merge[@]}}" && echo; }} |
-    sbatch --parsable --dependency="afterany:$array" --job-name=dustbench-{name}-merge --nodes=1 --ntasks=1 \
-        --output=dustbench-{name}-%j-merge.log)"
-echo "$array ${{merging%%;*}}"
-)script",
-        fmt::arg("name", plainName(job.name)), fmt::arg("shards", job.shards), fmt::arg("time", slurmTime(seconds)),
-        fmt::arg("runs", job.runs), fmt::arg("most", job.maximumRunsOfShard), fmt::arg("timeout", job.timeoutSeconds),
-        fmt::arg("around", around), fmt::arg("extra", secondsAroundShard),
-        fmt::arg("program", bench::shellQuoted(job.program)), fmt::arg("folder", bench::shellQuoted(job.folder)),
-        fmt::arg("out", bench::shellQuoted(job.out)), fmt::arg("arguments", arguments));
+    const std::filesystem::path file = files::dataPath("templates/slurm.sh");
+    if (file.empty()) throw InputError("data: no file templates/slurm.sh");
+    return bench::filled(files::wholeText(file, "template"), {{"name", plainName(job.name)},
+                                                              {"shards", std::to_string(job.shards)},
+                                                              {"time", slurmTime(seconds)},
+                                                              {"runs", std::to_string(job.runs)},
+                                                              {"most", std::to_string(job.maximumRunsOfShard)},
+                                                              {"timeout", fmt::format("{:g}", job.timeoutSeconds)},
+                                                              {"around", fmt::format("{:g}", around)},
+                                                              {"extra", fmt::format("{:g}", secondsAroundShard)},
+                                                              {"program", bench::shellQuoted(job.program)},
+                                                              {"folder", bench::shellQuoted(job.folder)},
+                                                              {"out", bench::shellQuoted(job.out)},
+                                                              {"arguments", arguments}});
 }
 
 }  // namespace dustbench::cli

@@ -1,6 +1,8 @@
 #include "bench/export/whole_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <fstream>
@@ -13,7 +15,27 @@ namespace {
 
 constexpr std::string_view ending = ".dustbench-unfinished";
 
+/// One file, or the entries of one folder.
+void putEntryOnDisk(const fs::path& path) {
+    const int handle = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (handle < 0) files::failWriting(path, errno);
+    const int error = fsync(handle) == 0 ? 0 : errno;
+    close(handle);
+    if (error != 0 && error != EINVAL && error != EROFS) files::failWriting(path, error);  // no disk below: EINVAL
+}
+
 }  // namespace
+
+void putOnDisk(const fs::path& path) {
+    if (fs::is_directory(path))
+        for (const auto& entry : fs::recursive_directory_iterator(path))
+            if (!entry.is_symlink() && (entry.is_regular_file() || entry.is_directory())) putEntryOnDisk(entry.path());
+    putEntryOnDisk(path);
+}
+
+void putNameOnDisk(const fs::path& path) {
+    putEntryOnDisk(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
 
 InputError cannotWrite(const fs::path& path, std::string_view reason) {
     return InputError(fmt::format("output '{}' cannot be written: {}", path.string(), reason));
@@ -29,9 +51,11 @@ WholeFile::~WholeFile() {
 }
 
 void WholeFile::publish() {
+    putOnDisk(beside_);
     std::error_code error;
     fs::rename(beside_, place_, error);
     if (error) files::failWriting(place_, error.value());
+    putNameOnDisk(place_);
 }
 
 void writeWhole(const fs::path& file, std::string_view content) {

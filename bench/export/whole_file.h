@@ -1,4 +1,5 @@
-// Atomic file writing: the file is written under a hidden name in the same folder, then renamed.
+// Atomic file writing: the file is written under a hidden name in the same folder, is put on disk, then renamed. So a
+// file under its own name is whole, even after a loss of power.
 #pragma once
 
 #include <filesystem>
@@ -26,6 +27,11 @@ class WholeFile {
     std::filesystem::path place_;
     std::filesystem::path beside_;
 };
+
+/// Waits until a file, or a folder with all that is in it, is on disk (fsync). Throws as files::failWriting.
+void putOnDisk(const std::filesystem::path& path);
+/// The same for the name alone, after it was created or changed.
+void putNameOnDisk(const std::filesystem::path& path);
 
 /// Throws as files::failWriting if it cannot be written.
 void writeWhole(const std::filesystem::path& file, std::string_view content);

@@ -26,6 +26,17 @@ constexpr std::string_view hiddenStart = ".unfinished-";
 constexpr std::string_view oldStart = ".replaced-";
 constexpr std::string_view asideStart = ".damaged-";
 
+/// A run whose program was just killed ends a moment later, and may write a last file into the folder that is removed.
+void removeLeft(const fs::path& folder) {
+    std::error_code error;
+    for (int attempt = 0; attempt < 20; ++attempt) {
+        fs::remove_all(folder, error);
+        if (error != std::errc::directory_not_empty) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds(25));
+    }
+    if (error) throw fs::filesystem_error("remove", folder, error);
+}
+
 }  // namespace
 
 ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)) {
@@ -74,7 +85,7 @@ void ResultsFolder::cleanUp() {
         if (name.starts_with(oldStart) && !fs::exists(runFolder(name.substr(oldStart.size()))))
             fs::rename(path, runFolder(name.substr(oldStart.size())));
         else
-            fs::remove_all(path);
+            removeLeft(path);
     }
 }
 
@@ -120,6 +131,7 @@ void ResultsFolder::publish(const std::string& runId) {
 
 void ResultsFolder::place(const std::string& runId) {
     StoredRun run = readRunFile(hidden(runId) / "run.json");
+    putOnDisk(hidden(runId));
     const fs::path old = folder_ / "runs" / fmt::format("{}{}", oldStart, runId);
     std::error_code error;
     if (fs::exists(runFolder(runId))) {
@@ -129,6 +141,7 @@ void ResultsFolder::place(const std::string& runId) {
     }
     fs::rename(hidden(runId), runFolder(runId), error);
     if (error) files::failWriting(runFolder(runId), error.value());
+    putNameOnDisk(runFolder(runId));
     fs::remove_all(old, error);
     runs_[runId] = std::move(run);
 }

@@ -31,7 +31,9 @@ images = 1
 preroll = 0.1
 particles = [50, 100]
 """
-ERRORS = {"write": (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG), "open": (errno.EMFILE, errno.ENOSPC, errno.ENFILE),
+ERRORS = {"write": (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG),
+          "fsync": (errno.EIO, errno.ENOSPC, errno.EDQUOT),
+          "open": (errno.EMFILE, errno.ENOSPC, errno.ENFILE),
           "rename": (errno.ENOSPC, errno.EIO), "mkdir": (errno.ENOSPC, errno.EDQUOT), "fork": (errno.EAGAIN, errno.ENOMEM)}
 failures = []
 
@@ -185,6 +187,18 @@ def try_reading(place, every, chance):
     return tried
 
 
+def try_order(place):
+    """Nothing gets its own name before it is on disk, in a fresh suite and in its report."""
+    place.clear()
+    merged = os.path.join(place.work, "merged")
+    shutil.rmtree(merged, ignore_errors=True)
+    for arguments in (["suite", place.suite, "--out", place.out], ["merge", "--out", merged, place.out], ["report", place.out]):
+        code, said = place.call(arguments, ("unsynced", 0, 0))
+        failures.extend(said_wrong(code, said, arguments[0]))
+        if place.calls():
+            failures.append(f"{arguments[0]}: {place.calls()} files or folders got their name before they were on disk")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
@@ -197,6 +211,7 @@ def main():
     place = Place(os.path.abspath(given.program), os.path.abspath(given.library), given.work)
     tried = {kind: try_kind(place, kind, given.every, chance) for kind in ERRORS}
     tried["alloc"] = try_reading(place, given.every, chance)
+    try_order(place)
     print(f"seed {given.seed}: " + ", ".join(f"{count} of {kind}" for kind, count in tried.items()))
     for failure in failures[:40]:
         print(failure)

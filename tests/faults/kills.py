@@ -3,18 +3,20 @@
 
     kills.py PROGRAM WORK [--kills 1000]
 
-Commands that write results, merge, report and export are started over one folder and killed after a random time, alone or with
+Commands that write results, merge, report, export and bundle are started over one folder and killed after a random time, alone or with
 their children. After each kill every result that a reader sees must be whole, and none that was there may be missing or changed. At
 the end all commands run to their end.
 """
 
 import argparse
+import hashlib
 import os
 import random
 import shutil
 import signal
 import subprocess
 import sys
+import tarfile
 import time
 
 from faults_test import Place, faults_of, sum_of
@@ -34,10 +36,12 @@ particles = [50, 100]
 
 def commands(place):
     merged, volumes = os.path.join(place.work, "merged"), os.path.join(place.work, "volumes")
+    bundle = os.path.join(place.work, "bundle.tar")
     return {"suite": ["suite", place.suite, "--out", place.out], "merge": ["merge", "--out", merged, place.out],
             "report": ["report", place.out],
             "export": ["export", "--method", "billboard", "--frames", "0:4:1", "--resolution", "16", "--size", "48x36",
-                       "-P", "particles=50", "-P", "preroll=0.1", "--format", "vti,vtp,vdb", "--out", volumes]}
+                       "-P", "particles=50", "-P", "preroll=0.1", "--format", "vti,vtp,vdb", "--out", volumes],
+            "bundle": ["bundle", place.out, "--out", bundle]}
 
 
 def finished(folder):
@@ -62,6 +66,26 @@ def volumes_of(folder):
     return found
 
 
+def bundle_of(work):
+    """A bundle under its own name has every file that it lists, unchanged. It goes, so that the next one can be packed."""
+    bundle = os.path.join(work, "bundle.tar")
+    if not os.path.exists(bundle):
+        return []
+    try:
+        with tarfile.open(bundle) as archive:
+            texts = {entry.name.split("/", 1)[1]: archive.extractfile(entry).read() for entry in archive}
+        sums = {name: hashlib.sha256(text).hexdigest() for name, text in texts.items()}
+        lines = texts["SHA256SUMS"].decode().splitlines()
+        listed = dict(reversed(line.split("  ", 1)) for line in lines)
+        found = [f"the bundle's {name} is not what it lists" for name in listed if sums.get(name) != listed[name]]
+        if not listed or len(sums) != len(listed) + 1:
+            found.append(f"the bundle has {len(sums)} files and lists {len(listed)}")
+    except (tarfile.TarError, KeyError, IndexError, ValueError) as error:
+        found = [f"the bundle is torn: {error}"]
+    os.remove(bundle)
+    return found
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
@@ -77,7 +101,7 @@ def main():
     failures, killed = [], dict.fromkeys(commands(place), 0)
     before, before_merged, rounds = {}, {}, 0
     for kill in range(given.kills):
-        name = chance.choices(list(killed), (6, 2, 1, 2))[0]
+        name = chance.choices(list(killed), (6, 2, 1, 2, 2))[0]
         process = subprocess.Popen([place.program, *commands(place)[name]], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL, start_new_session=True)
         time.sleep(chance.random() * (1.2 if name == "suite" else 0.4))
@@ -91,7 +115,7 @@ def main():
                 pass
         process.wait()
         now, now_merged = finished(place.out), finished(merged)
-        found = faults_of(place.out) + faults_of(merged) + volumes_of(volumes)
+        found = faults_of(place.out) + faults_of(merged) + volumes_of(volumes) + bundle_of(place.work)
         found += [f"{run} is gone or changed" for run in before if now.get(run) != before[run]]
         found += [f"merged {run} is gone or changed" for run in before_merged if now_merged.get(run) != before_merged[run]]
         failures.extend(f"kill {kill} of {name}: {each}" for each in found)
@@ -105,7 +129,9 @@ def main():
         code, said = place.call(command)
         if code:
             failures.append(f"{name} then ends with {code}: {said[-300:]!r}")
-    failures.extend(faults_of(place.out, 12) + faults_of(merged, 12) + volumes_of(volumes))
+    if not os.path.exists(os.path.join(place.work, "bundle.tar")):
+        failures.append("bundle then packs nothing")
+    failures.extend(faults_of(place.out, 12) + faults_of(merged, 12) + volumes_of(volumes) + bundle_of(place.work))
     print(f"seed {given.seed}: {given.kills} kills, " + ", ".join(f"{count} of {name}" for name, count in killed.items()) +
           f" while it worked; {rounds} times through the suite")
     for failure in failures[:40]:
