@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <thread>
 
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
@@ -33,8 +34,15 @@ bench::ExecutionOptions childExecution() {
 
 namespace {
 
-bench::ExecutionOptions executionOf(const PlanOptions& options) {
+/// Runs at a time: one where a run's times are measured, else one for each core.
+int simultaneousOf(const std::vector<bench::PlannedRun>& plan) {
+    const bool isTimed = std::ranges::any_of(plan, [](const bench::PlannedRun& run) { return run.spec.timed; });
+    return isTimed ? 1 : static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
+}
+
+bench::ExecutionOptions executionOf(const std::vector<bench::PlannedRun>& plan, const PlanOptions& options) {
     bench::ExecutionOptions execution = childExecution();
+    execution.simultaneous = simultaneousOf(plan);
     execution.force = options.force;
     execution.retryFailed = options.retryFailed;
     execution.redoOutdated = options.redoOutdated;
@@ -54,7 +62,7 @@ void requireOpenGl() {
 
 bench::PlanForecast forecastRuns(const std::vector<bench::PlannedRun>& plan, bench::ResultsFolder& results,
                                  PlanOptions& options) {
-    bench::ExecutionOptions execution = executionOf(options);
+    bench::ExecutionOptions execution = executionOf(plan, options);
     ProgressPrinter printer;
     bench::PlanForecast forecast = bench::forecastPlan(plan, results, execution, printer);
     printer.eraseBar();
@@ -64,12 +72,12 @@ bench::PlanForecast forecastRuns(const std::vector<bench::PlannedRun>& plan, ben
 
 int runPlan(const std::vector<bench::PlannedRun>& plan, int repetitions, bench::ResultsFolder& results,
             const PlanOptions& options) {
-    const bench::ExecutionOptions execution = executionOf(options);
+    const bench::ExecutionOptions execution = executionOf(plan, options);
     for (const std::string& sentence : results.setAside())
         std::cerr << "warning: " << files::printable(sentence) << std::endl;
     if (const std::string said = bench::saysNothingOfOutputs(results.runs()); !said.empty())
         std::cerr << "warning: " << said << std::endl;
-    ProgressPrinter printer;
+    ProgressPrinter printer(execution.simultaneous == 1);
     const bench::ExecutionResult result = bench::execute(plan, repetitions, results, execution, printer);
     if (result.aborted) {
         std::cerr << "aborted; the same command resumes" << std::endl;

@@ -17,7 +17,7 @@ constexpr std::chrono::milliseconds barInterval{100};
 
 }  // namespace
 
-ProgressPrinter::ProgressPrinter() : terminal_(isatty(STDERR_FILENO) != 0) {}
+ProgressPrinter::ProgressPrinter(bool showsSteps) : terminal_(isatty(STDERR_FILENO) != 0), showsSteps_(showsSteps) {}
 
 int ProgressPrinter::terminalWidth() const {
     winsize size{};
@@ -41,6 +41,7 @@ void ProgressPrinter::started(std::size_t position, std::size_t total, const ben
 }
 
 void ProgressPrinter::heard(std::string_view line) {
+    if (!showsSteps_) return;
     const auto now = std::chrono::steady_clock::now();
     if (!line.empty()) {
         if (bench::phaseOf(line) != bench::phaseOf(last_)) phaseStart_ = now;

@@ -10,7 +10,8 @@ namespace dustbench::cli {
 
 class ProgressPrinter : public bench::ExecutionListener {
  public:
-    ProgressPrinter();
+    /// `showsSteps`: of the run at work, the only one.
+    explicit ProgressPrinter(bool showsSteps = true);
 
     void started(std::size_t position, std::size_t total, const bench::PlannedRun& run, int repetitions,
                  double etaSeconds) override;
@@ -23,7 +24,7 @@ class ProgressPrinter : public bench::ExecutionListener {
     [[nodiscard]] int terminalWidth() const;
     [[nodiscard]] double phaseSeconds(std::chrono::steady_clock::time_point now) const;
 
-    bool terminal_;
+    bool terminal_, showsSteps_;
     std::string last_;                                  ///< the run's last message
     std::chrono::steady_clock::time_point phaseStart_;  ///< of what the run is at
     std::chrono::steady_clock::time_point lastShown_;

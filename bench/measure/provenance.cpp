@@ -62,7 +62,7 @@ BuildFacts buildFacts() {
     return {built::version, built::commit, built::dirty, built::compiler, built::flags, built::buildType, ownBuildId()};
 }
 
-Provenance startProvenance(std::vector<std::string> argv) {
+Provenance startProvenance(std::vector<std::string> argv, bool measuresTimes) {
     Provenance provenance;
     provenance.argv = std::move(argv);
     provenance.build = buildFacts();
@@ -70,7 +70,7 @@ Provenance startProvenance(std::vector<std::string> argv) {
     provenance.clock = measureClockCost();
     provenance.startedUtc = fmt::format(
         "{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
-    provenance.warnings = disturbances(provenance.machine);
+    if (measuresTimes) provenance.warnings = disturbances(provenance.machine);
     if (provenance.build.buildType != "Release")
         provenance.warnings.push_back("not a release build: " + provenance.build.buildType);
     if (provenance.build.flags.find("-fsanitize") != std::string::npos)

@@ -41,8 +41,9 @@ struct Provenance {
     std::vector<std::string> warnings;
 };
 
-/// Facts known at the start of this process. The caller adds device, timers and inputs.
-[[nodiscard]] Provenance startProvenance(std::vector<std::string> argv);
+/// Facts known at the start of this process. The caller adds device, timers and inputs. `measuresTimes`: warns of what
+/// disturbs them.
+[[nodiscard]] Provenance startProvenance(std::vector<std::string> argv, bool measuresTimes = true);
 
 /// Paths inside the data folder are stored relative to it, so that results from two checkouts compare equal.
 [[nodiscard]] std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& files);

@@ -53,7 +53,8 @@ void readFrameTimes(const std::filesystem::path& folder, ReportData& data) {
     std::set<const StoredRun*> known;
     for (const RunGroup& group : data.groups)
         for (const ReportCell& cell : group.cells)
-            if (!cell.done.empty() && known.insert(cell.done.front()).second) {
+            if (!cell.done.empty() && cell.done.front()->cells.contains("frame_ms_median") &&
+                known.insert(cell.done.front()).second) {
                 const std::string world = worldLabel(group, cell);
                 candidates.push_back(
                     {cell.done.front(), group.id, variantLabel(group, cell) + (world.empty() ? "" : ", " + world)});

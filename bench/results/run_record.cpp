@@ -174,6 +174,7 @@ std::string toJson(const RunRecord& record) {
                  {"height", spec.size.height},
                  {"sync", syncs.wordOf(spec.sync)},
                  {"threads", spec.threads},
+                 {"times", spec.timed},
                  {"images", spec.imagesEvery},
                  {"volumes", volumesObject(spec.volumes)},
                  {"metrics", judgingObject(spec.judging)},
@@ -221,6 +222,7 @@ std::string specToJson(const RunSpec& spec) {
                  {"seed", spec.seed},
                  {"threads", spec.threads},
                  {"sync", syncs.wordOf(spec.sync)},
+                 {"times", spec.timed},
                  {"images", spec.imagesEvery},
                  {"volumes", volumesObject(spec.volumes)},
                  {"metrics", judgingObject(spec.judging)},
@@ -243,6 +245,7 @@ RunSpec specFromJson(std::string_view text) {
         spec.seed = json.at("seed").get<std::uint64_t>();
         spec.threads = json.at("threads").get<int>();
         spec.sync = syncs.parse("sync", json.at("sync").get<std::string>());
+        spec.timed = json.at("times").get<bool>();
         spec.imagesEvery = json.at("images").get<std::int64_t>();
         spec.volumes = readVolumes(json.at("volumes"));
         spec.judging = readJudging(json.at("metrics"));

@@ -106,6 +106,7 @@ std::string canonicalKey(const RunSpec& spec) {
     key += fmt::format("frames={}\nwarmup={}\nsize={}x{}\nseed={}\nthreads={}\nsync={}\nimages={}\nrepetition={}\n",
                        spec.frames, spec.warmup, spec.size.width, spec.size.height, spec.seed, spec.threads,
                        syncs.wordOf(spec.sync), spec.imagesEvery, spec.repetition);
+    if (!spec.timed) key += "times=0\n";
     if (spec.volumes) {
         const VolumeSettings& volumes = *spec.volumes;
         key +=

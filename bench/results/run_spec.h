@@ -46,6 +46,7 @@ struct RunSpec {
     std::optional<VolumeSettings> volumes;  ///< volume export; empty: none
     std::optional<JudgingPlan> judging;     ///< frames that get metrics; empty: none
     int repetition = 1;                     ///< counts from 1
+    bool timed = true;                      ///< false: other runs may run beside it, and no times are kept
 };
 
 /// Throws InputError if a volume or metric is requested for a frame that the run does not record.

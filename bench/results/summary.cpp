@@ -110,6 +110,11 @@ const std::vector<std::string>& numericColumns() {
     return names;
 }
 
+bool dependsOnSpeed(std::string_view column) {
+    return column.starts_with("fps_") || column.starts_with("frame_ms_") || column.ends_with("_ms_median") ||
+           column.starts_with("energy_") || column == "harness_us_median" || column == "start_s";
+}
+
 Columns identityColumns(const RunRecord& record, int threads) {
     const RunSpec& spec = record.spec;
     return {{"run_id", runId(spec)},

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/measure/frame_record.h"
@@ -16,6 +17,9 @@ namespace dustbench::bench {
 [[nodiscard]] const std::vector<std::string>& columnsAfterParameters();
 /// Those after the parameters that hold numbers: the ones that charts can show.
 [[nodiscard]] const std::vector<std::string>& numericColumns();
+
+/// Whether a column depends on the machine's speed: times, frame rates, energy. Runs without times lack them.
+[[nodiscard]] bool dependsOnSpeed(std::string_view column);
 
 /// The cells that every run has, whatever its status.
 [[nodiscard]] Columns identityColumns(const RunRecord& record, int threads);

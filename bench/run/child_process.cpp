@@ -137,12 +137,19 @@ std::set<pid_t> children() {
     return list;
 }
 
-/// Kills what the child has left, and what that leaves in turn, but not the processes that were there before.
+/// The children that are running.
+std::set<pid_t>& running() {
+    static std::set<pid_t> list;
+    return list;
+}
+
+/// Kills what a child has left, and what that leaves in turn, but not the processes that were there before, nor other
+/// children.
 void killOrphans(const std::set<pid_t>& before) {
     for (bool found = true; found;) {
         found = false;
         for (const pid_t orphan : children()) {
-            if (before.contains(orphan)) continue;
+            if (before.contains(orphan) || running().contains(orphan)) continue;
             found = true;
             kill(orphan, SIGKILL);
             waitpid(orphan, nullptr, 0);
@@ -169,76 +176,134 @@ std::string ChildOutcome::reason() const {
     return "interrupted";
 }
 
-ChildOutcome runChild(const ChildCommand& command) {
-    std::vector<char*> argv;
-    argv.reserve(command.argv.size() + 1);
-    for (const std::string& word : command.argv) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
+class ChildProcess::State {
+ public:
+    explicit State(ChildCommand command)
+        : command_(std::move(command)),
+          log_(command_.log),
+          lines_(command_.onLine),
+          outputPipe_(newPipe()),
+          output_(outputPipe_.first, [this](std::string_view piece) { lines_.take(piece); }),
+          outputOfChild_(outputPipe_.second),
+          errorsPipe_(newPipe()),
+          errors_(errorsPipe_.first, [this](std::string_view piece) { log_.write(piece); }),
+          errorsOfChild_(errorsPipe_.second) {
+        std::vector<char*> argv;
+        argv.reserve(command_.argv.size() + 1);
+        for (const std::string& word : command_.argv) argv.push_back(const_cast<char*>(word.c_str()));
+        argv.push_back(nullptr);
 
-    BoundedLog log(command.log);
-    LineSplitter lines(command.onLine);
-    const auto [outputEnd, outputStart] = newPipe();
-    Stream output(outputEnd, [&](std::string_view piece) { lines.take(piece); });
-    Descriptor outputOfChild(outputStart);
-    const auto [errorsEnd, errorsStart] = newPipe();
-    Stream errors(errorsEnd, [&](std::string_view piece) { log.write(piece); });
-    Descriptor errorsOfChild(errorsStart);
+        prctl(PR_SET_CHILD_SUBREAPER, 1);
+        before_ = children();
+        const pid_t parent = getpid();
+        child_ = fork();
+        if (child_ < 0) fail("fork");
+        if (child_ == 0)
+            becomeCommand(argv.data(), outputOfChild_.get(), errorsOfChild_.get(), parent, command_.limits);
+        setpgid(child_, child_);  // in both processes, whichever runs first
+        outputOfChild_.reset();
+        errorsOfChild_.reset();
+        running().insert(child_);
+        outcome_.timeoutSeconds = command_.timeoutSeconds;
+    }
+    ~State() {
+        if (!isRunning_) return;
+        kill(-child_, SIGKILL);
+        waitpid(child_, nullptr, 0);
+        clear();
+    }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
 
-    prctl(PR_SET_CHILD_SUBREAPER, 1);
-    const std::set<pid_t> before = children();
-    const pid_t parent = getpid();
-    const pid_t child = fork();
-    if (child < 0) fail("fork");
-    if (child == 0) becomeCommand(argv.data(), outputStart, errorsStart, parent, command.limits);
-    setpgid(child, child);  // in both processes, whichever runs first
-    outputOfChild.reset();
-    errorsOfChild.reset();
-
-    ChildOutcome outcome;
-    outcome.timeoutSeconds = command.timeoutSeconds;
-    const auto start = Clock::now();
-    auto lastSign = start;
-    bool killed = false;
-    int status = 0;
-    // Its streams may stay open in processes that it left behind, or close early: only its own exit counts.
-    for (;;) {
-        std::array<pollfd, 2> watched{output.watched(), errors.watched()};
-        poll(watched.data(), watched.size(), 100);
+    /// Its streams may stay open in processes that it left behind, or close early: only its own exit counts.
+    bool advance(std::chrono::milliseconds atMost) {
+        if (!isRunning_) return true;
+        std::array<pollfd, 2> watched{output_.watched(), errors_.watched()};
+        poll(watched.data(), watched.size(), static_cast<int>(atMost.count()));
         const auto now = Clock::now();
-        if (watched[1].revents != 0) errors.read();
+        if (watched[1].revents != 0) errors_.read();
         if (watched[0].revents != 0) {
-            output.read();
-            lastSign = now;
-        } else if (now - lastSign > std::chrono::seconds(1)) {
-            if (command.onLine) command.onLine({});
-            lastSign = now;
+            output_.read();
+            lastSign_ = now;
+        } else if (now - lastSign_ > std::chrono::seconds(1)) {
+            if (command_.onLine) command_.onLine({});
+            lastSign_ = now;
         }
-        if (waitpid(child, &status, WNOHANG) == child) break;
-        if (killed) continue;
-        if (command.interrupted && command.interrupted()) {
-            outcome.end = ChildOutcome::End::interrupted;
-            killed = true;
-        } else if (command.timeoutSeconds > 0 && now - start > std::chrono::duration<double>(command.timeoutSeconds)) {
-            outcome.end = ChildOutcome::End::timedOut;
-            killed = true;
+        int status = 0;
+        if (waitpid(child_, &status, WNOHANG) == child_) {
+            end(status);
+            return true;
         }
-        if (killed) kill(-child, SIGKILL);
+        if (!killed_) killIfDue(now);
+        return false;
     }
-    kill(-child, SIGKILL);  // processes that it may have started
-    killOrphans(before);
-    output.readWhatIsThere();
-    errors.readWhatIsThere();
-    log.finish();
+    [[nodiscard]] const ChildOutcome& outcome() const { return outcome_; }
 
-    outcome.lastWords = log.lastLine();
-    if (killed) return outcome;
-    if (WIFSIGNALED(status)) {
-        outcome.end = ChildOutcome::End::killedBySignal;
-        outcome.code = WTERMSIG(status);
-    } else {
-        outcome.code = WEXITSTATUS(status);
+ private:
+    void killIfDue(Clock::time_point now) {
+        if (command_.interrupted && command_.interrupted()) {
+            outcome_.end = ChildOutcome::End::interrupted;
+            killed_ = true;
+        } else if (command_.timeoutSeconds > 0 &&
+                   now - start_ > std::chrono::duration<double>(command_.timeoutSeconds)) {
+            outcome_.end = ChildOutcome::End::timedOut;
+            killed_ = true;
+        }
+        if (killed_) kill(-child_, SIGKILL);
     }
-    return outcome;
+    void end(int status) {
+        kill(-child_, SIGKILL);  // processes that it may have started
+        clear();
+        output_.readWhatIsThere();
+        errors_.readWhatIsThere();
+        log_.finish();
+        outcome_.lastWords = log_.lastLine();
+        if (killed_) return;
+        if (WIFSIGNALED(status)) {
+            outcome_.end = ChildOutcome::End::killedBySignal;
+            outcome_.code = WTERMSIG(status);
+        } else {
+            outcome_.code = WEXITSTATUS(status);
+        }
+    }
+    void clear() {
+        isRunning_ = false;
+        running().erase(child_);
+        killOrphans(before_);
+    }
+
+    ChildCommand command_;
+    BoundedLog log_;
+    LineSplitter lines_;
+    std::pair<int, int> outputPipe_;  // reading end, writing end; owned by what follows
+    Stream output_;
+    Descriptor outputOfChild_;
+    std::pair<int, int> errorsPipe_;
+    Stream errors_;
+    Descriptor errorsOfChild_;
+    std::set<pid_t> before_;
+    pid_t child_ = -1;
+    bool isRunning_ = true, killed_ = false;
+    Clock::time_point start_ = Clock::now(), lastSign_ = start_;
+    ChildOutcome outcome_;
+};
+
+ChildProcess::ChildProcess(ChildCommand command) : state_(std::make_unique<State>(std::move(command))) {}
+ChildProcess::~ChildProcess() = default;
+
+bool ChildProcess::advance(std::chrono::milliseconds atMost) {
+    return state_->advance(atMost);
+}
+
+const ChildOutcome& ChildProcess::outcome() const {
+    return state_->outcome();
+}
+
+ChildOutcome runChild(const ChildCommand& command) {
+    ChildProcess child(command);
+    while (!child.advance(std::chrono::milliseconds(100))) {
+    }
+    return child.outcome();
 }
 
 }  // namespace dustbench::bench

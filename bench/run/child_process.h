@@ -1,12 +1,15 @@
 // Runs a command in a child process with a time limit and reports how it ended.
 //
 // The child cannot outlive this process: the kernel kills it when its parent dies. Nor can what it started outlive the
-// child, in whatever session: this process becomes the parent of such orphans and kills them.
+// child, in whatever session: this process becomes the parent of such orphans and kills them, with those of other
+// children that still run.
 // Threads: call from the main thread, and let no other start processes meanwhile.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,8 +40,30 @@ struct ChildCommand {
     ResourceLimits limits{};
 };
 
-/// Waits for the child to end. Throws std::runtime_error if it cannot be created: files::MachineError if that is for
-/// want of memory, files or processes.
+/// A process that was started and may still run. Several may run at a time.
+///
+/// Threads: the main thread alone.
+class ChildProcess {
+ public:
+    /// Throws std::runtime_error if it cannot be created: files::MachineError if that is for want of memory, files or
+    /// processes.
+    explicit ChildProcess(ChildCommand command);
+    /// Kills it and what it has started if it still runs.
+    ~ChildProcess();
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
+
+    /// Reads what it says and waits for more, at most this long. True once it has ended.
+    [[nodiscard]] bool advance(std::chrono::milliseconds atMost);
+    /// How it ended.
+    [[nodiscard]] const ChildOutcome& outcome() const;
+
+ private:
+    class State;
+    std::unique_ptr<State> state_;
+};
+
+/// Waits for the child to end. Throws as the constructor of ChildProcess.
 [[nodiscard]] ChildOutcome runChild(const ChildCommand& command);
 
 }  // namespace dustbench::bench

@@ -1,5 +1,6 @@
 #include "bench/run/child_process.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -7,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <fstream>
 #include <iterator>
@@ -82,6 +84,43 @@ TEST(ChildProcess, EndsAHangWithEverythingItStarted) {
     };
     for (int i = 0; i < 500 && alive(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     EXPECT_FALSE(alive());
+}
+
+TEST(ChildProcess, SeveralRunAtATimeAndTheEndOfOneLeavesTheOthers) {
+    const std::string file = std::filesystem::path(testing::TempDir()) / ("meeting-" + std::to_string(getpid()));
+    const auto logged = [&](ChildCommand command, const std::string& name) {
+        command.log = file + name + ".log";
+        return command;
+    };
+    // The first ends only once the second has begun, and the second only once the first has ended.
+    ChildProcess first(logged(shell(fmt::format("while [ ! -e {0}-2 ]; do sleep 0.01; done; exit 3", file)), "1"));
+    ChildProcess second(logged(
+        shell(fmt::format("touch {0}-2; sleep 600 & while [ ! -e {0}-1 ]; do sleep 0.01; done; exit 4", file)), "2"));
+    const auto end = [](ChildProcess& child) {
+        for (int i = 0; i < 2000 && !child.advance(std::chrono::milliseconds(10)); ++i) {
+        }
+        return child.outcome();
+    };
+    EXPECT_EQ(end(first).code, 3);
+    EXPECT_FALSE(second.advance(std::chrono::milliseconds(50)));
+    std::ofstream(file + "-1") << "ended";
+    EXPECT_EQ(end(second).code, 4);
+    EXPECT_TRUE(first.advance(std::chrono::milliseconds(0)));
+    for (const char* ending : {"-1", "-2", "1.log", "2.log"}) std::filesystem::remove(file + ending);
+}
+
+TEST(ChildProcess, IsKilledWithWhatItStartedIfNobodyWaitsForIt) {
+    pid_t grandchild = 0;
+    {
+        ChildCommand command = shell("sleep 600 & echo $!; wait");
+        command.onLine = [&](std::string_view line) {
+            if (!line.empty()) grandchild = std::stoi(std::string(line));
+        };
+        ChildProcess child(std::move(command));
+        while (grandchild == 0) (void)child.advance(std::chrono::milliseconds(10));
+    }
+    EXPECT_EQ(kill(grandchild, 0), -1);
+    EXPECT_EQ(errno, ESRCH);
 }
 
 TEST(ChildProcess, StopsWhenInterrupted) {

@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
+#include <list>
+#include <memory>
+#include <optional>
 #include <thread>
 
 #include "bench/results/disk_need.h"
@@ -100,12 +104,6 @@ void keepReason(const fs::path& folder, const RunSpec& spec, RunStatus status, c
     writeWhole(folder / "run.json", toJson(record));
 }
 
-struct Outcome {
-    RunStatus status = RunStatus::done;
-    std::string reason;
-    bool aborted = false;
-};
-
 constexpr int aborted = 2, badInput = 3;  // exit codes of a run's process
 
 /// The process's last line, without the program's name.
@@ -141,61 +139,169 @@ std::string faultOf(const fs::path& folder, const std::string& id) {
     }
 }
 
-Outcome runOne(const PlannedRun& run, ResultsFolder& results, const ExecutionOptions& options,
-               ExecutionListener& listener) {
-    const std::string id = runId(run.spec);
-    requireRoom(results, maximumBytesOf(run.spec) + reserveBytes);
-    const fs::path folder = results.beginRun(id);
-    if (!run.skip.empty()) {
-        keepReason(folder, run.spec, RunStatus::skipped, std::string(leftOut) + run.skip, options);
-        results.publish(id);
-        return {RunStatus::skipped, results.runs().at(id).reason, false};
-    }
-    const fs::path specFile = folder / "spec.json";
-    writeWhole(specFile, specToJson(run.spec));
+/// One run of the plan, from its folder to its result. Without `finish`, nothing is left of it.
+class RunInProgress {
+ public:
+    using Clock = std::chrono::steady_clock;
 
-    std::string progress;
-    ChildCommand command;
-    command.argv = options.command(specFile, folder);
-    command.log = folder / "log.txt";
-    command.timeoutSeconds = options.timeoutSeconds;
-    command.limits = options.limits;
-    command.interrupted = options.interrupted;
-    command.onLine = [&](std::string_view line) {
-        if (!line.empty()) progress = line;
-        listener.heard(line);
-    };
-    const ChildOutcome outcome = runChild(command);
-    using End = ChildOutcome::End;
-    if (outcome.end == End::interrupted) {
-        results.discard(id);
-        return {RunStatus::failed, "interrupted", true};
+    /// `position` is that in the list of runs to do.
+    RunInProgress(const PlannedRun& run, std::size_t position, ResultsFolder& results, const ExecutionOptions& options,
+                  ExecutionListener& listener)
+        : run_(run), position_(position), id_(runId(run.spec)), results_(results), options_(options) {
+        requireRoom(results, maximumBytesOf(run.spec) + reserveBytes);
+        folder_ = results.beginRun(id_);
+        try {
+            start(listener);
+        } catch (...) {
+            results.discard(id_);
+            throw;
+        }
     }
-    requireMachine(outcome, options.limits);
-    if (options.badInputEnds && outcome.end == End::exited && outcome.code == badInput)
-        throw InputError(outcome.lastWords.empty() ? "the run ended with exit code 3 and without a word"
-                                                   : wordsOf(outcome, "dustbench: "));
+    ~RunInProgress() {
+        child_.reset();
+        if (!finished_) results_.discard(id_);
+    }
+    RunInProgress(const RunInProgress&) = delete;
+    RunInProgress& operator=(const RunInProgress&) = delete;
 
-    if (!fs::exists(specFile)) throw cannotWrite(folder, "it was removed while a run was being written there");
-    fs::remove(specFile);
-    // A full disk is not a result of the run.
-    if (!outcome.succeeded()) {
-        requireRoom(results, reserveBytes);
-        requireWritable(folder);
+    [[nodiscard]] const PlannedRun& run() const { return run_; }
+    [[nodiscard]] std::size_t position() const { return position_; }
+    [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    /// True once its process has ended.
+    [[nodiscard]] bool advance(std::chrono::milliseconds atMost) { return !child_ || child_->advance(atMost); }
+    /// Publishes the result, or why there is none. Empty if it was interrupted.
+    [[nodiscard]] std::optional<StoredRun> finish() {
+        if (child_ && child_->outcome().end == ChildOutcome::End::interrupted) return std::nullopt;
+        if (child_) keep(child_->outcome());
+        results_.publish(id_);
+        finished_ = true;
+        return results_.runs().at(id_);
     }
-    const std::string fault = outcome.succeeded() ? faultOf(folder, id) : reasonOf(outcome, options.limits);
-    if (!fault.empty()) {
-        const RunStatus status = outcome.end == End::timedOut ? RunStatus::timeout : RunStatus::failed;
-        std::string reason = fault;
-        if (status == RunStatus::timeout) reason += progress.empty() ? "" : " (at " + progress + ")";
-        keepReason(folder, run.spec, status, reason, options);
-    } else if (fs::file_size(command.log) == 0) {
-        fs::remove(command.log);
+
+ private:
+    void start(ExecutionListener& listener) {
+        if (!run_.skip.empty()) {
+            keepReason(folder_, run_.spec, RunStatus::skipped, std::string(leftOut) + run_.skip, options_);
+            return;
+        }
+        writeWhole(specFile(), specToJson(run_.spec));
+        ChildCommand command;
+        command.argv = options_.command(specFile(), folder_);
+        command.log = log();
+        command.timeoutSeconds = options_.timeoutSeconds;
+        command.limits = options_.limits;
+        command.interrupted = options_.interrupted;
+        command.onLine = [this, &listener](std::string_view line) {
+            if (!line.empty()) progress_ = line;
+            listener.heard(line);
+        };
+        child_ = std::make_unique<ChildProcess>(std::move(command));
     }
-    results.publish(id);
-    const StoredRun& stored = results.runs().at(id);
-    return {stored.status, stored.reason, false};
-}
+    [[nodiscard]] fs::path specFile() const { return folder_ / "spec.json"; }
+    [[nodiscard]] fs::path log() const { return folder_ / "log.txt"; }
+
+    void keep(const ChildOutcome& outcome) {
+        using End = ChildOutcome::End;
+        requireMachine(outcome, options_.limits);
+        if (options_.badInputEnds && outcome.end == End::exited && outcome.code == badInput)
+            throw InputError(outcome.lastWords.empty() ? "the run ended with exit code 3 and without a word"
+                                                       : wordsOf(outcome, "dustbench: "));
+
+        if (!fs::exists(specFile())) throw cannotWrite(folder_, "it was removed while a run was being written there");
+        fs::remove(specFile());
+        // A full disk is not a result of the run.
+        if (!outcome.succeeded()) {
+            requireRoom(results_, reserveBytes);
+            requireWritable(folder_);
+        }
+        const std::string fault = outcome.succeeded() ? faultOf(folder_, id_) : reasonOf(outcome, options_.limits);
+        if (!fault.empty()) {
+            const RunStatus status = outcome.end == End::timedOut ? RunStatus::timeout : RunStatus::failed;
+            std::string reason = fault;
+            if (status == RunStatus::timeout) reason += progress_.empty() ? "" : " (at " + progress_ + ")";
+            keepReason(folder_, run_.spec, status, reason, options_);
+        } else if (fs::file_size(log()) == 0) {
+            fs::remove(log());
+        }
+    }
+
+    const PlannedRun& run_;
+    std::size_t position_;
+    std::string id_;
+    ResultsFolder& results_;
+    const ExecutionOptions& options_;
+    fs::path folder_;
+    std::string progress_;  ///< the process's last line
+    Clock::time_point start_ = Clock::now();
+    std::unique_ptr<ChildProcess> child_;  ///< none if the suite leaves the run out
+    bool finished_ = false;
+};
+
+/// Runs a list, several at a time if so asked.
+class Execution {
+ public:
+    Execution(const std::vector<PlannedRun>& plan, const std::vector<const PlannedRun*>& toDo, ResultsFolder& results,
+              const ExecutionOptions& options, ExecutionListener& listener, ExecutionResult& result)
+        : plan_(plan),
+          toDo_(toDo),
+          results_(results),
+          options_(options),
+          listener_(listener),
+          result_(result),
+          remaining_(toDo, options.forecasts, options.cooldownSeconds) {}
+
+    void run(int repetitions) {
+        while (true) {
+            while (!result_.aborted && next_ < toDo_.size() &&
+                   static_cast<int>(running_.size()) < std::max(options_.simultaneous, 1))
+                start(repetitions);
+            if (running_.empty()) break;
+            const std::chrono::milliseconds share(100 / static_cast<int>(running_.size()));
+            for (auto each = running_.begin(); each != running_.end();)
+                each = (*each)->advance(share) ? finish(each) : std::next(each);
+        }
+    }
+
+ private:
+    using Running = std::list<std::unique_ptr<RunInProgress>>;
+
+    void start(int repetitions) {
+        const PlannedRun& run = *toDo_[next_];
+        listener_.started(static_cast<std::size_t>(&run - plan_.data()) + 1, plan_.size(), run, repetitions,
+                          remaining_.seconds() / std::max(options_.simultaneous, 1));
+        if (next_ > 0 && !coolDown(options_, listener_)) {
+            result_.aborted = true;
+            return;
+        }
+        running_.push_back(std::make_unique<RunInProgress>(run, next_, results_, options_, listener_));
+        ++next_;
+    }
+
+    Running::iterator finish(Running::iterator each) {
+        RunInProgress& run = **each;
+        if (const std::optional<StoredRun> stored = run.finish()) {
+            listener_.ended(run.run(), stored->status, stored->reason);
+            remaining_.ended(run.position(), run.seconds() + (run.position() > 0 ? options_.cooldownSeconds : 0));
+            if (isFailure(stored->status))
+                ++result_.failed;
+            else
+                ++(stored->status == RunStatus::skipped ? result_.skipped : result_.done);
+        } else {
+            result_.aborted = true;
+        }
+        return running_.erase(each);
+    }
+
+    const std::vector<PlannedRun>& plan_;
+    const std::vector<const PlannedRun*>& toDo_;
+    ResultsFolder& results_;
+    const ExecutionOptions& options_;
+    ExecutionListener& listener_;
+    ExecutionResult& result_;
+    RemainingTime remaining_;
+    std::size_t next_ = 0;
+    Running running_;
+};
 
 }  // namespace
 
@@ -207,35 +313,12 @@ std::vector<const PlannedRun*> runsToDo(const std::vector<PlannedRun>& plan, con
 
 ExecutionResult execute(const std::vector<PlannedRun>& plan, int repetitions, ResultsFolder& results,
                         const ExecutionOptions& options, ExecutionListener& listener) {
-    using Clock = std::chrono::steady_clock;
     ExecutionResult result;
     const std::vector<const PlannedRun*> toDo = chooseRuns(plan, results, options, result);
-    RemainingTime remaining(toDo, options.forecasts, options.cooldownSeconds);
-    for (const PlannedRun* run : toDo) {
-        listener.started(static_cast<std::size_t>(run - plan.data()) + 1, plan.size(), *run, repetitions,
-                         remaining.seconds());
-        const auto start = Clock::now();
-        result.aborted = run != toDo.front() && !coolDown(options, listener);
-        if (result.aborted) break;
-        const Outcome outcome = [&] {
-            try {
-                return runOne(*run, results, options, listener);
-            } catch (const fs::filesystem_error& failure) {
-                results.discard(runId(run->spec));
-                files::failWriting(results.path(), failure.code().value());
-            } catch (...) {
-                results.discard(runId(run->spec));
-                throw;
-            }
-        }();
-        result.aborted = outcome.aborted;
-        if (result.aborted) break;
-        listener.ended(*run, outcome.status, outcome.reason);
-        remaining.ended(std::chrono::duration<double>(Clock::now() - start).count());
-        if (isFailure(outcome.status))
-            ++result.failed;
-        else
-            ++(outcome.status == RunStatus::skipped ? result.skipped : result.done);
+    try {
+        Execution(plan, toDo, results, options, listener, result).run(repetitions);
+    } catch (const fs::filesystem_error& failure) {
+        files::failWriting(results.path(), failure.code().value());
     }
     results.writeSummary();
     return result;

@@ -21,7 +21,8 @@ namespace dustbench::bench {
 class ExecutionListener {
  public:
     virtual ~ExecutionListener() = default;
-    /// `position` counts from 1 among the `total` runs of the plan; `etaSeconds` is negative if unknown.
+    /// `position` counts from 1 among the `total` runs of the plan; `etaSeconds` is negative if unknown. Of runs at a
+    /// time each is started and ended; what is heard is of any of them.
     virtual void started(std::size_t /*position*/, std::size_t /*total*/, const PlannedRun& /*run*/,
                          int /*repetitions*/, double /*etaSeconds*/) {}
     /// A line of the run's own progress: `frames 12 120`; empty about once a second while there is no output.
@@ -39,6 +40,7 @@ struct ExecutionOptions {
     double timeoutSeconds = 0;
     ResourceLimits limits;
     double cooldownSeconds = 0;     ///< pause before each run except the first
+    int simultaneous = 1;           ///< runs at a time; more than one only if no times are measured
     std::vector<std::string> argv;  ///< the user's command, for provenance
     /// The command that measures one run: it reads the specification and writes the run's files into the folder.
     ChildCommandLine command;

@@ -247,11 +247,12 @@ TEST(RemainingTime, CountsARunAsLongAsTheOthersOfItsCell) {
     for (const PlannedRun& run : plan) toDo.push_back(&run);
     RemainingTime remaining(toDo);
     EXPECT_LT(remaining.seconds(), 0);
-    remaining.ended(2);
+    remaining.ended(0, 2);
     EXPECT_DOUBLE_EQ(remaining.seconds(), 2 * 5);  // nothing else is known
-    remaining.ended(10);
+    remaining.ended(1, 10);
     EXPECT_DOUBLE_EQ(remaining.seconds(), 6 + 2 + 10 + 6);
-    for (const double seconds : {3.0, 2.0, 10.0, 3.0}) remaining.ended(seconds);
+    std::size_t run = 2;
+    for (const double seconds : {3.0, 2.0, 10.0, 3.0}) remaining.ended(run++, seconds);
     EXPECT_DOUBLE_EQ(remaining.seconds(), 0);
 }
 

@@ -1,5 +1,6 @@
 #include "bench/run/executor.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -14,6 +15,7 @@
 #include "bench/results/summary.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
+#include "methods/kit/files/machine_error.h"
 
 namespace dustbench::bench {
 namespace {
@@ -95,6 +97,50 @@ TEST_F(Executor, RecordsWhatTheSuiteLeavesOutAndRunsItOnceTheSuiteWantsIt) {
     plan_[2].skip.clear();
     EXPECT_EQ(runAll(shell(good)).done, 1u);
     EXPECT_EQ(runAll(shell(good)).kept, 4u);
+}
+
+/// Waits until `count` runs are at work, or for 20 s, which fails.
+std::string meeting(const fs::path& place, int count) {
+    return fmt::format("touch {0}/$$; i=0; while [ $(ls {0} | wc -l) -lt {1} ]; do i=$((i+1)); [ $i -gt 2000 ] && exit 1; "
+                       "sleep 0.01; done; ",
+                       place.string(), count);
+}
+
+TEST_F(Executor, RunsSeveralAtATimeIfAsked) {
+    fs::create_directory(folder_ / "there");
+    ExecutionOptions options = shell(meeting(folder_ / "there", 3) + good);
+    options.simultaneous = 3;
+    const ExecutionResult result = runAll(options);
+    EXPECT_EQ(result.done, 4u);
+    EXPECT_EQ(result.failed, 0u);
+    EXPECT_EQ(entries().size(), 4u);
+    EXPECT_EQ(files::CsvTable::parseFile(out() / "summary.csv").rows(), 4u);
+}
+
+TEST_F(Executor, OfSeveralAtATimeOneFaultOfTheMachineStopsAllAndLeavesNothingHalfDone) {
+    fs::create_directory(folder_ / "there");
+    // One of three gives up once all three are there; the others would go on for ever.
+    ExecutionOptions options =
+        shell(meeting(folder_ / "there", 3) +
+              fmt::format("mkdir {0} 2>/dev/null && {{ echo 'dustbench: aborted: no more ink' >&2; exit 2; }}; sleep 600",
+                          (folder_ / "first").string()));
+    options.simultaneous = 3;
+    EXPECT_THROW((void)runAll(options), files::MachineError);
+    EXPECT_TRUE(entries().empty());
+    ExecutionOptions again = shell(good);
+    again.simultaneous = 3;
+    EXPECT_EQ(runAll(again).done, 4u);
+}
+
+TEST_F(Executor, SeveralAtATimeAreAllInterrupted) {
+    fs::create_directory(folder_ / "there");
+    ExecutionOptions options = shell(meeting(folder_ / "there", 2) + "touch \"$1/../../met\"; sleep 600");
+    options.simultaneous = 2;
+    options.interrupted = [this] { return fs::exists(out() / "met"); };
+    const ExecutionResult result = runAll(options);
+    EXPECT_TRUE(result.aborted);
+    EXPECT_EQ(result.done + result.failed, 0u);
+    EXPECT_TRUE(entries().empty());
 }
 
 TEST_F(Executor, KeepsEveryRunAndSummarisesThem) {

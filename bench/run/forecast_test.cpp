@@ -71,9 +71,9 @@ TEST(ForecastByCell, MetricsCountForTheRunThatHasThem) {
     const std::vector<const PlannedRun*> toDo{&plan[0], &plan[1], &plan[2]};
     RemainingTime remaining(toDo, forecasts, 4);
     EXPECT_DOUBLE_EQ(remaining.seconds(), 100 + 4 + 10 + 4 + 10);
-    remaining.ended(120);
+    remaining.ended(0, 120);
     EXPECT_DOUBLE_EQ(remaining.seconds(), 28);
-    remaining.ended(20);  // measured times take precedence over forecasts
+    remaining.ended(1, 20);  // measured times take precedence over forecasts
     EXPECT_DOUBLE_EQ(remaining.seconds(), 20);
 }
 

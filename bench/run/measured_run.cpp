@@ -179,7 +179,9 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
 
     std::vector<double> frameMs;
     for (const FrameRecord& frame : runner.records()) frameMs.push_back(frame.frameMs);
-    for (std::string& warning : steadinessWarnings(frameMs)) record.provenance.warnings.push_back(std::move(warning));
+    if (spec.timed)
+        for (std::string& warning : steadinessWarnings(frameMs))
+            record.provenance.warnings.push_back(std::move(warning));
 
     record.stateHash = hexadecimal(world.stateHash());
     if (const auto hash = runner.method().stateHash()) record.methodHash = hexadecimal(*hash);
@@ -189,7 +191,8 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
         record.memory.emplace_back("device", MemoryUse{structure, 0, bytes});
 
     record.summary = identityColumns(record, threads);
-    for (auto& column : measuredColumns(runner.records(), whole)) record.summary.push_back(std::move(column));
+    for (auto& column : measuredColumns(runner.records(), whole))
+        if (spec.timed || !dependsOnSpeed(column.first)) record.summary.push_back(std::move(column));
     const Columns facts = runner.facts();
     record.summary.insert(record.summary.end(), facts.begin(), facts.end());
     record.validity = whyInvalid(info, facts, dustCount(spec, runner));
@@ -201,8 +204,10 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     }
     if (const std::string series = volumes.firstSeries(); !series.empty())
         record.summary.emplace_back("FILE_volume", series);
-    writeWhole(folder / "frames.csv", framesCsv(runner.records()));
-    writeWhole(folder / "stages.csv", stagesCsv(runner.records()));
+    if (spec.timed) {
+        writeWhole(folder / "frames.csv", framesCsv(runner.records()));
+        writeWhole(folder / "stages.csv", stagesCsv(runner.records()));
+    }
     for (const KeptFile& file : runner.method().files()) writeWhole(folder / file.name, file.text);
     if (!spec.judging) return;
     if (std::string reason = whyNotJudged(*spec.judging, runner.method()); !reason.empty()) {
@@ -224,7 +229,7 @@ RunRecord measureRun(const RunSpec& spec, const fs::path& folder, std::vector<st
     RunRecord record;
     record.spec = spec;
     record.drive = spec.drive;
-    record.provenance = startProvenance(std::move(argv));
+    record.provenance = startProvenance(std::move(argv), spec.timed);
     withThreads(spec.threads, [&] { measure(spec, folder, progress, record); });
     record.outputs = outputsIn(folder);
     return record;

@@ -13,18 +13,19 @@ RemainingTime::RemainingTime(const std::vector<const PlannedRun*>& toDo, const F
     }
 }
 
-void RemainingTime::ended(double seconds) {
-    for (Ended* each : {&byCell_[runs_[next_].cell], &all_}) {
+void RemainingTime::ended(std::size_t position, double seconds) {
+    Run& run = runs_.at(position);
+    for (Ended* each : {&byCell_[run.cell], &all_}) {
         each->sum += seconds;
         ++each->count;
     }
-    ++next_;
+    run.ended = true;
 }
 
 double RemainingTime::seconds() const {
     double sum = 0;
-    for (std::size_t run = next_; run < runs_.size(); ++run) {
-        const auto& [cell, forecast] = runs_[run];
+    for (const auto& [cell, forecast, isOver] : runs_) {
+        if (isOver) continue;
         if (const auto ended = byCell_.find(cell); ended != byCell_.end())
             sum += ended->second.mean();
         else if (forecast >= 0)

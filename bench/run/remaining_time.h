@@ -19,8 +19,8 @@ class RemainingTime {
     explicit RemainingTime(const std::vector<const PlannedRun*>& toDo, const ForecastByCell& forecasts = {},
                            double cooldownSeconds = 0);
 
-    /// Records the duration of the next run, including the pause before it.
-    void ended(double seconds);
+    /// Records the duration of the run at `position` in the list, including the pause before it.
+    void ended(std::size_t position, double seconds);
     /// Total of all remaining runs: a run counts as the mean of its cell's finished repetitions; if there are none, as
     /// its forecast; without one, as the mean of all finished runs. Negative if some run has no estimate.
     [[nodiscard]] double seconds() const;
@@ -34,9 +34,9 @@ class RemainingTime {
     struct Run {
         std::string cell;     ///< identifies the cell
         double forecast = 0;  ///< including the pause before it; negative: none
+        bool ended = false;
     };
     std::vector<Run> runs_;
-    std::size_t next_ = 0;
     std::map<std::string, Ended> byCell_;
     Ended all_;
 };

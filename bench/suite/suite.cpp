@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "bench/results/summary.h"
 #include "bench/suite/baselines.h"
 #include "bench/suite/cell_groups.h"
 #include "bench/suite/paper.h"
@@ -68,6 +69,24 @@ void requireLoad(const Suite& suite, const std::string& where) {
     throw InputError(where + unknownName("load of the chart", name, names).what());
 }
 
+/// Throws InputError if a suite without times has what is about times.
+void requireNothingTimed(const SuiteDraft& draft) {
+    const Suite& suite = draft.suite;
+    if (draft.base.timed) return;
+    const auto fail = [&](const std::string& what) {
+        throw InputError(fmt::format("{}key 'times': got false with {}", draft.timesWhere, what));
+    };
+    if (suite.repetitions > 1)
+        fail(fmt::format("{} repetitions, allowed: 1, because they differ in times alone", suite.repetitions));
+    if (!suite.comparisons.empty()) fail("'compare', which compares times");
+    if (!suite.fits.empty()) fail("'fit', which fits times");
+    if (draft.baseline.value_or(false)) fail("'baseline = true', which is for times");
+    if (suite.cooldownSeconds > 0) fail("'cooldown_s', which is for times");
+    if (suite.chart.column.empty() || dependsOnSpeed(suite.chart.column))
+        fail(fmt::format("a chart that opens on '{}', expected 'chart' with a column that is no time",
+                         suite.chart.column.empty() ? "fps_avg" : suite.chart.column));
+}
+
 /// Checked before the cells are made.
 void requireFewEnough(const std::string& what, double runs) {
     if (runs > static_cast<double>(files::limits::plannedRuns))
@@ -102,6 +121,7 @@ void requireFewEnough(const SuiteDraft& draft) {
 Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     requireFramesWithinRun(draft.base);
     requireFewEnough(draft);
+    requireNothingTimed(draft);
     Suite suite = std::move(draft.suite);
     for (const std::string& id : draft.methods) {
         const ParameterLists lists = listsOf(draft, id);
@@ -259,6 +279,10 @@ RunSpec inRepetition(RunSpec cell, int repetition) {
 
 std::vector<PlannedRun> planRuns(const Suite& cellsOnly) {
     requireFewEnough("suite", static_cast<double>(cellsOnly.cells.size()) * cellsOnly.repetitions);
+    if (cellsOnly.repetitions > 1 && !cellsOnly.cells.empty() && !cellsOnly.cells.front().spec.timed)
+        throw InputError(fmt::format("repetitions: got {} of a suite with times = false, allowed: 1, because they differ "
+                                     "in times alone",
+                                     cellsOnly.repetitions));
     const Suite suite = withBaselines(cellsOnly);
     std::vector<PlannedRun> plan;
     const auto add = [&plan](PlannedRun run, int repetition) {

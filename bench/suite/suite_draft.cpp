@@ -252,6 +252,10 @@ void SuiteDraft::read(files::TomlReader& table) {
     base.imagesEvery = table.integer("images", 0, maximumFrames, base.imagesEvery);
     readVolumes(table, base.volumes);
     readJudging(table, base.judging);
+    if (table.has("times")) {
+        base.timed = table.boolean("times", true);
+        timesWhere = table.where("times");
+    }
     if (table.has("sync")) base.sync = table.choice("sync", syncs);
 
     suite.title = table.text("title", suite.title);

@@ -36,6 +36,7 @@ struct SuiteDraft {
     std::map<std::string, ParameterTexts> finerSettings;  ///< by method: the settings of its reference
     std::vector<Exception> exceptions;
     std::string chartWhere;        ///< `file:line: ` of `chart`, for messages
+    std::string timesWhere;        ///< the same of `times`
     std::optional<bool> baseline;  ///< empty: where times are compared, fitted or repeated
 
     /// Reads a table on top of the present values: a whole file, or its `[quick]`. Throws InputError with file and

@@ -260,6 +260,26 @@ TEST(Suite, EverySuiteOfTheProjectCanBePlanned) {
         }
 }
 
+TEST(Suite, WithoutTimesRefusesWhatIsAboutThem) {
+    const std::string text = "methods = [\"billboard\"]\ntimes = false\n", chart = "chart = \"gaps\"\n";
+    const Suite suite = parseSuite(text + chart, "s.toml", false);
+    EXPECT_FALSE(suite.cells.front().spec.timed);
+    EXPECT_FALSE(suite.baseline);
+    EXPECT_NE(runId(suite.cells.front().spec), runId(parseSuite(chart, "s.toml", false).cells.front().spec));
+    EXPECT_THAT(messageOf(text), AllOf(HasSubstr("s.toml:2"), HasSubstr("'fps_avg'")));
+    EXPECT_THAT(messageOf(text + "chart = \"frame_ms_p95\"\n"), HasSubstr("'frame_ms_p95'"));
+    for (const char* more : {"repetitions = 2", "cooldown_s = 1", "baseline = true",
+                             "[[fit]]\nagainst = \"particles\"\ncolumns = [\"frame_ms_median\"]\n[parameters]\n"
+                             "particles = [10, 20, 40, 80]"})
+        EXPECT_THAT(messageOf(text + chart + more), AllOf(HasSubstr("s.toml:2"), HasSubstr("'times': got false with")))
+            << more;
+    EXPECT_THAT(messageOf(chart + "methods = [\"billboard\"]\n[quick]\ntimes = false\nrepetitions = 2\n"),
+                HasSubstr("s.toml:4"));
+    Suite repeated = suite;
+    repeated.repetitions = 3;  // by the command line
+    EXPECT_THROW((void)planRuns(repeated), InputError);
+}
+
 TEST(Suite, SaysWhatItsChartOpensOn) {
     const std::string text = "methods = [\"billboard\"]\n[parameters]\nspeed = [10, 40]\n";
     const Suite plain = parseSuite(text, "s.toml", false);
