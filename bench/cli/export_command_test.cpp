@@ -124,9 +124,9 @@ TEST_F(ExportCommand, WritesEveryFrameAndSeriesWithTheSimulationsTimes) {
     const Called called = shortExport("--frames 0:9:4 --format vti,vtp,vdb --resolution 40 --region -5,-2,-5,9,4,5");
     ASSERT_EQ(called.code, 0) << called.err;
     EXPECT_THAT(names(out()), testing::UnorderedElementsAre(
-                                  "f000000.vti", "f000000.vtp", "f000000.vdb", "f000000.vtm", "f000000", "f000004.vti",
-                                  "f000004.vtp", "f000004.vdb", "f000004.vtm", "f000004", "f000008.vti", "f000008.vtp",
-                                  "f000008.vdb", "f000008.vtm", "f000008", "extinction.pvd", "extinction.vti.series",
+                                  "f000000.vti", "f000000.vtp", "f000000.vdb", "f000000.vtm", "scene", "f000004.vti",
+                                  "f000004.vtp", "f000004.vdb", "f000004.vtm", "f000008.vti", "f000008.vtp",
+                                  "f000008.vdb", "f000008.vtm", "extinction.pvd", "extinction.vti.series",
                                   "particles.pvd", "density.vdb.series", "scene.pvd", "export.json"));
     std::string series;
     for (const char* name :

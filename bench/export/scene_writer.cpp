@@ -1,5 +1,6 @@
 #include "bench/export/scene_writer.h"
 
+#include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkFloatArray.h>
@@ -13,10 +14,14 @@
 #include <vtkXMLMultiBlockDataWriter.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "bench/export/vtk_file.h"
 #include "bench/export/whole_file.h"
+#include "bench/measure/sha256.h"
+#include "methods/kit/files/limits.h"
 #include "methods/kit/files/machine_error.h"
+#include "methods/kit/files/whole_text.h"
 #include "methods/kit/pictures/image.h"
 
 namespace dustbench::bench {
@@ -25,6 +30,7 @@ namespace {
 
 constexpr double groundMarginMetres = 20;
 constexpr std::int64_t maximumGroundPoints = 1 << 18;
+constexpr const char* scenePieces = "scene";
 
 /// Collects points, normals and triangles one by one.
 class Surface {
@@ -118,6 +124,27 @@ void addBlock(vtkMultiBlockDataSet& blocks, const std::string& name, vtkPolyData
     blocks.GetMetaData(index)->Set(vtkCompositeDataSet::NAME(), name.c_str());
 }
 
+/// Moves the pieces that VTK wrote below `written` to the folder of pieces beside `file`, each once: a piece has its
+/// content's name, so that what does not change is shared by all frames. Returns what the file is to say.
+std::string keepPieces(const fs::path& written, const fs::path& file) {
+    const fs::path folder = file.parent_path() / scenePieces;
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) files::failWriting(folder, error.value());
+    std::string text = files::wholeText(written / file.filename(), "a .vtm", files::limits::geometryBytes);
+    const std::string stem = file.stem();
+    for (const auto& entry : fs::directory_iterator(written / stem)) {
+        const std::string name = sha256OfFile(entry.path()).substr(0, 16) + ".vtp";
+        if (!fs::exists(folder / name)) fs::rename(entry.path(), folder / name, error);
+        if (error) files::failWriting(folder / name, error.value());
+        const std::string before = fmt::format("\"{}/{}\"", stem, entry.path().filename().string());
+        const std::size_t at = text.find(before);
+        if (at == std::string::npos) throw std::runtime_error("VTK's .vtm does not name its piece " + before);
+        text.replace(at, before.size(), fmt::format("\"{}/{}\"", scenePieces, name));
+    }
+    return text;
+}
+
 }  // namespace
 
 Box groundAround(const std::optional<Box>& cloud, const scene::Scene& scene, const scene::SceneState& state) {
@@ -146,8 +173,7 @@ void writeScene(const scene::Scene& scene, const scene::SceneState& state, const
         addBlock(*blocks, scene.solids[i].name, placed(*scene.solids[i].mesh, scene.solidPoses[i].toWorld));
     stampTime(*blocks, timeSeconds);
 
-    // VTK puts the pieces into a folder with the file's name beside the file. Both are created elsewhere and then
-    // moved, the folder first, so that the file never names a missing piece.
+    // VTK puts the pieces into a folder with the file's name beside the file.
     WholeFile elsewhere(file);
     std::error_code error;
     fs::remove_all(elsewhere.beside(), error);
@@ -155,13 +181,9 @@ void writeScene(const scene::Scene& scene, const scene::SceneState& state, const
     if (error) files::failWriting(file, error.value());
     vtkNew<vtkXMLMultiBlockDataWriter> writer;
     writeVtk(*writer, *blocks, elsewhere.beside() / file.filename());
-    fs::remove(file, error);
-    const fs::path pieces = fs::path(file).replace_extension();
-    fs::remove_all(pieces, error);
-    fs::rename(elsewhere.beside() / pieces.filename(), pieces, error);
-    if (error) files::failWriting(pieces, error.value());
-    fs::rename(elsewhere.beside() / file.filename(), file, error);
-    if (error) files::failWriting(file, error.value());
+    const std::string names = keepPieces(elsewhere.beside(), file);
+    fs::remove_all(elsewhere.beside(), error);
+    writeWhole(file, names);
 }
 
 }  // namespace dustbench::bench

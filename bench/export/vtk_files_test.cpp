@@ -291,6 +291,27 @@ struct SmallWorld {
     }
 };
 
+TEST(SceneFile, WhatDoesNotChangeIsWrittenOnceForAllFrames) {
+    const TestFolder folder;
+    SmallWorld world;
+    const Box ground{{-20, 0, -10}, {30, 5, 12}};
+    writeScene(world.scene, world.state, ground, 0, folder.path() / "f000000.vtm");
+    const auto pieces = [&] { return std::distance(fs::directory_iterator(folder.path() / "scene"), {}); };
+    const auto first = pieces();
+    world.state.vehicle.position.x += 1;
+    for (auto& wheel : world.state.vehicle.wheels) wheel.hub.x += 1;
+    writeScene(world.scene, world.state, ground, 1, folder.path() / "f000001.vtm");
+    EXPECT_EQ(pieces(), first + 5);  // body and wheels
+    for (const char* name : {"f000000.vtm", "f000001.vtm"}) {
+        vtkNew<vtkXMLMultiBlockDataReader> reader;
+        read(*reader, folder.path() / name);
+        auto* blocks = vtkMultiBlockDataSet::SafeDownCast(reader->GetOutput());
+        ASSERT_EQ(blocks->GetNumberOfBlocks(), 7u) << name;
+        for (unsigned i = 0; i < 7; ++i)
+            EXPECT_GT(vtkPolyData::SafeDownCast(blocks->GetBlock(i))->GetNumberOfPolys(), 0) << name << " " << i;
+    }
+}
+
 TEST(SceneFile, BlocksStandWhereTheSceneHasThem) {
     const TestFolder folder;
     const SmallWorld world;

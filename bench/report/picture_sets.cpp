@@ -82,10 +82,20 @@ class Collector {
                 // The exact picture is common to all methods; a finer setting is specific to its method.
                 const std::string name = isExact ? "exact" : "reference of " + label;
                 if (std::ranges::find(set.pictures, name, &ReportPicture::label) == set.pictures.end())
-                    place(set, {name, isExact ? "" : cell.method, false, start + "_reference.png", {}});
+                    set.pictures.push_back({name, isExact ? "" : cell.method, false, start + "_reference.png", {}});
             }
-            place(set, {label, cell.method, false, start + ".png", here});
-            if (has.difference) place(set, {label, cell.method, true, start + "_difference.png", here});
+            set.pictures.push_back({label, cell.method, false, start + ".png", here});
+            if (has.difference) set.pictures.push_back({label, cell.method, true, start + "_difference.png", here});
+        }
+    }
+
+    /// Puts as many pictures into the report as its limit allows; the others stay links.
+    void embedAll() {
+        for (PictureSet* set : byImportance()) {
+            std::vector<ReportPicture> readable;
+            for (ReportPicture& picture : set->pictures)
+                if (embed(*set, picture)) readable.push_back(std::move(picture));
+            set->pictures = std::move(readable);
         }
     }
 
@@ -102,7 +112,30 @@ class Collector {
         return data_.pictureSets.emplace_back(PictureSet{group, world, frame, 0, 0, {}});
     }
 
-    void place(PictureSet& set, ReportPicture picture) {
+    static double worstFlip(const PictureSet& set) {
+        double worst = -1;
+        for (const ReportPicture& picture : set.pictures)
+            if (const auto flip = picture.numbers.find("flip"); flip != picture.numbers.end())
+                worst = std::max(worst, flip->second);
+        return worst;
+    }
+
+    /// The worst set of every group first, which the viewer opens on, then all others as they are.
+    [[nodiscard]] std::vector<PictureSet*> byImportance() const {
+        std::map<std::string, PictureSet*> worst;
+        for (PictureSet& set : data_.pictureSets)
+            if (PictureSet*& known = worst[set.group]; known == nullptr || worstFlip(set) > worstFlip(*known))
+                known = &set;
+        std::vector<PictureSet*> sets;
+        for (PictureSet& set : data_.pictureSets)
+            if (worst.at(set.group) == &set) sets.push_back(&set);
+        for (PictureSet& set : data_.pictureSets)
+            if (worst.at(set.group) != &set) sets.push_back(&set);
+        return sets;
+    }
+
+    /// False if the picture cannot be read.
+    bool embed(PictureSet& set, ReportPicture& picture) {
         try {
             if (bytesLeft_ > 0) {
                 const SmallPicture small = makeSmall(folder_ / picture.source);
@@ -112,15 +145,15 @@ class Collector {
                 if (size <= bytesLeft_) {
                     bytesLeft_ -= size;
                     picture.source = dataUrl(small.mediaType, small.bytes);
-                    set.pictures.push_back(std::move(picture));
-                    return;
+                    return true;
                 }
                 bytesLeft_ = 0;  // embedding smaller pictures later would leave confusing gaps
             }
             ++data_.linkedPictures;
-            set.pictures.push_back(std::move(picture));
+            return true;
         } catch (const InputError& error) {
             data_.problems.push_back(fmt::format("picture left out: {}", error.what()));
+            return false;
         }
     }
 
@@ -147,6 +180,7 @@ void collectPictures(const fs::path& folder, std::int64_t maximumBytes, ReportDa
     Collector collector(folder, maximumBytes, data);
     for (const RunGroup& group : data.groups)
         for (const ReportCell& cell : group.cells) collector.add(group, cell);
+    collector.embedAll();
     collector.noteMissing();
 }
 

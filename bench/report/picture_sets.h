@@ -8,8 +8,9 @@
 
 namespace dustbench::bench {
 
-/// Pictures are embedded as they are or as JPEG, whichever is smaller, up to `maximumBytes` in total; the rest are
-/// linked by their path in the folder. Unreadable files are reported in the data's problems.
+/// Pictures are embedded as they are or as JPEG, whichever is smaller, up to `maximumBytes` in total, beginning with
+/// the worst moment of every group by FLIP; the rest are linked by their path in the folder. Unreadable files are
+/// reported in the data's problems.
 void collectPictures(const std::filesystem::path& folder, std::int64_t maximumBytes, ReportData& data);
 
 /// `data:image/png;base64,…`

@@ -20,7 +20,9 @@
 #include "bench/report/report_json.h"
 #include "bench/report/report_reader.h"
 #include "bench/report/run_groups.h"
+#include "bench/suite/suite.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/data_folder.h"
 #include "methods/kit/pictures/picture_files.h"
 
 namespace dustbench::bench {
@@ -159,6 +161,26 @@ TEST(ReportPage, LeavesAPageOfSomebodyElseAlone) {
     EXPECT_THROW(writePage(folder.path(), readReport(folder.path(), 0)), InputError);
 }
 
+TEST(RunGroups, TwoSuitesOfTheSameRunsAreBothShownAndTwoFormsOfASuiteOnce) {
+    const Folder folder;
+    const std::string suite = "title = \"Title\"\nmethods = [\"null_method\"]\n[parameters]\nparticles = [10, 20]\n";
+    fs::create_directories(folder.path() / "suites");
+    folder.write("suites/one.toml", suite + "[quick]\ntitle = \"Title\"\n");
+    folder.write("suites/two.toml", suite);
+    files::useDataFolders("--data", {folder.path().string()});
+    StoredRuns runs;
+    for (const PlannedRun& planned : loadSuite("one", false).cells) {
+        StoredRun made = run("null_method", 10, 1, 3);
+        made.runId = runId(planned.spec);
+        runs.emplace(made.runId, made);
+    }
+    std::vector<std::string> problems, ids;
+    for (const RunGroup& group : sortIntoGroups(runs, {}, problems)) ids.push_back(group.id);
+    files::useDataFolders("--data", {});
+    EXPECT_EQ(ids, (std::vector<std::string>{"one", "two"}));
+    EXPECT_TRUE(problems.empty());
+}
+
 TEST(ReportPictures, AreBase64) {
     EXPECT_EQ(dataUrl("image/png", "hello!"), "data:image/png;base64,aGVsbG8h");
     EXPECT_EQ(dataUrl("image/png", "hell"), "data:image/png;base64,aGVsbA==");
@@ -197,6 +219,27 @@ TEST(ReportPictures, AreInThePageOrBesideItAsTheBudgetAllows) {
             EXPECT_TRUE(picture.source.starts_with(budget > 0 ? "data:image/" : "runs/haze-")) << picture.source;
         EXPECT_EQ(set.width, budget > 0 ? 24 : 0) << "a linked picture is not opened";
     }
+}
+
+TEST(ReportPictures, OfTheWorstMomentAreInThePageFirst) {
+    const Folder folder;
+    ReportData data = pictured(folder);
+    const std::string made = "runs/" + data.runs.begin()->first + "/";
+    for (const char* ending : {"", "_reference", "_difference"})
+        for (const char* frame : {"000010", "000050"})
+            fs::copy_file(folder.path() / fmt::format("{}images/f000030{}.png", made, ending),
+                          folder.path() / fmt::format("{}images/f{}{}.png", made, frame, ending));
+    folder.write(made + "metrics.csv", "frame,psnr_db,ssim,flip\n10,,,0.1\n30,,,0.4\n50,,,0.2\n");
+    collectPictures(folder.path(), 100'000, data);
+    const std::string& whole = data.pictureSets.at(0).pictures.at(0).source;
+    const auto room = static_cast<std::int64_t>(3 * (whole.size() - whole.find(',')));  // for one moment of three
+    data.pictureSets.clear();
+    data.linkedPictures = 0;
+    collectPictures(folder.path(), room, data);
+    EXPECT_EQ(data.linkedPictures, 6u);
+    for (const PictureSet& set : data.pictureSets)
+        for (const ReportPicture& picture : set.pictures)
+            EXPECT_EQ(picture.source.starts_with("data:"), set.frame == 30) << set.frame << " " << picture.label;
 }
 
 TEST(ReportPictures, CarryTheMetricsOfTheirFrame) {

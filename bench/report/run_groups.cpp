@@ -216,12 +216,14 @@ std::vector<RunGroup> sortIntoGroups(const StoredRuns& runs, const MachineOfRun&
     std::set<const StoredRun*> placed;
     std::vector<std::string> faults;
     for (const SuiteFile& file : listSuites()) {
+        std::set<const StoredRun*> shown;  // of this suite
         for (const bool quick : {false, true}) {
             try {
                 Suite suite = loadSuite(file.id, quick);
                 const std::vector<const StoredRun*> found = runsOf(suite, repetitions, runs);
                 // Runs common to both forms are shown once.
-                if (std::ranges::all_of(found, [&](const StoredRun* run) { return placed.contains(run); })) continue;
+                if (std::ranges::all_of(found, [&](const StoredRun* run) { return shown.contains(run); })) continue;
+                shown.insert(found.begin(), found.end());
                 const std::vector<const StoredRun*> all = runsOf(withBaselines(suite), repetitions, runs);
                 placed.insert(all.begin(), all.end());
                 RunGroup group = makeGroup(found, machines);

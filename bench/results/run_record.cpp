@@ -140,6 +140,36 @@ std::optional<JudgingPlan> readJudging(const Json& json) {
     return judging;
 }
 
+/// What was asked for, as specFromJson reads it.
+Json specObject(const RunSpec& spec) {
+    return {{"method", spec.method},
+            {"scene", spec.scene},
+            {"drive", spec.drive},
+            {"camera_path", spec.cameraPath},
+            {"seed", spec.seed},
+            {"repetition", spec.repetition},
+            {"frames", spec.frames},
+            {"warmup", spec.warmup},
+            {"width", spec.size.width},
+            {"height", spec.size.height},
+            {"sync", syncs.wordOf(spec.sync)},
+            {"threads", spec.threads},
+            {"times", spec.timed},
+            {"images", spec.imagesEvery},
+            {"volumes", volumesObject(spec.volumes)},
+            {"metrics", judgingObject(spec.judging)},
+            {"parameters", spec.parameters}};
+}
+
+/// The same as a reader of results sees it, with the drive that was taken.
+Json resolvedSpecObject(const RunSpec& spec, const std::string& drive) {
+    Json object = specObject(spec);
+    object["drive"] = drive;
+    if (spec.cameraPath.empty()) object["camera_path"] = nullptr;
+    object["parameters"] = parametersObject(spec.parameters);
+    return object;
+}
+
 /// Invalid UTF-8 (in a file name or a child's output) must not prevent a result from being written.
 std::string text(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -159,34 +189,17 @@ std::string toJson(const RunRecord& record) {
             {{"owner", owner}, {"structure", use.structure}, {"cpu_bytes", use.cpuBytes}, {"gpu_bytes", use.gpuBytes}});
     Json provenance = provenanceObject(record.provenance);
     provenance["key"] = canonicalKey(spec);
-    return text({{"run_id", runId(spec)},
-                 {"status", runStatuses.wordOf(record.status)},
-                 {"reason", record.reason},
-                 {"method", spec.method},
-                 {"scene", spec.scene},
-                 {"drive", record.drive},
-                 {"camera_path", spec.cameraPath.empty() ? Json(nullptr) : Json(spec.cameraPath)},
-                 {"seed", spec.seed},
-                 {"repetition", spec.repetition},
-                 {"frames", spec.frames},
-                 {"warmup", spec.warmup},
-                 {"width", spec.size.width},
-                 {"height", spec.size.height},
-                 {"sync", syncs.wordOf(spec.sync)},
-                 {"threads", spec.threads},
-                 {"times", spec.timed},
-                 {"images", spec.imagesEvery},
-                 {"volumes", volumesObject(spec.volumes)},
-                 {"metrics", judgingObject(spec.judging)},
-                 {"parameters", parametersObject(spec.parameters)},
-                 {"state_hash", record.stateHash},
-                 {"method_hash", record.methodHash.empty() ? Json(nullptr) : Json(record.methodHash)},
-                 {"validity", record.validity},
-                 {"summary", columnsObject(record.summary)},
-                 {"memory", memory},
-                 {"outputs", outputsArray(record.outputs)},
-                 {"provenance", provenance},
-                 {"warnings", record.provenance.warnings}});
+    Json object{{"run_id", runId(spec)}, {"status", runStatuses.wordOf(record.status)}, {"reason", record.reason}};
+    object.update(resolvedSpecObject(spec, record.drive));
+    object.update({{"state_hash", record.stateHash},
+                   {"method_hash", record.methodHash.empty() ? Json(nullptr) : Json(record.methodHash)},
+                   {"validity", record.validity},
+                   {"summary", columnsObject(record.summary)},
+                   {"memory", memory},
+                   {"outputs", outputsArray(record.outputs)},
+                   {"provenance", provenance},
+                   {"warnings", record.provenance.warnings}});
+    return text(object);
 }
 
 std::string toJson(const ExportRecord& record) {
@@ -210,23 +223,7 @@ std::string toJson(const ExportRecord& record) {
 }
 
 std::string specToJson(const RunSpec& spec) {
-    return text({{"method", spec.method},
-                 {"scene", spec.scene},
-                 {"drive", spec.drive},
-                 {"camera_path", spec.cameraPath},
-                 {"parameters", spec.parameters},
-                 {"frames", spec.frames},
-                 {"warmup", spec.warmup},
-                 {"width", spec.size.width},
-                 {"height", spec.size.height},
-                 {"seed", spec.seed},
-                 {"threads", spec.threads},
-                 {"sync", syncs.wordOf(spec.sync)},
-                 {"times", spec.timed},
-                 {"images", spec.imagesEvery},
-                 {"volumes", volumesObject(spec.volumes)},
-                 {"metrics", judgingObject(spec.judging)},
-                 {"repetition", spec.repetition}});
+    return text(specObject(spec));
 }
 
 RunSpec specFromJson(std::string_view text) {

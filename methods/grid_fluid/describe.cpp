@@ -130,7 +130,8 @@ MethodInfo describe() {
             "says");
     info.facts = {
         {"mass_kept", "share", FactOver::lastFrame,
-         "share of the particles' optical mass that the method's volume holds after the last frame"},
+         "share of the particles' optical mass that the method's volume holds after the last frame; dust outside of "
+         "the volume's box is missing from it"},
         {"flow_speed_max", "m/s", FactOver::lastFrame, "speed of the flow along an axis: maximum since the beginning"},
         {"flow_cells_per_step_max", "cells", FactOver::lastFrame,
          "distance that the flow covers in a step (the Courant number): maximum since the beginning"},

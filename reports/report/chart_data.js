@@ -91,8 +91,11 @@ const chartData = (() => {
     const known = (report, experiment, kind) => Object.keys(report.columns).filter(name => report.columns[name][kind] && has(experiment, name));
     const costsOf = (report, experiment) => known(report, experiment, 'cost');
     const metricsOf = (report, experiment) => (has(experiment, 'flip') ? known(report, experiment, 'metric') : []);
+    /// What a picture may be held against as its cost; runs without times have memory and primitives alone.
+    const chargesOf = (report, experiment) => ['frame_ms_median', 'method_ms_median', 'memory_bytes', 'gpu_bytes', 'cpu_bytes', 'primitives_median']
+        .filter(name => costsOf(report, experiment).includes(name));
     /// All that a chart can show: costs, metrics, and facts of methods.
     const quantitiesOf = (report, experiment) => distinct([...costsOf(report, experiment), ...known(report, experiment, 'metric'),
         ...(report.data.facts || []).map(fact => fact.name).filter(name => has(experiment, name))]);
-    return { columnOf, axisTitle, shown, isWhole, valueOf, settingText, variantOf, worldOf, inOrder, distinct, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf, factOf };
+    return { columnOf, axisTitle, shown, isWhole, valueOf, settingText, variantOf, worldOf, inOrder, distinct, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf, chargesOf, factOf };
 })();

@@ -6,7 +6,7 @@
 // {columns: [[name, unit]…], rows}.
 const chartKit = (() => {
     const { configOf, digits, withUnit } = chartStyle;
-    const { columnOf, valueOf, variantOf, worldOf, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf } = chartData;
+    const { columnOf, valueOf, variantOf, worldOf, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf, chargesOf } = chartData;
     const { methodColour, fresh, setSignals, setData, setScale, domainOf, missing } = chartParts;
 
     /// The cells of an experiment that charts and tables show: seeds are draws of the same, not settings.
@@ -16,10 +16,10 @@ const chartKit = (() => {
         const charts = [];
         for (const whole of report.data.experiments) {
             const experiment = shownOf(whole);
-            if (!experiment.cells.some(cell => valueOf(cell, 'frame_ms_median'))) continue;
+            if (!quantitiesOf(report, experiment).length) continue;
             if (experiment.cells.length > 1) charts.push({ id: experiment.id, kind: 'cost', experiment });
-            charts.push({ id: experiment.id + '-stages', kind: 'stages', experiment });
-            if (metricsOf(report, experiment).length) charts.push({ id: experiment.id + '-quality', kind: 'quality', experiment });
+            if (experiment.cells.some(cell => valueOf(cell, 'frame_ms_median'))) charts.push({ id: experiment.id + '-stages', kind: 'stages', experiment });
+            if (metricsOf(report, experiment).length && chargesOf(report, experiment).length) charts.push({ id: experiment.id + '-quality', kind: 'quality', experiment });
         }
         if (report.data.frames.length) charts.push({ id: 'frames', kind: 'frames' });
         return charts;
@@ -61,5 +61,5 @@ const chartKit = (() => {
         const asked = { width: 900, theme: 'light', hidden: new Set(), ...chart };
         return { config: configOf(asked.theme), ...builders[asked.kind](report, asked) };
     };
-    return { list, build, shownOf, loadsOf, costsOf, metricsOf, quantitiesOf, methodColour, digits, withUnit, columnOf, variantOf, worldOf };
+    return { list, build, shownOf, loadsOf, costsOf, metricsOf, quantitiesOf, chargesOf, methodColour, digits, withUnit, columnOf, variantOf, worldOf };
 })();

@@ -93,8 +93,10 @@
             if (compared) put(card, compared);
             if (experiment.fits.length) put(card, fitTable(experiment));
         }
-        put(card, element('h4', { textContent: 'Where the time goes' }));
-        cards.add(card, own.find(chart => chart.kind === 'stages'), [['part', 'Show', [['own', 'the method\'s own stages'], ['frame', 'the whole frame']]], ['world', 'World', []]]);
+        const stages = own.find(chart => chart.kind === 'stages');
+        if (stages) put(card, element('h4', { textContent: 'Where the time goes' }));
+        else put(card, paragraph('Several runs at a time: no times were measured.', 'note'));
+        if (stages) cards.add(card, stages, [['part', 'Show', [['own', 'the method\'s own stages'], ['frame', 'the whole frame']]], ['world', 'World', []]]);
         if (experiment.toml) put(card, suiteText(experiment));
     };
 
@@ -102,7 +104,7 @@
         const here = section('performance');
         const known = chartKit.list(report);
         const chartsOf = experiment => known.filter(chart => chart.experiment && chart.experiment.id === experiment.id);
-        if (!known.length) put(here, paragraph('No run has frame times.', 'muted'));
+        if (!known.length) put(here, paragraph('No run measured anything.', 'muted'));
         else put(here, paragraph('Each point or bar is the median of a cell\'s runs, or of its seeds. The line through it is the interval that contains the true median with at least 95 % probability, from ' +
             'the order of 6 or more values; with fewer it spans the minimum and maximum. Points with the same load are drawn slightly apart. Runs alternate in random order, each in its own process.', 'muted'));
         for (const experiment of experiments) if (chartsOf(experiment).length) addExperiment(here, experiment, chartsOf(experiment));
@@ -136,7 +138,7 @@
         for (const chart of own) {
             const card = element('article', { className: 'card' }, [element('h3', { textContent: titleOf(chart.experiment) })]);
             put(here, card);
-            const costs = ['frame_ms_median', 'method_ms_median', 'memory_bytes', 'gpu_bytes', 'cpu_bytes', 'primitives_median'].filter(name => chartKit.costsOf(report, chart.experiment).includes(name));
+            const costs = chartKit.chargesOf(report, chart.experiment);
             cards.add(card, chart, [
                 ['metric', 'Metric', columnOptions(chartKit.metricsOf(report, chart.experiment))], ['against', 'against', columnOptions(costs)],
                 ['xLog', 'across', scales], ['yLog', 'upwards', scales],

@@ -1,7 +1,7 @@
 // The chart of an image metric against a cost. Pure, as charts.js is.
 const qualityChart = (() => {
     const { themes, withUnit } = chartStyle;
-    const { columnOf, axisTitle, shown, isWhole, valueOf, variantOf, worldOf, inOrder, distinct, metricsOf } = chartData;
+    const { columnOf, axisTitle, shown, isWhole, valueOf, variantOf, worldOf, inOrder, distinct, metricsOf, chargesOf } = chartData;
     const { seriesStyles, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, domainOf, logTicks, spans, intervalText, missing, tableOf } = chartParts;
 
     /// The points which every other one, by intervals that do not overlap, costs more or errs more.
@@ -15,7 +15,8 @@ const qualityChart = (() => {
         const metrics = metricsOf(report, experiment);
         const opens = (experiment.chart || {}).column;
         const metric = [chart.metric, opens, 'flip', metrics[0]].find(name => metrics.includes(name));
-        const against = chart.against || 'frame_ms_median';
+        const charges = chargesOf(report, experiment);
+        const against = charges.includes(chart.against) ? chart.against : charges[0];
         const [info, cost] = [columnOf(report, metric), columnOf(report, against)];
         const cells = inOrder(experiment, experiment.cells)
             .filter(cell => valueOf(cell, metric) && valueOf(cell, against) && !chart.hidden.has(cell.method));

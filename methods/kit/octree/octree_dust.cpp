@@ -129,7 +129,8 @@ void declareDustFacts(MethodInfo& info) {
                           "particles outside the method's world: maximum of the recorded frames",
                           {.maximum = 0}});
     info.facts.push_back({"mass_kept", "share", FactOver::lastFrame,
-                          "share of the particles' optical mass that the method's volume holds after the last frame"});
+                          "share of the particles' optical mass that the method's volume holds after the last frame; "
+                          "dust outside of the volume's box is missing from it"});
     info.facts.push_back(
         {"structure_bytes", "bytes", FactOver::maximumOfFrames,
          "bytes of the structure that holds the voxels, an octree's nodes and voxels or a grid's cells: "
