@@ -8,6 +8,9 @@ Commands are the fenced blocks marked `sh`. A comment right before a block says 
     <!-- exit: 3 -->                 what the block's last line ends with; several numbers: one of them
     <!-- not run: the reason -->     the block is left out
 
+Blocks marked `python` are run by Debian's Python as well, each behind all that came before it; if that Python has no pandas they are left
+out, but not where changes are judged (`CI` is set).
+
 A fenced block below a line that is `` `FILE` `` alone is written to that file first. The folder looks like the tree, with
 `build/release/dustbench` in its place; what the commands write under `out/` is removed afterwards.
 """
@@ -58,18 +61,37 @@ def work_folder(program):
     return folder
 
 
+PYTHON = "/usr/bin/python3"
+
+
+def has_pandas():
+    there = pathlib.Path(PYTHON).exists() and subprocess.run([PYTHON, "-c", "import pandas"], capture_output=True).returncode == 0
+    if not there and os.environ.get("CI"):
+        sys.exit(f"{PYTHON} has no pandas (.ci/install pandas)")
+    return there
+
+
 def main(program, document):
     text = pathlib.Path(document).read_text()
     folder = work_folder(pathlib.Path(program).resolve())
     environment = {name: value for name, value in os.environ.items() if name != "DUSTBENCH_DATA"}
-    count = 0
+    count, session = 0, ""
     try:
         for block in BLOCK.finditer(text):
             comments = block["comments"]
             if block["file"]:
                 (folder / block["file"]).parent.mkdir(parents=True, exist_ok=True)
                 (folder / block["file"]).write_text(block["text"])
-            if block["kind"] != "sh" or said(comments, "not run"):
+            if said(comments, "not run"):
+                continue
+            if block["kind"] == "python" and not block["file"]:
+                session += block["text"]
+                if has_pandas():
+                    called = subprocess.run([PYTHON, "-W", "error", "-c", session], cwd=folder, env=environment, capture_output=True, text=True)
+                    count += 1
+                    if called.returncode:
+                        sys.exit(f"{document}: Python ended with {called.returncode} at\n{block['text']}{called.stderr}")
+            if block["kind"] != "sh":
                 continue
             lines = commands(block["text"])
             short = said(comments, "short")
