@@ -29,7 +29,7 @@ struct CompareOptions {
     std::int64_t frames = bench::RunSpec().frames, repetitions = 6;
     std::string moments, out;
     std::string columns;
-    std::string failPercent;
+    std::string failPercent, markdown;
     bool acrossMachines = false;
     std::vector<std::string> given;  ///< names of options
 };
@@ -37,7 +37,7 @@ struct CompareOptions {
 /// Throws if an option was given that applies only to the other kind of comparison.
 void refuseOthers(const CompareOptions& options, bool folders) {
     static const std::set<std::string> both{"--out", "--adapter", "--data"},
-        ofFolders{"--columns", "--fail-on-regression", "--across-machines"};
+        ofFolders{"--columns", "--fail-on-regression", "--across-machines", "--markdown"};
     for (const std::string& name : options.given)
         if (!both.contains(name) && ofFolders.contains(name) != folders)
             throw InputError(fmt::format("{}: got it for {}, allowed: for {}", name,
@@ -100,8 +100,8 @@ int compareFolderArguments(const CompareOptions& options) {
     if (options.methods.size() != 2)
         throw InputError(fmt::format("compare: got {} result folders, allowed: 2", options.methods.size()));
     refuseOthers(options, true);
-    RegressionOptions folders{options.methods[0],    options.methods[1], options.columns, options.out, {},
-                              options.acrossMachines};
+    RegressionOptions folders{options.methods[0],     options.methods[1], options.columns, options.out, {},
+                              options.acrossMachines, options.markdown};
     if (!options.failPercent.empty()) folders.failPercent = parsePercent(options.failPercent);
     return checkRegression(folders);
 }
@@ -155,9 +155,10 @@ Command compareCommand() {
                                "folder for the results, default: out/compare; for folders: where comparison.csv goes",
                                options->out);
                 arguments.text("--fail-on-regression", "PERCENT",
-                               "for folders: exit code 5 if the second is slower by more than this, or fails where "
-                               "the first does not",
+                               "for folders: exit code 5 if the second is slower by more than this, also when it is "
+                               "measured again, or fails where the first does not",
                                options->failPercent);
+                arguments.text("--markdown", "FILE", "for folders: the result for a merge request", options->markdown);
                 arguments.text("--columns", "NAME,NAME…",
                                "for folders: times or rates of summary.csv; default: frame_ms_median",
                                options->columns);

@@ -7,9 +7,11 @@
 #include <sstream>
 
 #include "bench/cli/exit_codes.h"
+#include "bench/cli/second_look.h"
 #include "bench/cli/text_table.h"
 #include "bench/export/whole_file.h"
 #include "bench/results/stored_folder.h"
+#include "bench/results/temporary_folder.h"
 #include "bench/suite/planned_evaluation.h"
 #include "bench/suite/regression/regression_table.h"
 #include "methods/contract/errors.h"
@@ -42,21 +44,67 @@ void writeCsv(const std::string& folder, const std::string& text) {
     std::cout << file.string() << "\n";
 }
 
-/// Reports what is slower by more than `percent`; true if anything is, or newly fails.
-bool sayRegressions(const bench::FolderComparison& comparison, double percent) {
-    std::size_t slower = 0;
-    for (const bench::JudgedCell& judged : comparison.judged) {
-        if (!bench::isSlowerBy(judged, percent)) continue;
-        ++slower;
-        std::cerr << fmt::format("regression: {}: {} takes {:.4g} [{:.4g}, {:.4g}] times as long in B\n", judged.column,
-                                 judged.cell ? labelOf(*judged.cell, comparison.axes) : "all cells together",
-                                 judged.result.ratio, judged.result.low, judged.result.high);
+std::string takes(const bench::JudgedCell& judged) {
+    return fmt::format("takes {:.4g} [{:.4g}, {:.4g}] times as long in B", judged.result.ratio, judged.result.low,
+                       judged.result.high);
+}
+
+std::vector<Alert> alertsOf(const bench::FolderComparison& comparison, double percent) {
+    std::vector<Alert> alerts;
+    for (const bench::JudgedCell& judged : comparison.judged)
+        if (bench::isSlowerBy(judged, percent)) alerts.push_back({judged.cell, judged.column});
+    return alerts;
+}
+
+/// Says which alerts stand and which do not; returns those that stand.
+std::vector<Alert> confirmed(const bench::FolderComparison& comparison, const std::vector<Alert>& alerts,
+                             const SecondLook& second) {
+    std::vector<Alert> standing;
+    for (const Alert& alert : alerts) {
+        const auto first = std::ranges::find_if(comparison.judged, [&](const bench::JudgedCell& judged) {
+            return judged.cell == alert.cell && judged.column == alert.column;
+        });
+        const bench::JudgedCell* again = second.whyNot().empty() ? second.judged(alert) : nullptr;
+        const bool stands = !second.whyNot().empty() || second.confirms(alert);
+        if (stands) standing.push_back(alert);
+        std::cerr << fmt::format("{}: {}: {} {}{}\n", stands ? "regression" : "not confirmed", alert.column,
+                                 alert.cell ? labelOf(*alert.cell, comparison.axes) : "all cells together",
+                                 takes(*first), again == nullptr ? "" : "; measured again, it " + takes(*again));
     }
+    return standing;
+}
+
+void sayBroken(const bench::FolderComparison& comparison) {
     for (const bench::FolderCell* cell : comparison.broken)
         std::cerr << fmt::format("regression: {}: {} in B: {}\n", labelOf(*cell, comparison.axes),
                                  cell->b.failed.front()->status == bench::RunStatus::timeout ? "timed out" : "failed",
                                  cell->b.failed.front()->reason);
-    return slower > 0 || !comparison.broken.empty();
+}
+
+void writeMarkdown(const RegressionOptions& options, const bench::FolderComparison& comparison,
+                   const std::vector<Alert>& regressions) {
+    if (options.markdown.empty()) return;
+    bench::writeWhole(options.markdown,
+                      bench::comparisonMarkdown(comparison, options.a, options.b, [&](const bench::JudgedCell& judged) {
+                          return std::ranges::any_of(regressions, [&](const Alert& alert) {
+                              return alert.cell == judged.cell && alert.column == judged.column;
+                          });
+                      }));
+    std::cout << options.markdown << "\n";
+}
+
+/// Measures alerts again; returns those that stand, or nothing if it was aborted.
+std::optional<std::vector<Alert>> lookAgain(const RegressionOptions& options, const bench::ResultsSide& a,
+                                            const bench::FolderComparison& comparison,
+                                            const std::vector<Alert>& alerts) {
+    const bench::TemporaryFolder temporary;
+    const std::filesystem::path folder =
+        options.out.empty() ? temporary.path() / "again" : std::filesystem::path(options.out) / "again";
+    const SecondLook second(a, comparison, alerts, *options.failPercent, folder);
+    if (second.aborted()) return std::nullopt;
+    if (!second.whyNot().empty())
+        std::cerr << fmt::format("note: not measured again: {}\n", files::printable(second.whyNot()));
+    return confirmed(comparison, alerts, second);
 }
 
 }  // namespace
@@ -81,9 +129,17 @@ int checkRegression(const RegressionOptions& options) {
     table.rows.insert(table.rows.begin(), std::move(table.header));
     std::cout << textTable(table.rows);
     if (!options.out.empty()) writeCsv(options.out, bench::comparisonCsv(comparison, options.failPercent));
+    std::vector<Alert> regressions;
+    if (options.failPercent)
+        if (const std::vector<Alert> alerts = alertsOf(comparison, *options.failPercent); !alerts.empty()) {
+            const auto standing = lookAgain(options, a, comparison, alerts);
+            if (!standing) return exitAborted;
+            regressions = *standing;
+        }
+    writeMarkdown(options, comparison, regressions);
     if (!options.failPercent) return exitOk;
-
-    if (sayRegressions(comparison, *options.failPercent)) return exitRegression;
+    sayBroken(comparison);
+    if (!regressions.empty() || !comparison.broken.empty()) return exitRegression;
     // A check that cannot fail must not look as if it passed.
     if (std::ranges::none_of(comparison.judged, [](const auto& judged) { return judged.result.hasEnough(); })) {
         std::cerr << fmt::format("not comparable: no cell has {} runs with times in both, so no regression can show\n",

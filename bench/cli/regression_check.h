@@ -12,6 +12,7 @@ struct RegressionOptions {
     std::string out;      ///< empty: no comparison.csv
     std::optional<double> failPercent;
     bool acrossMachines = false;
+    std::string markdown;  ///< file; empty: none
 };
 
 /// Returns the exit code. Throws InputError.

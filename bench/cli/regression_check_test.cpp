@@ -1,5 +1,10 @@
 // End-to-end tests of `compare DIR_A DIR_B`, on folders with generated run.json files.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <fstream>
+#include <regex>
+#include <sstream>
 
 #include "bench/cli/called_program.h"
 #include "bench/results/run_record.h"
@@ -72,6 +77,53 @@ TEST_F(CompareFolders, ExitCodesTellAllIsWellARegressionAndWhatCannotBeCompared)
     EXPECT_EQ(compare("elsewhere", "--across-machines").code, 0);
     EXPECT_THAT(compare("debug", "--across-machines").err, HasSubstr("12 of 12 runs were measured by a 'Debug' build"));
     EXPECT_EQ(compare("other", "--across-machines").code, 6);
+}
+
+TEST_F(CompareFolders, AnAlertIsMeasuredAgainAndStandsOnlyIfItAlertsAgain) {
+    std::ofstream(folder_ / "small.toml")
+        << "methods = [\"null_method\"]\nsizes = [\"16x12\"]\nframes = 3\nwarmup = 0\nrepetitions = 6\n"
+           "[parameters]\npreroll = 0.1\nparticles = [10, 20]\n";
+    ASSERT_EQ(call(fmt::format("suite '{0}/small.toml' --out '{0}/a'", folder_.string())).code, 0);
+    fs::copy(folder_ / "a", folder_ / "b", fs::copy_options::recursive);
+    /// Frame times of all runs as if they had taken so many ms.
+    const auto pretend = [this](const std::string& name, double ms) {
+        for (const fs::path& run : runs((folder_ / name).string())) {
+            std::stringstream text;
+            text << std::ifstream(run / "run.json").rdbuf();
+            static const std::regex time(R"("frame_ms_median": [^,]*)");
+            std::ofstream(run / "run.json") << std::regex_replace(
+                text.str(), time, fmt::format("\"frame_ms_median\": {}", ms * (1 + 0.001 * run.string().back())));
+        }
+    };
+    pretend("b", 1e5);
+    const Called chance =
+        compare("b", fmt::format("--fail-on-regression 2000 --out '{0}/c' --markdown '{0}/c.md'", folder_.string()));
+    EXPECT_EQ(chance.code, 0) << chance.err;
+    EXPECT_THAT(chance.err, AllOf(HasSubstr("not confirmed: frame_ms_median: null_method particles=10 takes "),
+                                  HasSubstr("measured again, it takes "), testing::Not(HasSubstr("regression: "))));
+    EXPECT_EQ(runs((folder_ / "c" / "again").string()).size(), 12u);
+    std::stringstream markdown;
+    markdown << std::ifstream(folder_ / "c.md").rdbuf();
+    EXPECT_THAT(markdown.str(), testing::StartsWith("**0 of 3 comparisons are slower.** B is "));
+
+    pretend("a", 1e-4);
+    const Called real = compare("b", fmt::format("--fail-on-regression 2000 --markdown '{}/c.md'", folder_.string()));
+    EXPECT_EQ(real.code, 5) << real.err;
+    EXPECT_THAT(real.err, AllOf(HasSubstr("regression: frame_ms_median: null_method particles=10 takes "),
+                                HasSubstr("regression: frame_ms_median: all cells together takes "),
+                                HasSubstr("measured again, it takes "), testing::Not(HasSubstr("not confirmed"))));
+    markdown.str("");
+    markdown << std::ifstream(folder_ / "c.md").rdbuf();
+    EXPECT_THAT(markdown.str(), AllOf(testing::StartsWith("**3 of 3 comparisons are slower.** B is "),
+                                      HasSubstr("\n| column | method | particles |"), HasSubstr("<details>")));
+}
+
+TEST_F(CompareFolders, WhatAnotherBuildMeasuredCannotBeMeasuredAgainAndStands) {
+    write("a", 1);
+    write("slower", 1.1);
+    const Called slower = compare("slower");
+    EXPECT_EQ(slower.code, 5);
+    EXPECT_THAT(slower.err, HasSubstr("note: not measured again: measured by another build of dustbench"));
 }
 
 TEST_F(CompareFolders, AGateThatCouldNotCloseIsNotPassed) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/results/run_spec.h"
 #include "bench/results/stored_run.h"
 
 namespace dustbench::bench {
@@ -14,5 +15,8 @@ using KeyFields = std::vector<std::pair<std::string, std::string>>;
 
 /// Throws InputError with the run if its provenance has no key, or the key a line that is not `name=value`.
 [[nodiscard]] KeyFields keyFields(const StoredRun& run);
+
+/// What was asked for, without volumes and metrics. Throws InputError as keyFields does, or for a value that is none.
+[[nodiscard]] RunSpec specFromKey(const StoredRun& run);
 
 }  // namespace dustbench::bench

@@ -3,37 +3,21 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
-
 #include "bench/results/key_fields.h"
 #include "methods/contract/errors.h"
 
 namespace dustbench::bench {
 namespace {
 
-template <typename Number>
-Number numberIn(const StoredRun& run, const std::string& name, const std::string& text) {
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size())
-        throw InputError(fmt::format("run '{}': {} is '{}', expected an integer", run.runId, name, text));
-    return number;
-}
-
-/// Settings that decide nothing about the state stay as RunSpec has them.
+/// Settings that decide nothing about the state are those that RunSpec has by itself.
 RunSpec specOf(const StoredRun& run) {
-    RunSpec spec;
-    for (const auto& [name, text] : keyFields(run)) {
-        if (name == "method") spec.method = text;
-        if (name == "scene") spec.scene = text;
-        if (name == "drive") spec.drive = text;
-        if (name == "camera_path") spec.cameraPath = text;
-        if (name == "frames") spec.frames = numberIn<std::int64_t>(run, name, text);
-        if (name == "warmup") spec.warmup = numberIn<std::int64_t>(run, name, text);
-        if (name == "size") spec.size = parseSize(text);
-        if (name == "seed") spec.seed = numberIn<std::uint64_t>(run, name, text);
-        if (name.starts_with("p.")) spec.parameters[name.substr(2)] = text;
-    }
+    RunSpec spec = specFromKey(run);
+    const RunSpec usual;
+    spec.threads = usual.threads;
+    spec.sync = usual.sync;
+    spec.timed = usual.timed;
+    spec.imagesEvery = usual.imagesEvery;
+    spec.repetition = usual.repetition;
     return spec;
 }
 

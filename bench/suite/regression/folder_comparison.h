@@ -25,6 +25,7 @@ struct JudgedCell {
 struct FolderComparison {
     FolderComparison() = default;
     FolderComparison(FolderComparison&&) = default;
+    FolderComparison& operator=(FolderComparison&&) = default;
 
     std::vector<FolderCell> cells;
     std::vector<std::string> axes;       ///< the fields that distinguish cells besides the method

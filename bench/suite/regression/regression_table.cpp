@@ -109,4 +109,37 @@ std::string comparisonCsv(const FolderComparison& comparison, std::optional<doub
     return text;
 }
 
+std::string comparisonMarkdown(const FolderComparison& comparison, std::string_view a, std::string_view b,
+                               const std::function<bool(const JudgedCell&)>& isRegression) {
+    TextRows all = tabulate(comparison);
+    const auto row = [](const std::vector<std::string>& cells) {
+        std::string text = "|";
+        for (const std::string& cell : cells) {
+            text += ' ';
+            for (const char letter : cell) text += letter == '|' ? "\\|" : std::string(1, letter);
+            text += " |";
+        }
+        return text + "\n";
+    };
+    const std::string head = row(all.header) + row(std::vector<std::string>(all.header.size(), "---"));
+    std::string rows, slower;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < comparison.judged.size(); ++i) {
+        rows += row(all.rows[i]);
+        if (!isRegression(comparison.judged[i])) continue;
+        slower += row(all.rows[i]);
+        ++count;
+    }
+    std::string text = fmt::format(
+        "**{} of {} comparisons are slower.** B is `{}`, A is `{}`; ratios of their times with "
+        "95 % intervals.\n",
+        count, comparison.judged.size(), b, a);
+    if (count > 0) text += "\n" + head + slower;
+    for (const FolderCell* cell : comparison.broken)
+        text +=
+            fmt::format("\n- {}: fails in B: {}\n", labelOf(*cell, comparison.axes), cell->b.failed.front()->reason);
+    return text + fmt::format("\n<details><summary>All {} comparisons</summary>\n\n", comparison.judged.size()) + head +
+           rows + "\n</details>\n";
+}
+
 }  // namespace dustbench::bench

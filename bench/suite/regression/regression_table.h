@@ -2,8 +2,10 @@
 // columns.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "bench/suite/regression/folder_comparison.h"
 #include "bench/suite/suite_table.h"
@@ -19,5 +21,10 @@ namespace dustbench::bench {
 /// All comparisons, then the cells that are done in only one folder. `percent`: the regression threshold; empty: none
 /// given.
 [[nodiscard]] std::string comparisonCsv(const FolderComparison& comparison, std::optional<double> percent);
+
+/// The same in Markdown for a merge request: a sentence in bold, a table of what `isRegression` names, and all rows in
+/// a fold.
+[[nodiscard]] std::string comparisonMarkdown(const FolderComparison& comparison, std::string_view a, std::string_view b,
+                                             const std::function<bool(const JudgedCell&)>& isRegression);
 
 }  // namespace dustbench::bench

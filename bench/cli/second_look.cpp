@@ -1,0 +1,83 @@
+#include "bench/cli/second_look.h"
+
+#include <algorithm>
+
+#include "bench/cli/exit_codes.h"
+#include "bench/cli/plan_runner.h"
+#include "bench/results/freshness.h"
+#include "bench/results/key_fields.h"
+
+namespace dustbench::cli {
+namespace {
+
+/// The cells to measure: those that alert, or all where their mean does.
+std::vector<const bench::FolderCell*> cellsOf(const bench::FolderComparison& first, const std::vector<Alert>& alerts) {
+    const bool ofAll = std::ranges::any_of(alerts, [](const Alert& alert) { return alert.cell == nullptr; });
+    std::vector<const bench::FolderCell*> cells;
+    for (const bench::FolderCell& cell : first.cells) {
+        const bool alerting = std::ranges::any_of(alerts, [&](const Alert& alert) { return alert.cell == &cell; });
+        if (!cell.a.done.empty() && !cell.b.done.empty() && (ofAll || alerting)) cells.push_back(&cell);
+    }
+    return cells;
+}
+
+/// Repetition by repetition over all cells, as a suite does.
+std::vector<bench::PlannedRun> planOf(const std::vector<const bench::FolderCell*>& cells, int& repetitions) {
+    std::vector<bench::PlannedRun> plan;
+    repetitions = 0;
+    for (const bench::FolderCell* cell : cells)
+        repetitions = std::max(repetitions, static_cast<int>(cell->b.done.size()));
+    for (int repetition = 1; repetition <= repetitions; ++repetition)
+        for (const bench::FolderCell* cell : cells)
+            if (repetition <= static_cast<int>(cell->b.done.size())) {
+                bench::PlannedRun& run = plan.emplace_back();
+                run.spec = bench::inRepetition(bench::specFromKey(*cell->b.done.front()), repetition);
+            }
+    return plan;
+}
+
+}  // namespace
+
+SecondLook::SecondLook(const bench::ResultsSide& a, const bench::FolderComparison& first,
+                       const std::vector<Alert>& alerts, double percent, const std::filesystem::path& folder)
+    : percent_(percent), a_{a.name, {}} {
+    const std::vector<const bench::FolderCell*> cells = cellsOf(first, alerts);
+    bench::Freshness freshness;
+    for (const bench::FolderCell* cell : cells) {
+        for (const bench::StoredRun* run : cell->b.done)
+            if (whyNot_.empty()) whyNot_ = freshness.whyOutdated(*run);
+        for (const bench::StoredRun* run : cell->a.done) a_.runs.emplace(run->runId, *run);
+    }
+    if (cells.empty()) whyNot_ = "no cell is done in both";
+    if (!whyNot_.empty()) return;
+
+    int repetitions = 0;
+    const std::vector<bench::PlannedRun> plan = planOf(cells, repetitions);
+    requireOpenGl();
+    bench::ResultsFolder results(folder);
+    PlanOptions options;
+    options.force = true;
+    aborted_ = runPlan(plan, repetitions, results, options) == exitAborted;
+    b_ = {folder.string(), results.runs()};
+    std::set<std::string> columns;
+    for (const Alert& alert : alerts) columns.insert(alert.column);
+    comparison_ = bench::compareFolders(a_, b_, {columns.begin(), columns.end()}, false);
+    if (!comparison_.obstacles.empty()) whyNot_ = comparison_.obstacles.front();
+}
+
+const bench::JudgedCell* SecondLook::judged(const Alert& alert) const {
+    for (const bench::JudgedCell& judged : comparison_.judged) {
+        const bool isIt = alert.cell == nullptr
+                              ? judged.cell == nullptr
+                              : judged.cell != nullptr && judged.cell->identity == alert.cell->identity;
+        if (isIt && judged.column == alert.column) return &judged;
+    }
+    return nullptr;
+}
+
+bool SecondLook::confirms(const Alert& alert) const {
+    const bench::JudgedCell* again = judged(alert);
+    return again == nullptr || !again->result.hasEnough() || bench::isSlowerBy(*again, percent_);
+}
+
+}  // namespace dustbench::cli
