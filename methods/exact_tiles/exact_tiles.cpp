@@ -1,5 +1,7 @@
 #include "methods/exact_tiles/exact_tiles.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -13,11 +15,16 @@
 namespace dustbench::exact_tiles {
 namespace {
 
+/// Steps of an eighth of the next power of two: seldom grown, and the same whatever was held before.
+std::size_t capacityFor(std::size_t bytes) {
+    const std::size_t step = std::max<std::size_t>(std::bit_ceil(bytes) / 8, 64);
+    return (bytes + step - 1) / step * step;
+}
+
 template <typename T>
 void upload(gpu::Device& device, std::string_view label, std::span<const T> values, gpu::Buffer& buffer) {
-    if (buffer.bytes() < values.size_bytes() || buffer.bytes() == 0)
-        buffer = gpu::Buffer(device, label, std::max<std::size_t>(values.size_bytes() + values.size_bytes() / 8, 64));
     if (values.empty()) return;
+    if (buffer.bytes() < values.size_bytes()) buffer = gpu::Buffer(device, label, capacityFor(values.size_bytes()));
     std::memcpy(buffer.mapForWriting(values.size_bytes()), values.data(), values.size_bytes());
     buffer.unmap();
 }
@@ -35,6 +42,10 @@ void ExactTiles::update(const Frame& frame) {
                      frame.dust.uniformColour ? Along::back : Along::front);
     }
     const auto timing = frame.clock.measure(Stage::upload);
+    if (listedFor_ && (listedFor_->width != frame.view.width || listedFor_->height != frame.view.height)) {
+        lists_ = {};
+        entries_ = {};
+    }
     upload(*device_, "puffs", tiles_.puffs(), puffs_);
     upload(*device_, "lists of tiles", tiles_.lists(), lists_);
     upload(*device_, "entries of tiles", tiles_.entries(), entries_);

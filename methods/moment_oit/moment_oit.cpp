@@ -113,7 +113,7 @@ MethodInfo describe() {
               "where T lies between the bounds that the moments give: 0 at the brighter one, 1 at the darker one")
         .real("bias_factor", 1, 0, 10'000, "",
               "factor of the paper's bias of the moments, 5e-7 of four and 5e-6 of six")
-        .real("reach", 4, 2, 6, "deviations",
+        .real("reach", 3.5, 2, 6, "deviations",
               "half-side of a puff's quad, by its standard deviation; exp(-reach^2/2) of its depth is cut off");
     info.parameters.preset("profile", "point", {{"overestimation", "0.25"}});
     info.create = [](const ParameterValues& values) {

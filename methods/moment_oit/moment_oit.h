@@ -31,7 +31,7 @@ struct Settings {
     Warp warp = Warp::log;
     double overestimation = 0.5;  ///< the paper's for points: 0.25
     double biasFactor = 1;        ///< of the paper's bias
-    double reachDeviations = 4;
+    double reachDeviations = 3.5;
 };
 
 /// Distances from the eye between which the puffs before it lie, at least 1 % apart.

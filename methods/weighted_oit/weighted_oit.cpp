@@ -67,7 +67,7 @@ MethodInfo describe() {
     info.parameters
         .choice("weight", Weight::eq7, weights,
                 "how a puff's weight falls with its distance: an equation of the paper, or not at all")
-        .real("reach", 4, 2, 6, "deviations",
+        .real("reach", 3.5, 2, 6, "deviations",
               "half-side of a puff's quad, by its standard deviation; exp(-reach^2/2) of its depth is cut off");
     info.create = [](const ParameterValues& values) {
         return std::make_unique<WeightedOit>(values.choice("weight", weights), values.real("reach"));
