@@ -18,7 +18,7 @@ namespace dustbench::bench {
 namespace {
 
 Measured flipOf(const ViewSession& session) {
-    if (session.isExact(Half::b) && session.exact().whyNotJudged().empty()) {
+    if (session.isExact(Half::b) && session.isJudged() && session.exact().whyNotJudged().empty()) {
         const JudgedMoment& judged = session.exact().judged();
         return {judged.metrics.flip, judged.difference};
     }

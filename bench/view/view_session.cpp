@@ -85,6 +85,7 @@ void ViewSession::begin(const ViewState& state) {
         if (needsHost(state, which)) halves[indexOf(which)] = makeHalf(state, which, *world);
     // Hosts refer to their world, so they go first.
     halves_ = std::move(halves);
+    truth_ = {};
     world_ = std::move(world);
     input_ = std::move(input);
     state_ = state;
@@ -93,6 +94,7 @@ void ViewSession::begin(const ViewState& state) {
     recording_ = {};
     ++moment_;
     next_ = -stepsBeforeWarmup(*world_) - state_.warmup;
+    makeTruth(state_);
 }
 
 std::unique_ptr<World> ViewSession::makeWorld(const ViewState& state, std::shared_ptr<DrivingInput> input) const {
@@ -132,6 +134,19 @@ void ViewSession::replaceHalves(const ViewState& state) {
         if (!shown.sinceStart) updateHalf(shown);
     }
     if (!showsExact(state) || state.size != state_.size) exact_.reset();
+    makeTruth(state);
+}
+
+/// Without the reliefs and lamps of A's method, which B's scene would lack: those have a simulation of their own.
+void ViewSession::makeTruth(const ViewState& state) {
+    const bool isKnown = std::ranges::any_of(methods(), [](const MethodInfo& info) { return info.id == liveTruth; });
+    const bool isTold = showsExact(state) && isKnown && whyNotJudged({}, host(Half::a).method()).empty();
+    if (!isTold) truth_ = {};
+    if (!isTold || (truth_.host && state.size == state_.size)) return;
+    ViewState alone = state;
+    alone.a = {liveTruth, {}};
+    truth_ = makeHalf(alone, Half::a, *world_);
+    if (frame() >= -state.warmup - stepsBeforeWarmup(*world_)) updateHalf(truth_);
 }
 
 StageMs ViewSession::recordedMs() const {
@@ -162,6 +177,7 @@ void ViewSession::step() {
     // As replay.h: a method is updated from the last step of the preroll on, or all the time if it wants that.
     for (ShownHalf& shown : halves_)
         if (shown.host && (frame() >= -state_.warmup - 1 || shown.host->method().wantsPreroll())) updateHalf(shown);
+    if (truth_.host && frame() >= -state_.warmup - 1) updateHalf(truth_);
 }
 
 void ViewSession::draw(const ImageSize& size) {
@@ -173,12 +189,17 @@ void ViewSession::draw(const ImageSize& size) {
         shown.host->draw(shown.host->see(frame(), clock));
         shown.cost.draw = recordedMs();
     }
+    if (truth_.host) {
+        const StageClock untimed;
+        truth_.host->draw(truth_.host->see(frame(), untimed));
+    }
     noteDrawn();
 }
 
 void ViewSession::resizeHosts(const ImageSize& size) {
     for (ShownHalf& shown : halves_)
         if (shown.host) shown.host->resize(size.width, size.height);
+    if (truth_.host) truth_.host->resize(size.width, size.height);
     drawnSize_ = size;
 }
 
@@ -199,18 +220,18 @@ void ViewSession::drawExact() {
 }
 
 bool ViewSession::isCurrent(Half half) const {
-    return isExact(half) ? exact_ && exactMoment_ == drawnMoment_ : hasHost(half);
+    return isExact(half) ? isJudged() || truth_.host : hasHost(half);
 }
 
 HalfTextures ViewSession::textures(Half half) const {
-    if (isExact(half)) return exact_->textures();
-    const MethodHost& drawn = host(half);
+    if (isExact(half) && isJudged()) return exact_->textures();
+    const MethodHost& drawn = isExact(half) ? *truth_.host : host(half);
     return {drawn.display(), drawn.sceneColour(), drawn.layerColour(), drawn.sceneDepth()};
 }
 
 pictures::Image ViewSession::image(Half half) const {
-    if (isExact(half)) return exact_->judged().reference;
-    pictures::Image image = host(half).picture();
+    if (isExact(half) && isJudged()) return exact_->judged().reference;
+    pictures::Image image = (isExact(half) ? *truth_.host : host(half)).picture();
     for (glm::vec4& pixel : image.pixels) pixel.a = 1;
     return image;
 }

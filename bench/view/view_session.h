@@ -70,6 +70,9 @@ class ViewSession {
     [[nodiscard]] std::int64_t drawnFrame() const { return drawnFrame_; }
     /// The half shows the moment that was drawn last: false for an exact picture of an earlier one, or none.
     [[nodiscard]] bool isCurrent(Half half) const;
+    /// Half B is the judge's exact picture of the moment that was drawn last, with numbers; it may be current without
+    /// that, drawn by the live truth.
+    [[nodiscard]] bool isJudged() const { return exact_ && exactMoment_ == drawnMoment_; }
     /// The world has gone on, or the state has changed, since the last draw.
     [[nodiscard]] bool isBehind() const { return drawnMoment_ != moment_; }
 
@@ -88,7 +91,7 @@ class ViewSession {
     [[nodiscard]] const MethodHost& host(Half half) const { return *halves_.at(indexOf(half)).host; }
     /// The volume that a half's method shows.
     void volume(Half half, VolumeVisitor& visitor);
-    /// Of half B; isExact() must be true.
+    /// Of half B; isJudged() must be true.
     [[nodiscard]] const ExactHalf& exact() const { return *exact_; }
     [[nodiscard]] HalfCost cost(Half half) const { return halves_.at(indexOf(half)).cost; }
     /// Of the last step of the world, which both halves show: input and simulation.
@@ -119,6 +122,7 @@ class ViewSession {
     [[nodiscard]] ShownHalf makeHalf(const ViewState& state, Half half, const World& world) const;
     void replaceHalves(const ViewState& state);
     void updateHalf(ShownHalf& shown);
+    void makeTruth(const ViewState& state);
     void resizeHosts(const ImageSize& size);
     void noteDrawn();
     [[nodiscard]] StageMs recordedMs() const;
@@ -129,6 +133,7 @@ class ViewSession {
     std::unique_ptr<World> world_;
     Halves halves_;
     std::unique_ptr<ExactHalf> exact_;
+    ShownHalf truth_;  ///< the live truth; empty if half B is a method, or A shows other dust than the shared
     ControlRecording recording_;
     std::int64_t next_ = 0;
     std::int64_t moment_ = 0, drawnMoment_ = -1, exactMoment_ = -1;

@@ -16,6 +16,8 @@ enum class Half { a, b };
 
 /// In place of half B's method: the exact picture of the shared dust over half A's scene. No run draws it.
 inline constexpr const char* exactPicture = "exact";
+/// The method whose picture is the exact one, to 1e-5: while things move, if this build has it.
+inline constexpr const char* liveTruth = "exact_tiles";
 
 /// A method and those of its parameters that are set; the others have their defaults.
 struct HalfState {

@@ -115,7 +115,7 @@ class Viewer {
     [[nodiscard]] bool wantsToQuit() const { return quit_; }
 
     SplitSettings split;
-    bool exactEveryFrame = false;  ///< else the exact picture is drawn when nothing moves
+    bool exactEveryFrame = false;  ///< else the judge's exact picture is drawn when nothing moves
     int slowness = 1;              ///< frames of the window for one step of the world: one of `slownesses`
     bool drawingPaused = false;    ///< the world goes on; a frame is drawn only when state or view changes
     /// While something moves the halves are drawn at `drawShare` of width and height (draw_pace.h) and scaled up. What

@@ -139,7 +139,7 @@ TEST_F(Paced, TheExactPictureStandsBesideAFullOne) {
     for (int n = 0; n < 3; ++n) {
         viewer_->advance();
         EXPECT_EQ(drawn(), full);
-        EXPECT_TRUE(viewer_->session().isCurrent(Half::b));
+        EXPECT_TRUE(viewer_->session().isJudged());
         EXPECT_EQ(viewer_->message(), "");
     }
     viewer_->press(Key::space, false);

@@ -26,7 +26,7 @@ void Viewer::makeImage(Shown shown) {
 }
 
 bool Viewer::draw() {
-    const bool lacksExact = session_.isExact(Half::b) && !session_.isCurrent(Half::b) && paused;
+    const bool lacksExact = session_.isExact(Half::b) && !session_.isJudged() && paused;
     const ImageSize size = sizeNow();
     const bool isAsked =
         mustDraw_ || exactAsked_ || lacksExact || !(settingsNow() == composed_) || !(size == session_.drawnSize());
@@ -43,7 +43,7 @@ bool Viewer::draw() {
 bool Viewer::isPaced() const {
     const bool isMap = split.shown == Shown::flip || split.channel == Channel::overdraw ||
                        split.channel == Channel::outlines || split.channel == Channel::faults;
-    const bool isExact = session_.isExact(Half::b) && (exactEveryFrame || session_.isCurrent(Half::b));
+    const bool isExact = session_.isExact(Half::b) && (exactEveryFrame || session_.isJudged());
     return keepsPace && !isMap && !isExact && !drawingPaused;
 }
 
@@ -69,7 +69,7 @@ std::string Viewer::drawnRemark() const {
 void Viewer::drawExact() {
     const bool isAtRest = paused && session_.drawnMoment() == momentBefore_;
     momentBefore_ = session_.drawnMoment();
-    if (!session_.isExact(Half::b) || session_.isCurrent(Half::b) || session_.stepsToGo() > 0) return;
+    if (!session_.isExact(Half::b) || session_.isJudged() || session_.stepsToGo() > 0) return;
     if (isAtRest || exactEveryFrame || std::exchange(exactAsked_, false)) session_.drawExact();
 }
 

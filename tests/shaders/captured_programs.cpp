@@ -71,6 +71,9 @@ const std::vector<Product> products{
     {"octree_recursive", {}, {"render", "crossfade"}, true},
     {"octree_search", {}, {"render", "crossfade"}, true},
     {"voxel_shape", {}, {"render", "blend"}},
+    {"exact_tiles", {}, {}, true},
+    {"weighted_oit", {}, {"weight"}, true},
+    {"moment_oit", {}, {"moments", "profile", "samples", "warp"}, true},
 };
 
 std::vector<std::string> valuesOf(const Parameter& parameter) {

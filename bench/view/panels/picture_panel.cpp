@@ -158,10 +158,13 @@ void PicturePanel::showChannel(Viewer& viewer, WidgetMap& widgets) {
 
 void PicturePanel::showExact(Viewer& viewer, WidgetMap& widgets) {
     showSwitch("exact every frame", viewer.exactEveryFrame, widgets);
-    if (!viewer.session().isCurrent(Half::b)) {
+    if (!viewer.session().isJudged()) {
         showRemark(
-            "The exact picture is drawn when nothing moves: Space pauses, E pauses and draws it. Until then A is "
-            "shown alone.");
+            viewer.session().isCurrent(Half::b)
+                ? "B is drawn by exact_tiles, the exact picture to 1e-5. The judge's own, with numbers, is drawn "
+                  "when nothing moves: Space pauses, E pauses and draws it."
+                : "The exact picture is drawn when nothing moves: Space pauses, E pauses and draws it. Until "
+                  "then A is shown alone.");
         return;
     }
     const ExactHalf& exact = viewer.session().exact();

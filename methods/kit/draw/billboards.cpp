@@ -31,7 +31,9 @@ Billboards::Billboards(gpu::Device& device, const BillboardStyle& style, const P
                              {0, 1, 2, 2, 1, 3},
                              4,
                              puffsAtOnce,
-                             definitions(style, pictures)}),
+                             definitions(style, pictures),
+                             gpu::Primitives::triangles,
+                             {draw_shaders::error_function_glsl}}),
       style_(style),
       pictures_(pictures) {}
 

@@ -1,6 +1,5 @@
 #include "methods/kit/draw/instance_batch.h"
 
-#include <initializer_list>
 #include <utility>
 
 namespace dustbench::draw {
@@ -17,7 +16,12 @@ gpu::Buffer makeCorners(gpu::Device& device, const auto& shape) {
 }  // namespace
 
 InstanceBatch::InstanceBatch(gpu::Device& device, Shape shape)
-    : device_(device), shape_(std::move(shape)), corners_(makeCorners(device, shape_)), vertices_(device) {
+    : device_(device),
+      shape_(std::move(shape)),
+      corners_(makeCorners(device, shape_)),
+      vertices_(device),
+      own_{shape_.name, shape_.pieces} {
+    own_.files.push_back(shape_.fragment);
     vertices_.indices(corners_);
 }
 
@@ -35,15 +39,17 @@ void InstanceBatch::unmap() {
     if (count_ > 0) instances_.unmap();
 }
 
-gpu::Program& InstanceBatch::program(const scene::View& view) {
-    std::optional<gpu::Program>& made = layout_.coloured ? ownColours_ : oneColour_;
+gpu::Program& InstanceBatch::program(const scene::View& view, FragmentPass& fragments) {
+    std::optional<gpu::Program>& made = layout_.coloured ? fragments.ownColours : fragments.oneColour;
     if (!made) {
         std::map<std::string, std::string> definitions = shape_.definitions;
         definitions["SHAPES_AT_ONCE"] = std::to_string(shape_.atOnce);
         definitions["FLOATS"] = std::to_string(layout_.floats);
         if (layout_.coloured) definitions["COLOURED"] = "";
-        made.emplace(device_, shape_.name, std::initializer_list<gpu::ShaderFile>{shape_.vertex, shape_.fragment},
-                     definitions);
+        definitions.insert(fragments.definitions.begin(), fragments.definitions.end());
+        std::vector<gpu::ShaderFile> files = fragments.files;
+        files.push_back(shape_.vertex);
+        made.emplace(device_, fragments.name, std::span<const gpu::ShaderFile>(files), definitions);
     }
     made->set("count", static_cast<int>(count_));
     made->set("eye", glm::vec3(view.camera.eye));

@@ -32,6 +32,15 @@ struct InstanceLayout {
     bool coloured = false;   ///< red green blue at the end, unless all shapes share one colour
 };
 
+/// Fragments for shapes, beside a pass's own: their shader, the `.glsl` pieces of both stages, and the programs made of
+/// them.
+struct FragmentPass {
+    const char* name;  ///< used in labels and messages
+    std::vector<gpu::ShaderFile> files;
+    std::map<std::string, std::string> definitions{};
+    std::optional<gpu::Program> oneColour{}, ownColours{};  ///< compiled on first use
+};
+
 /// Base class for a pass that draws one kind of shape.
 class DUSTBENCH_API InstanceBatch {
  public:
@@ -52,13 +61,15 @@ class DUSTBENCH_API InstanceBatch {
         std::map<std::string, std::string> definitions{};
         /// Points and lines have no corners; their shaders receive vertex numbers, `vertices` per shape.
         gpu::Primitives primitives = gpu::Primitives::triangles;
+        std::vector<gpu::ShaderFile> pieces{};  ///< `.glsl`, of both stages
     };
     InstanceBatch(gpu::Device& device, Shape shape);
     ~InstanceBatch() = default;
 
     /// The program for the instances mapped last, compiled on first use. Sets `count`, `eye` and `worldToEye`; the pass
     /// sets its own uniforms.
-    [[nodiscard]] gpu::Program& program(const scene::View& view);
+    [[nodiscard]] gpu::Program& program(const scene::View& view) { return program(view, own_); }
+    [[nodiscard]] gpu::Program& program(const scene::View& view, FragmentPass& fragments);
     /// Draws the instances mapped last into the bound target.
     void drawInstances(const gpu::Program& program, const gpu::DrawState& state);
     /// The same, blended into `layer` with the scene's depth test; sets `projection`.
@@ -70,7 +81,7 @@ class DUSTBENCH_API InstanceBatch {
     Shape shape_;
     gpu::Buffer instances_, corners_;
     gpu::VertexArray vertices_;
-    std::optional<gpu::Program> oneColour_, ownColours_;
+    FragmentPass own_;
     InstanceLayout layout_;
     std::size_t count_ = 0;
 };

@@ -11,19 +11,43 @@
 namespace dustbench::gpu {
 
 Framebuffer::Framebuffer(Device&, std::string_view label, const Texture* colour, const Texture* depth) {
+    create(label);
+    const GLuint name = name_.get();
+    if (colour) glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour->name().get(), 0);
+    if (depth) glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth->name().get(), 0);
+    if (!colour) glNamedFramebufferDrawBuffer(name, GL_NONE);
+    complete(label, colour ? *colour : *depth);
+}
+
+Framebuffer::Framebuffer(Device&, std::string_view label, std::span<const Texture* const> colours)
+    : colours_(static_cast<int>(colours.size())) {
+    constexpr std::size_t maximum = 8;  // what every OpenGL 4.5 has
+    if (colours.empty() || colours.size() > maximum)
+        throw std::invalid_argument("framebuffer '" + std::string(label) + "': got " + std::to_string(colours.size()) +
+                                    " colours, allowed: 1..8");
+    create(label);
+    std::array<GLenum, maximum> places{};
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+        places[i] = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
+        glNamedFramebufferTexture(name_.get(), places[i], colours[i]->name().get(), 0);
+    }
+    glNamedFramebufferDrawBuffers(name_.get(), colours_, places.data());
+    complete(label, *colours.front());
+}
+
+void Framebuffer::create(std::string_view label) {
     GLuint name = 0;
     glCreateFramebuffers(1, &name);
     name_ = Name(name, [](std::uint32_t value) { glDeleteFramebuffers(1, &value); });
     glObjectLabel(GL_FRAMEBUFFER, name, static_cast<GLsizei>(label.size()), label.data());
-    if (colour) glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour->name().get(), 0);
-    if (depth) glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth->name().get(), 0);
-    if (!colour) glNamedFramebufferDrawBuffer(name, GL_NONE);
-    const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
+}
+
+void Framebuffer::complete(std::string_view label, const Texture& any) {
+    const GLenum status = glCheckNamedFramebufferStatus(name_.get(), GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
         throw std::runtime_error("framebuffer '" + std::string(label) + "' is not complete: status " +
                                  std::to_string(status));
     throwOnDebugOutput(label);
-    const Texture& any = colour ? *colour : *depth;
     width_ = any.width();
     height_ = any.height();
 }
@@ -35,7 +59,7 @@ void Framebuffer::bind() const {
 
 void Framebuffer::clearColour(float red, float green, float blue, float alpha) const {
     const std::array<float, 4> value{red, green, blue, alpha};
-    glClearNamedFramebufferfv(name_.get(), GL_COLOR, 0, value.data());
+    for (int i = 0; i < colours_; ++i) glClearNamedFramebufferfv(name_.get(), GL_COLOR, i, value.data());
 }
 
 void Framebuffer::clearDepth() const {

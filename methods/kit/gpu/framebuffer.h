@@ -3,6 +3,7 @@
 // Owns: the OpenGL framebuffer, not the textures, which must outlive it.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "methods/kit/gpu/device.h"
@@ -16,9 +17,13 @@ class DUSTBENCH_API Framebuffer {
     Framebuffer() = default;
     /// Either may be null, but not both. Throws std::runtime_error if OpenGL rejects the combination.
     Framebuffer(Device& device, std::string_view label, const Texture* colour, const Texture* depth);
+    /// Several colours of one size, without depth: a fragment shader's outputs by location. Throws std::runtime_error
+    /// as above, and std::invalid_argument for none or more than 8.
+    Framebuffer(Device& device, std::string_view label, std::span<const Texture* const> colours);
 
     /// Directs subsequent draws to this framebuffer, over its whole area.
     void bind() const;
+    /// All of its colours.
     void clearColour(float red, float green, float blue, float alpha) const;
     /// Clears to 0, the far end of the reversed depth range.
     void clearDepth() const;
@@ -26,7 +31,11 @@ class DUSTBENCH_API Framebuffer {
     void copyToWindow() const;
 
  private:
+    void create(std::string_view label);
+    void complete(std::string_view label, const Texture& any);
+
     Name name_;
+    int colours_ = 1;
     int width_ = 0;
     int height_ = 0;
 };

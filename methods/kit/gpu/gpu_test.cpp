@@ -158,6 +158,25 @@ TEST(Texture, GivesBackWhatWasWritten) {
     EXPECT_THROW(volume.write(std::span<const float>(values).first(7)), std::invalid_argument);
 }
 
+TEST(Framebuffer, AddsToSeveralColoursAtOnce) {
+    Device device;
+    const Texture first = Texture::make2D(device, "first", Format::rgba32F, 3, 2);
+    const Texture second = Texture::make2D(device, "second", Format::r32F, 3, 2);
+    const std::vector<const Texture*> both{&first, &second};
+    const Framebuffer target(device, "both", both);
+    const ShaderFile frag{"two.frag",
+                          "layout(location = 0) out vec4 a;\nlayout(location = 1) out float b;\n"
+                          "void main() { a = vec4(1, 2, 3, 4); b = 0.5; }"};
+    const Program program(device, "two", {coverVert, frag});
+    const VertexArray vertices(device);
+    target.clearColour(1, 1, 1, 1);
+    target.bind();
+    for (int turn = 0; turn < 2; ++turn) draw(program, vertices, {.blend = Blend::additive}, Primitives::triangles, 3);
+    for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(first.readFloats()[i], 1 + 2 * static_cast<float>(i % 4 + 1));
+    for (const float value : second.readFloats()) EXPECT_EQ(value, 2);
+    EXPECT_THROW((Framebuffer(device, "none", std::span<const Texture* const>())), std::invalid_argument);
+}
+
 TEST(Program, NamesTheFileThatDoesNotCompile) {
     Device device;
     const ShaderFile broken{"somewhere/broken.frag", "out vec4 c;\nvoid main() { c = nonsense; }"};

@@ -53,7 +53,7 @@ void listenToPrograms(std::function<void(std::string_view, std::span<const Compi
     programListener() = std::move(listener);
 }
 
-Program::Program(Device&, std::string_view label, std::initializer_list<ShaderFile> files,
+Program::Program(Device&, std::string_view label, std::span<const ShaderFile> files,
                  const std::map<std::string, std::string>& definitions)
     : label_(label) {
     std::string preamble = "#version 450 core\n";

@@ -26,7 +26,10 @@ class DUSTBENCH_API Program {
     /// The file extension selects the stage: .vert .frag .comp; .glsl pieces are prepended to each stage. `definitions`
     /// become `#define NAME VALUE` lines. Throws std::runtime_error with the driver's log.
     Program(Device& device, std::string_view label, std::initializer_list<ShaderFile> files,
-            const std::map<std::string, std::string>& definitions = {});
+            const std::map<std::string, std::string>& definitions = {})
+        : Program(device, label, std::span<const ShaderFile>(files.begin(), files.size()), definitions) {}
+    Program(Device& device, std::string_view label, std::span<const ShaderFile> files,
+            const std::map<std::string, std::string>& definitions);
 
     /// Sets a uniform. Throws std::invalid_argument if the program has none of that name.
     void set(std::string_view uniform, float value);

@@ -1,0 +1,50 @@
+// Quads that cover all rays which pass a puff's centre at less than `reach` s. One around the eye covers the picture.
+layout(std430, binding = 0) readonly buffer Instances {
+    float values[];  // x y z radius opacity [red green blue]
+};
+uniform int count;
+uniform vec3 eye;
+uniform mat4 worldToEye;
+uniform vec4 projection;  // x and y scale, near distance, reach in s
+
+flat out vec4 centre;  // eye space; 1/(√2·s)
+flat out float logDepth;
+#ifdef COLOURED
+flat out vec3 puffColour;
+#endif
+
+/// −log2(1 − α)·ln 2 = τ; a series for small α, where 1 − α would lose digits.
+float opticalDepth(float opacity) {
+    if (opacity > 0.05) return -log(1.0 - opacity);
+    return opacity * (1.0 + opacity * (1.0 / 2 + opacity * (1.0 / 3 + opacity * (1.0 / 4 + opacity / 5))));
+}
+
+void main() {
+    int wanted = gl_InstanceID * SHAPES_AT_ONCE + (gl_VertexID >> 2);
+    int base = min(wanted, count - 1) * FLOATS;
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1 & 1) * 2.0 - 1.0;
+
+    // Subtract the eye first, so that coordinates near the eye keep their precision.
+    vec3 place = mat3(worldToEye) * (vec3(values[base], values[base + 1], values[base + 2]) - eye);
+    float radius = values[base + 3], depth = opticalDepth(values[base + 4]), reach = 0.5 * radius * projection.w;
+    float distance = length(place);
+    bool drawn = wanted < count && radius > 0.0 && depth > 0.0;
+    if (!drawn || (distance >= 2.0 * reach && place.z > reach)) {
+        gl_Position = vec4(0, 0, 0, 1);
+    } else if (distance < 2.0 * reach) {
+        gl_Position = vec4(corner, 0, 1);
+    } else {
+        // Perpendicular to the ray to the centre, and as wide there as the cone around the ball of radius `reach`.
+        vec3 sight = place / distance;
+        vec3 right = vec3(-sight.z, 0, sight.x) * inversesqrt(max(sight.x * sight.x + sight.z * sight.z, 1e-12));
+        vec3 up = cross(right, sight);
+        float side = reach * distance * inversesqrt(distance * distance - reach * reach);
+        vec3 position = place + side * (corner.x * right + corner.y * up);
+        gl_Position = vec4(position.xy * projection.xy, projection.z, -position.z);
+    }
+    centre = vec4(place, sqrt(2.0) / max(radius, 1e-20));
+    logDepth = log2(max(depth, 1e-30));
+#ifdef COLOURED
+    puffColour = vec3(values[base + FLOATS - 3], values[base + FLOATS - 2], values[base + FLOATS - 1]);
+#endif
+}

@@ -1,0 +1,40 @@
+/// A puff along a ray from the eye: its extinction is τ·exp(−b²/2s²)·exp(−x²)/√π, x = (t − tc)/(√2·s), from `begin` to
+/// `end`.
+struct PuffOnRay {
+    float whole;       // τ·exp(−b²/2s²): its depth if nothing cut it
+    float foot;        // tc, metres
+    float metres;      // √2·s
+    float begin, end;  // x at the eye and at the scene
+};
+
+/// `centre` from the eye, with 1/(√2·s); `direction` of length 1 in the same axes.
+PuffOnRay puffOnRay(vec4 centre, float logDepth, vec3 direction, float sceneMetres) {
+    PuffOnRay puff;
+    puff.foot = dot(centre.xyz, direction);
+    vec3 beside = (centre.xyz - puff.foot * direction) * centre.w;
+    puff.whole = exp2(logDepth - 1.44269504 * dot(beside, beside));
+    puff.metres = 1.0 / centre.w;
+    puff.begin = -puff.foot * centre.w;
+    puff.end = (sceneMetres - puff.foot) * centre.w;
+    return puff;
+}
+
+/// Share of the depth between eye and scene: ½·[erf(end) − erf(begin)].
+float shareOnRay(PuffOnRay puff) {
+    return 0.5 * (errorFunction(puff.end) - errorFunction(puff.begin));
+}
+
+/// 1 − exp(−depth); a series where the difference would lose digits.
+float opacityOf(float depth) {
+    return depth < 0.01 ? depth * (1.0 - depth * (0.5 - depth * (1.0 / 6.0))) : 1.0 - exp(-depth);
+}
+
+/// The ray through a place of the picture (gl_FragCoord.xy), of length 1 along the camera's axis; eye space.
+vec3 rayThrough(vec2 place, vec4 rays) {
+    return vec3(place * rays.xy + rays.zw, -1.0);
+}
+
+/// Distance along a ray of length `stretch` per axis metre, from the scene's reversed depth.
+float sceneMetresOf(float depth, float nearMetres, float stretch) {
+    return depth > 0.0 ? nearMetres / depth * stretch : 1e30;
+}

@@ -1,0 +1,32 @@
+#include "methods/kit/draw/sum_targets.h"
+
+#include <utility>
+
+namespace dustbench::draw {
+
+SumTargets::SumTargets(gpu::Device& device, std::string label, std::vector<gpu::Format> formats)
+    : device_(&device), label_(std::move(label)), formats_(std::move(formats)) {}
+
+void SumTargets::begin(int width, int height) {
+    if (textures_.empty() || textures_.front().width() != width || textures_.front().height() != height) {
+        std::vector<gpu::Texture> textures;
+        std::vector<const gpu::Texture*> colours;
+        textures.reserve(formats_.size());
+        for (const gpu::Format format : formats_) {
+            textures.push_back(gpu::Texture::make2D(*device_, label_, format, width, height));
+            colours.push_back(&textures.back());
+        }
+        framebuffer_ = gpu::Framebuffer(*device_, label_, std::span<const gpu::Texture* const>(colours));
+        textures_ = std::move(textures);
+    }
+    framebuffer_.clearColour(0, 0, 0, 0);
+    framebuffer_.bind();
+}
+
+std::size_t SumTargets::gpuBytes() const {
+    std::size_t bytes = 0;
+    for (const gpu::Texture& texture : textures_) bytes += texture.bytes();
+    return bytes;
+}
+
+}  // namespace dustbench::draw

@@ -1,0 +1,25 @@
+// First pass: the moments of all puffs before the scene. Source: Munstermann2018, 3.1.
+// Departs: a puff's own moments along the ray in place of those of a point.
+flat in vec4 centre;
+flat in float logDepth;
+uniform vec4 rays;
+uniform float nearMetres;
+layout(binding = 0) uniform sampler2D sceneDepth;
+
+layout(location = 0) out vec4 firstFour;  // b₁..b₄
+layout(location = 1) out vec4 others;     // b₀ b₅ b₆
+
+void main() {
+    vec3 ray = rayThrough(gl_FragCoord.xy, rays);
+    float stretch = length(ray);
+    float scene = sceneMetresOf(texelFetch(sceneDepth, ivec2(gl_FragCoord.xy), 0).r, nearMetres, stretch);
+    PuffOnRay puff = puffOnRay(centre, logDepth, ray / stretch, scene);
+    float b[MOMENTS + 1];
+    momentsOf(puff, profileOf(puff), b);
+    firstFour = vec4(b[1], b[2], b[3], b[4]);
+#if MOMENTS == 4
+    others = vec4(b[0], 0, 0, 0);
+#else
+    others = vec4(b[0], b[5], b[6], 0);
+#endif
+}

@@ -1,0 +1,68 @@
+// Moments of the optical depth along a ray, and the transmittance that they bound. MOMENTS is 4 or 6; of b[0..MOMENTS],
+// b[0] is the whole depth. The plain version is plain_moments.cpp.
+uniform vec2 warp;  // WARP_LOG: ln of the nearest distance, 2/(ln farthest − ln nearest); else distances alike
+
+/// A distance in −1..1.
+float warped(float metres) {
+#ifdef WARP_LOG
+    return (log(metres) - warp.x) * warp.y - 1.0;
+#else
+    return (metres - warp.x) * warp.y - 1.0;
+#endif
+}
+
+/// d(warped)/d(metres)
+float warpSlope(float metres) {
+#ifdef WARP_LOG
+    return warp.y / metres;
+#else
+    return warp.y;
+#endif
+}
+
+const float leastMetres = 0.001;
+
+/// A puff's extinction between eye and scene: its depth, and mean and variance of x = (t − tc)/(√2·s), from
+/// m₀ = ½[erf(e) − erf(b)], mₖ = ½[xᵏ⁻¹·exp(−x²)/√π] from e to b + ½(k − 1)·mₖ₋₂.
+struct Profile {
+    float depth, mean, variance;
+    float moments[MOMENTS + 1];  // mₖ
+};
+
+Profile profileOf(PuffOnRay puff) {
+    Profile profile;
+    float begin = clamp(puff.begin, -6.0, 6.0), end = clamp(puff.end, -6.0, 6.0);
+    float atBegin = exp(-begin * begin) * 0.2820947918, atEnd = exp(-end * end) * 0.2820947918;  // exp(−x²)/(2√π)
+    profile.moments[0] = shareOnRay(puff);
+    profile.moments[1] = atBegin - atEnd;
+    for (int k = 2; k <= MOMENTS; ++k) {
+        atBegin *= begin;
+        atEnd *= end;
+        profile.moments[k] = atBegin - atEnd + 0.5 * float(k - 1) * profile.moments[k - 2];
+    }
+    float share = profile.moments[0];
+    profile.depth = puff.whole * share;
+    bool isSeen = share > 1e-5;
+    profile.mean = isSeen ? clamp(profile.moments[1] / share, begin, end) : clamp(0.0, begin, end);
+    profile.variance = isSeen ? max(profile.moments[2] / share - profile.mean * profile.mean, 0.0) : 0.0;
+    return profile;
+}
+
+/// The moments of a puff: bⱼ = ∫ σ(t)·z(t)ʲ dt, with z linearised at the mean, or as if all of it lay there.
+void momentsOf(PuffOnRay puff, Profile profile, out float b[MOMENTS + 1]) {
+    float middle = max(puff.foot + profile.mean * puff.metres, leastMetres);
+#ifdef POINTS
+    float z = warped(middle);
+    b[0] = profile.depth;
+    for (int j = 1; j <= MOMENTS; ++j) b[j] = b[j - 1] * z;
+#else
+    float slope = warpSlope(middle);
+    float z = warped(middle) + slope * (puff.foot - middle), width = slope * puff.metres;
+    // E[xⁱ·(z + width·x)ʲ⁺¹] = z·E[xⁱ·(…)ʲ] + width·E[xⁱ⁺¹·(…)ʲ]
+    float m[MOMENTS + 1] = profile.moments;
+    for (int j = 0; j <= MOMENTS; ++j) {
+        b[j] = puff.whole * m[0];
+        for (int i = 0; i < MOMENTS - j; ++i) m[i] = z * m[i] + width * m[i + 1];
+    }
+#endif
+}
