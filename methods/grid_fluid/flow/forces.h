@@ -26,7 +26,8 @@ struct ForceSettings {
 };
 
 /// Applies all forces except viscosity over a step; `cells` with ghosts, `conductance` and `moving` of SolidCells.
-/// Forces are found at the centres, beyond the box those of its outermost cells; a face has the mean of its two cells. `borrowed` has at least `forceFloats` floats.
+/// Forces are found at the centres, beyond the box those of its outermost cells; a face has the mean of its two cells.
+/// `borrowed` has at least `forceFloats` floats.
 void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, const Moving* moving,
                  const ForceSettings& settings, float spacingMetres, float stepSeconds, std::span<float> borrowed);
 [[nodiscard]] std::size_t forceFloats(const CellLayout& layout);
