@@ -16,6 +16,7 @@ constexpr Choices<flow::Limit> limits{
     {"clamp", flow::Limit::clamp}, {"revert", flow::Limit::revert}, {"none", flow::Limit::none}};
 constexpr Choices<flow::PressureMethod> pressureMethods{{"jacobi", flow::PressureMethod::jacobi},
                                                         {"multigrid", flow::PressureMethod::multigrid}};
+constexpr Choices<FlowScheme> schemes{{"ours", FlowScheme::ours}, {"demo", FlowScheme::demo}};
 constexpr Choices<SolverBackend> solverBackends{
     {"auto", SolverBackend::automatic}, {"cpu", SolverBackend::cpu}, {"opengl", SolverBackend::openGl}};
 
@@ -64,6 +65,12 @@ GridFluidSettings settingsOf(const ParameterValues& values) {
     solver.jacobiSweeps = static_cast<int>(values.integer("sweeps"));
     solver.divergencePerStep = static_cast<float>(values.real("tolerance"));
     flow::check(solver.box);
+    settings.scheme = values.choice("scheme", schemes);
+    const bool atWheels =
+        std::ranges::any_of(setup.sources, [](const SourceSetup& s) { return s.at == SourceAt::wheels; });
+    if (settings.scheme == FlowScheme::demo && (setup.followsVehicle || atWheels))
+        throw InputError("parameter scheme: got demo with fluid '" + setup.name +
+                         "', which follows the vehicle, allowed: ours; the demo's box stands still");
     settings.solverBackend = values.choice("solver", solverBackends);
     settings.framesPerStep = static_cast<int>(values.integer("frames_per_step"));
 
@@ -94,6 +101,9 @@ MethodInfo describe() {
         .cells("grid", "128x64x64", 4, 4096, "cells along x, y and z")
         .real("spacing_m", asTheFileSays, asTheFileSays, 1000, "m",
               "edge of a cell; -1: the length of the fluid's box by its cells along x")
+        .choice("scheme", FlowScheme::ours, schemes,
+                "ours, by the parameters below; or the demo as published: half floats at the cells' centres, forward "
+                "MacCormack clamped to eight nodes, six sweeps, its own confinement and decay")
         .choice("advection", flow::AdvectionScheme::macCormack, advectionSchemes,
                 "look back along the flow, or correct that by its own error as well")
         .choice("limit", flow::Limit::revert, limits,

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "methods/grid_fluid/demo_memory_experiment.h"
 #include "methods/grid_fluid/obstacles_experiment.h"
 #include "methods/grid_fluid/sight_experiment.h"
 #include "methods/kit/draw/test_canvas.h"
@@ -43,6 +44,15 @@ TEST(SightExperiment, FindsWhatIsDrawnWrong) {
     raycast::RaycastSettings settings;
     settings.stopAlpha = 0.5;
     EXPECT_GT(sight::maximumSightError(context.device(), settings, {{{0, 0, 9}, {0, 0, -1}, {}}}), 0.1);
+}
+
+TEST(DemoMemoryExperiment, CountsTheBytesOfThePaper) {
+    const auto measure = [](bool asPublished) {
+        return demo_memory::measureMemory(draw::TestCanvas::device(), {16, 8, 8}, {32, 20}, asPublished);
+    };
+    EXPECT_EQ(measure(true).fields, (32 + 9) * 1024u);
+    EXPECT_EQ(measure(true).picture, 20 * 640u);
+    EXPECT_GT(measure(false).fields, 2 * measure(true).fields);
 }
 
 }  // namespace

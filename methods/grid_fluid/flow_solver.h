@@ -14,8 +14,15 @@ enum class SolverBackend {
     openGl,
 };
 
-/// `device` and `ledger` must outlive it. Throws InputError for an invalid box or settings.
-[[nodiscard]] std::unique_ptr<flow::Solver> makeFlowSolver(const flow::FluidSettings& settings, bool onGpu,
-                                                           gpu::Device& device, MemoryLedger& ledger);
+enum class FlowScheme {
+    ours,  ///< flow/ and flow_gl/
+    demo,  ///< as the published demo: demo/
+};
+
+/// Of `scheme=demo`, `burns` chooses between its numbers for smoke and for fire. `device` and `ledger` must outlive it.
+/// Throws InputError for an invalid box or settings.
+[[nodiscard]] std::unique_ptr<flow::Solver> makeFlowSolver(const flow::FluidSettings& settings, FlowScheme scheme,
+                                                           bool burns, bool onGpu, gpu::Device& device,
+                                                           MemoryLedger& ledger);
 
 }  // namespace dustbench::grid_fluid

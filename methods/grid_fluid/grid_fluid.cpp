@@ -49,13 +49,16 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     if (!settings_.setup.followsVehicle)
         solver.box.originMetres = wantedOrigin(settings_.setup, solver.box, scene.terrain, {});
     const bool onGpu = isSolvedOnGpu(settings_.solverBackend, settings_.picture.backend, device);
-    solver_ = makeFlowSolver(solver, onGpu, device, ledger_);
+    const bool burns = !settings_.setup.look.fire.empty();
+    if (settings_.scheme == FlowScheme::demo && scene.wind != glm::vec3(0))
+        throw InputError("parameter scheme: got demo in scene '" + scene.id +
+                         "', which has wind, allowed: ours; the demo has still air");
+    solver_ = makeFlowSolver(solver, settings_.scheme, burns, onGpu, device, ledger_);
     solids_.emplace(scene, solver.box.cells, ledger_.account("solids"));
     emitters_.emplace(settings_.setup.sources, scene, setup.seed);
     if (!settings_.setup.followsVehicle) requireSourcesInside({});
     settings_.picture.smokeColour = settings_.setup.look.albedo.value_or(scene.dustAlbedo);
     picture_.emplace(device, settings_.picture, scene.lights, ledger_);
-    const bool burns = !settings_.setup.look.fire.empty();
     if (solver_->onGpu() && picture_->takesTextures()) {
         const glm::ivec3 cells = solver.box.cells;
         const auto make = [&](gpu::Texture& texture) {

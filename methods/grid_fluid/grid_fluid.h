@@ -22,6 +22,7 @@ namespace dustbench::grid_fluid {
 struct GridFluidSettings {
     FluidSetup setup;
     flow::FluidSettings solver;  ///< its box has no position yet
+    FlowScheme scheme = FlowScheme::ours;
     SolverBackend solverBackend = SolverBackend::cpu;
     int framesPerStep = 1;
     raycast::RaycastSettings picture;
@@ -55,7 +56,9 @@ class GridFluid final : public Method {
  private:
     void simulate(const Frame& frame);
     /// True if the pressure is solved until its tolerance, false if by a fixed number of sweeps.
-    [[nodiscard]] bool solvesPressure() const { return settings_.solver.pressure == flow::PressureMethod::multigrid; }
+    [[nodiscard]] bool solvesPressure() const {
+        return settings_.scheme == FlowScheme::ours && settings_.solver.pressure == flow::PressureMethod::multigrid;
+    }
     /// Optical mass of the fluid relative to that of the shared dust; empty if the box does not follow the vehicle.
     [[nodiscard]] std::optional<double> massKept(const Puffs& dust) const;
     /// Noise at the grid's scale of the stored numbers (flow/grid_noise.h).

@@ -23,9 +23,11 @@ struct Curl {
           x(memory.data()),
           y(x + count),
           z(y + count),
-          length(z + count) {}
+          length(z + count),
+          lift(length + count) {}
     std::size_t count;
     float *x, *y, *z, *length;
+    float* lift;  ///< of the forces, once they replace the curl: what does not turn the air
 };
 
 /// f = ε·h·(N × ω), N = ∇|ω| / |∇|ω||, in place of ω. Beyond the box |ω| is extended.
@@ -55,35 +57,77 @@ void confineRow(const Curl& curl, const CellLayout& layout, int j, int k, float 
 /// What is added to the faces of a row's cells, in m/s.
 struct AddedRow {
     std::array<float, maximumCells> x{}, y{}, z{};
+    std::array<float, maximumCells + 3> sum;  ///< over rows; see sumOfRows
 };
 
-/// Buoyancy and weight at the centres; solids hold neither heat nor density. `force` is that of the cells so far if
-/// `confined`, else it is not set.
-void addLift(const CellField& cells, const CellLayout& layout, int j, int k, float lift, float weight, bool confined,
-             float* force) {
+/// Buoyancy and weight at the centres; solids hold neither heat nor density.
+void findLift(const CellField& cells, const CellLayout& layout, int j, int k, float lift, float weight, float* force) {
     const auto nx = static_cast<std::size_t>(layout.nx);
     float* to =
         force + (static_cast<std::size_t>(k) * static_cast<std::size_t>(layout.ny) + static_cast<std::size_t>(j)) * nx;
     const float* record = cells.cell(layout.at(0, j, k));
-    for (std::size_t i = 0; i < nx; ++i, record += lanes)
-        to[i] = (confined ? to[i] : 0.0f) + (lift * record[temperature] - weight * record[density]);
+    for (std::size_t i = 0; i < nx; ++i, record += lanes) to[i] = lift * record[temperature] - weight * record[density];
 }
 
-/// A face has the mean force of its two cells. Without confinement there is lift alone.
+/// Shares of the cells around a cell, (1, 2, 1)/4, and around the face towards its neighbour before it: the mean of the
+/// shares around both.
+constexpr std::array<float, 3> aroundCell{0.25f, 0.5f, 0.25f};
+constexpr std::array<float, 4> aroundFace{0.125f, 0.375f, 0.375f, 0.125f};  // from two cells before to one behind
+
+/// The sum over rows around row (j, k) with these shares along y and z; beyond the box its outermost rows again. `sum`
+/// has room for two cells before the row and one behind it.
+template <std::size_t ofY, std::size_t ofZ>
+void sumOfRows(const float* field, const CellLayout& layout, int j, int k, const std::array<float, ofY>& sharesY,
+               const std::array<float, ofZ>& sharesZ, float* sum) {
+    const auto nx = static_cast<std::size_t>(layout.nx), ny = static_cast<std::size_t>(layout.ny);
+    const auto rowAt = [&](std::size_t b, std::size_t c) {
+        const int y = std::clamp(j + static_cast<int>(b) - static_cast<int>(ofY) + 2, 0, layout.ny - 1);
+        const int z = std::clamp(k + static_cast<int>(c) - static_cast<int>(ofZ) + 2, 0, layout.nz - 1);
+        return field + (static_cast<std::size_t>(z) * ny + static_cast<std::size_t>(y)) * nx;
+    };
+    std::array<const float*, ofY * ofZ> rows;
+    std::array<float, ofY * ofZ> shares;
+    for (std::size_t c = 0; c < ofZ; ++c)
+        for (std::size_t b = 0; b < ofY; ++b) {
+            rows[c * ofY + b] = rowAt(b, c);
+            shares[c * ofY + b] = sharesY[b] * sharesZ[c];
+        }
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < nx; ++i) {
+        float total = 0;
+        for (std::size_t r = 0; r < rows.size(); ++r) total += shares[r] * rows[r][i];
+        sum[i] = total;
+    }
+    sum[-2] = sum[-1] = sum[0];
+    sum[nx] = sum[nx - 1];
+}
+
+/// A face has the mean force of its two cells. That of confinement is spread beforehand over the cells around each, by
+/// (1, 2, 1)/4 along each axis: N turns from cell to cell where |ω| varies little, and so would the force.
 void facesOfRow(const Curl& force, const CellLayout& layout, int j, int k, bool confined, AddedRow& row) {
     const auto nx = static_cast<std::size_t>(layout.nx), slab = nx * static_cast<std::size_t>(layout.ny);
-    const std::size_t at = static_cast<std::size_t>(k) * slab + static_cast<std::size_t>(j) * nx;
-    const float *x = force.x + at, *y = force.y + at, *z = force.z + at;
-    const float* below = j > 0 ? y - nx : y;
-    const float* before = k > 0 ? z - slab : z;
+    const float* lift = force.lift + static_cast<std::size_t>(k) * slab + static_cast<std::size_t>(j) * nx;
+    const float* liftBelow = j > 0 ? lift - nx : lift;
 #pragma GCC ivdep
-    for (std::size_t i = 0; i < nx; ++i) row.y[i] = 0.5f * (below[i] + y[i]);
+    for (std::size_t i = 0; i < nx; ++i) row.y[i] = 0.5f * (liftBelow[i] + lift[i]);
     if (!confined) return;
-    row.x[0] = x[0];
+    float* sum = row.sum.data() + 2;
+    sumOfRows(force.x, layout, j, k, aroundCell, aroundCell, sum);
 #pragma GCC ivdep
-    for (std::size_t i = 1; i < nx; ++i) row.x[i] = 0.5f * (x[i - 1] + x[i]);
+    for (std::size_t i = 0; i < nx; ++i) {
+        const float* s = sum + i;
+        row.x[i] = aroundFace[0] * s[-2] + aroundFace[1] * s[-1] + aroundFace[2] * s[0] + aroundFace[3] * s[1];
+    }
+    const auto spreadAlongX = [&](std::size_t i) {
+        const float* s = sum + i;
+        return aroundCell[0] * s[-1] + aroundCell[1] * s[0] + aroundCell[2] * s[1];
+    };
+    sumOfRows(force.y, layout, j, k, aroundFace, aroundCell, sum);
 #pragma GCC ivdep
-    for (std::size_t i = 0; i < nx; ++i) row.z[i] = 0.5f * (before[i] + z[i]);
+    for (std::size_t i = 0; i < nx; ++i) row.y[i] += spreadAlongX(i);
+    sumOfRows(force.z, layout, j, k, aroundCell, aroundFace, sum);
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < nx; ++i) row.z[i] = spreadAlongX(i);
 }
 
 float orNothing(float value) {
@@ -107,7 +151,7 @@ void forMoving(const Moving* moving, std::size_t cells, const SixteenCells& sixt
 }  // namespace
 
 std::size_t forceFloats(const CellLayout& layout) {
-    return 4 * layout.rows() * static_cast<std::size_t>(layout.nx);
+    return 5 * layout.rows() * static_cast<std::size_t>(layout.nx);
 }
 
 void gatherCurl(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, float spacingMetres,
@@ -166,7 +210,7 @@ void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t*
         for (std::size_t r = first; r < first + count; ++r) {
             const int j = layout.rowJ(r), k = layout.rowK(r);
             if (confined) confineRow(curl, layout, j, k, strength);
-            addLift(cells, layout, j, k, lift, weight, confined, curl.y);
+            findLift(cells, layout, j, k, lift, weight, curl.lift);
         }
     });
     const float keptDensity = std::exp(-settings.densityDecayPerSecond * stepSeconds);

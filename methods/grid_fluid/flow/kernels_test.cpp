@@ -55,7 +55,7 @@ TEST(Forces, CurlOfARigidRotationIsTwiceItsSpeed) {
             }
     std::vector<float> curl(forceFloats(world.layout));
     gatherCurl(world.from, world.layout, world.solids.conductance(), 0.25f, curl);
-    const std::size_t count = curl.size() / 4;
+    const std::size_t count = curl.size() / 5;
     for (std::size_t c = 0; c < count; ++c) {
         EXPECT_NEAR(curl[c], 1, 1e-5);
         EXPECT_NEAR(curl[count + c], -2, 1e-5);
@@ -123,13 +123,10 @@ struct SlowForces {
         };
         return glm::dvec3(slope(2, 1) - slope(1, 2), slope(0, 2) - slope(2, 0), slope(1, 0) - slope(0, 1));
     }
-    /// At the centre of a cell; of the nearest one of the box.
-    [[nodiscard]] glm::dvec3 force(glm::ivec3 cell) const {
-        const CellLayout& layout = world.layout;
-        const auto clamped = [&](glm::ivec3 c) {
-            return glm::clamp(c, glm::ivec3(0), glm::ivec3(layout.nx, layout.ny, layout.nz) - 1);
-        };
-        cell = clamped(cell);
+    [[nodiscard]] glm::ivec3 clamped(glm::ivec3 c) const {
+        return glm::clamp(c, glm::ivec3(0), glm::ivec3(world.layout.nx, world.layout.ny, world.layout.nz) - 1);
+    }
+    [[nodiscard]] glm::dvec3 confinement(glm::ivec3 cell) const {
         glm::dvec3 towards;  // direction in which |ω| increases
         for (int axis = 0; axis < 3; ++axis) {
             glm::ivec3 ahead = cell, back = cell;
@@ -137,11 +134,27 @@ struct SlowForces {
             towards[axis] = glm::length(curl(clamped(ahead))) - glm::length(curl(clamped(back)));
         }
         const double epsilon = static_cast<double>(settings.confinementPerSecond);
+        if (!(glm::length(towards) > 0)) return glm::dvec3(0);
+        return epsilon * h * glm::cross(glm::normalize(towards), curl(cell));
+    }
+    /// At the centre of a cell; of the nearest one of the box.
+    [[nodiscard]] glm::dvec3 force(glm::ivec3 cell) const {
+        cell = clamped(cell);
         glm::dvec3 sum(0);
-        if (glm::length(towards) > 0) sum = epsilon * h * glm::cross(glm::normalize(towards), curl(cell));
+        for (const glm::ivec3 away : around()) {
+            const double share =
+                0.125 / static_cast<double>(1 << (away.x * away.x + away.y * away.y + away.z * away.z));
+            sum += share * confinement(clamped(cell + away));
+        }
         sum.y += static_cast<double>(settings.buoyancyPerKelvin) * of(cell, temperature) -
                  static_cast<double>(settings.weightPerDensity) * of(cell, density);
         return sum;
+    }
+    /// The 27 cells around a cell and itself.
+    static std::vector<glm::ivec3> around() {
+        std::vector<glm::ivec3> all;
+        for (int n = 0; n < 27; ++n) all.emplace_back(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+        return all;
     }
     [[nodiscard]] PlainRecord after(glm::ivec3 cell) const {
         const Moving moving = world.solids.moving()[index(cell)];

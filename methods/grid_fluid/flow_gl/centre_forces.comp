@@ -25,9 +25,10 @@ void main() {
     ivec3 c = ivec3(gl_GlobalInvocationID);
     if (!inside(c)) return;
     int cell = at(c);
-    vec3 all = vec3(0, lift * carried[cell].x - weight * moving[cell].w, 0);
+    float up = lift * carried[cell].x - weight * moving[cell].w;
 #ifdef CONFINED
-    all += confinement(c);
+    force[cell] = vec4(confinement(c), up);  // for spread.comp
+#else
+    force[cell] = vec4(0, up, 0, 0);
 #endif
-    force[cell] = vec4(all, 0);
 }

@@ -23,9 +23,10 @@ ForcesOnGpu::ForcesOnGpu(gpu::Device& device, const glm::ivec3& cells, const flo
       spacingMetres_(spacingMetres),
       curl_(device, {grid_glsl, kinds_glsl, curl_comp}),
       centreForces_(device, {grid_glsl, centre_forces_comp}, definitionsFor(settings)),
+      spread_(device, {grid_glsl, spread_comp}),
       forces_(device, {grid_glsl, kinds_glsl, forces_comp}),
       diffuse_(device, {grid_glsl, kinds_glsl, diffuse_comp}) {
-    for (Kernel* kernel : {&curl_, &centreForces_, &forces_, &diffuse_}) kernel->set("cells", cells);
+    for (Kernel* kernel : {&curl_, &centreForces_, &spread_, &forces_, &diffuse_}) kernel->set("cells", cells);
     curl_.set("spacing", spacingMetres);
 }
 
@@ -42,6 +43,10 @@ void ForcesOnGpu::apply(const CellsOnGpu& state, const CellsOnGpu& spare, const 
     centreForces_.set("lift", settings_.buoyancyPerKelvin * seconds);
     centreForces_.set("weight", settings_.weightPerDensity * seconds);
     centreForces_.run(cells_);
+    if (settings_.confinementPerSecond > 0) {
+        spread_.run(cells_);  // over the curl
+        spare.moving.bindStorage(6);
+    }
     forces_.set("keptDensity", std::exp(-settings_.densityDecayPerSecond * seconds));
     forces_.set("keptHeat", std::exp(-settings_.coolingPerSecond * seconds));
     forces_.set("lost", settings_.reactionLossPerSecond * seconds);

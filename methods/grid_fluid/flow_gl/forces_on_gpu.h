@@ -23,7 +23,7 @@ class ForcesOnGpu {
     glm::ivec3 cells_;
     flow::ForceSettings settings_;
     float spacingMetres_;
-    Kernel curl_, centreForces_, forces_, diffuse_;
+    Kernel curl_, centreForces_, spread_, forces_, diffuse_;
 };
 
 }  // namespace dustbench::grid_fluid::flow_gl
