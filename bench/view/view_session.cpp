@@ -137,12 +137,14 @@ void ViewSession::replaceHalves(const ViewState& state) {
     makeTruth(state);
 }
 
-/// Without the reliefs and lamps of A's method, which B's scene would lack: those have a simulation of their own.
+/// Without the reliefs and lamps of A's method, which B's scene would lack: those have a simulation of their own. Dust
+/// of several colours takes seconds without a GPU.
 void ViewSession::makeTruth(const ViewState& state) {
     const bool isKnown = std::ranges::any_of(methods(), [](const MethodInfo& info) { return info.id == liveTruth; });
-    const bool isTold = showsExact(state) && isKnown && whyNotJudged({}, host(Half::a).method()).empty();
-    if (!isTold) truth_ = {};
-    if (!isTold || (truth_.host && state.size == state_.size)) return;
+    const bool isFast = world_->dust().uniformColour || !device_.isSoftware();
+    const bool isShown = showsExact(state) && isKnown && isFast && whyNotJudged({}, host(Half::a).method()).empty();
+    if (!isShown) truth_ = {};
+    if (!isShown || (truth_.host && state.size == state_.size)) return;
     ViewState alone = state;
     alone.a = {liveTruth, {}};
     truth_ = makeHalf(alone, Half::a, *world_);

@@ -169,6 +169,7 @@ void PuffTiles::list(const scene::View& view) {
     // Calls visit(tile, puff) for a row's tiles in the order of the puffs.
     const auto visitRow = [&](int row, const auto& visit) {
         std::vector<glm::vec3> middles;
+        middles.reserve(static_cast<std::size_t>(columns_));
         for (int column = 0; column < columns_; ++column)
             middles.emplace_back(eye.ray((column + 0.5) * tilePixels, (row + 0.5) * tilePixels));
         for (std::size_t i = 0; i < footprints_.size(); ++i) {

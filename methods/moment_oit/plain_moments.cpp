@@ -43,6 +43,7 @@ std::vector<double> rootsOf(const std::vector<double>& c) {
     const double around = a * a * a - 0.5 * a * p + 0.5 * q;
     const double angle = std::acos(std::clamp(-around / std::pow(third, 1.5), -1.0, 1.0)) / 3;
     std::vector<double> roots;
+    roots.reserve(3);
     for (int i = 0; i < 3; ++i)
         roots.push_back(2 * std::sqrt(third) * std::cos(angle - 2 * std::numbers::pi / 3 * i) - a);
     return roots;
