@@ -166,6 +166,8 @@ std::string toJson(const RunRecord& record) {
                  {"scene", spec.scene},
                  {"drive", record.drive},
                  {"camera_path", spec.cameraPath.empty() ? Json(nullptr) : Json(spec.cameraPath)},
+                 {"dust", spec.dust.empty() ? Json(nullptr) : Json(spec.dust)},
+                 {"dust_columns", spec.dustColumns.empty() ? Json(nullptr) : Json(spec.dustColumns)},
                  {"seed", spec.seed},
                  {"repetition", spec.repetition},
                  {"frames", spec.frames},
@@ -213,6 +215,8 @@ std::string specToJson(const RunSpec& spec) {
                  {"scene", spec.scene},
                  {"drive", spec.drive},
                  {"camera_path", spec.cameraPath},
+                 {"dust", spec.dust},
+                 {"dust_columns", spec.dustColumns},
                  {"parameters", spec.parameters},
                  {"frames", spec.frames},
                  {"warmup", spec.warmup},
@@ -235,6 +239,8 @@ RunSpec specFromJson(std::string_view text) {
         spec.scene = json.at("scene").get<std::string>();
         spec.drive = json.at("drive").get<std::string>();
         spec.cameraPath = json.at("camera_path").get<std::string>();
+        spec.dust = json.at("dust").get<std::string>();
+        spec.dustColumns = json.at("dust_columns").get<std::string>();
         for (const auto& [name, value] : json.at("parameters").items())
             spec.parameters[name] = value.get<std::string>();
         spec.frames = json.at("frames").get<std::int64_t>();

@@ -28,6 +28,8 @@ RunSpec specOf(const StoredRun& run) {
         if (name == "scene") spec.scene = text;
         if (name == "drive") spec.drive = text;
         if (name == "camera_path") spec.cameraPath = text;
+        if (name == "dust") spec.dust = text;
+        if (name == "dust_columns") spec.dustColumns = text;
         if (name == "frames") spec.frames = numberIn<std::int64_t>(run, name, text);
         if (name == "warmup") spec.warmup = numberIn<std::int64_t>(run, name, text);
         if (name == "size") spec.size = parseSize(text);
