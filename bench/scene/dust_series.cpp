@@ -104,15 +104,14 @@ void DustSeries::fillAges() {
     }
     if (moments_.front().hasVelocity) return;
     for (std::size_t m = 0; m + 1 < moments_.size(); ++m) {
-        DustMoment& from = moments_[m];
-        const DustMoment& to = moments_[m + 1];
+        DustMoment &from = moments_[m], &to = moments_[m + 1];
         const auto span = static_cast<float>(*to.timeSeconds - *from.timeSeconds);
         for (std::size_t i = 0; i < from.size(); ++i) {
             const std::uint32_t j = from.next[i];
             if (j == DustMoment::none) continue;
-            from.velocityX[i] = (to.x[j] - from.x[i]) / span;
-            from.velocityY[i] = (to.y[j] - from.y[i]) / span;
-            from.velocityZ[i] = (to.z[j] - from.z[i]) / span;
+            from.velocityX[i] = to.velocityX[j] = (to.x[j] - from.x[i]) / span;
+            from.velocityY[i] = to.velocityY[j] = (to.y[j] - from.y[i]) / span;
+            from.velocityZ[i] = to.velocityZ[j] = (to.z[j] - from.z[i]) / span;
         }
     }
 }
