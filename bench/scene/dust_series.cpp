@@ -8,6 +8,7 @@
 #include "bench/scene/dust_files.h"
 #include "bench/scene/time_step.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/printable.h"
 
 namespace dustbench::bench {
 namespace {
@@ -47,10 +48,14 @@ void requireSeries(const std::vector<DustMoment>& moments) {
 }  // namespace
 
 DustSeries DustSeries::read(const std::filesystem::path& path, const std::string& columns) {
-    DustFiles read = readDustFiles(path, DustColumns::parse(columns));
-    DustSeries series(std::move(read.moments));
-    series.files_ = std::move(read.files);
-    return series;
+    try {
+        DustFiles read = readDustFiles(path, DustColumns::parse(columns));
+        DustSeries series(std::move(read.moments));
+        series.files_ = std::move(read.files);
+        return series;
+    } catch (const InputError& error) {
+        throw InputError(files::printable(error.what()));  // names within the files may be any bytes
+    }
 }
 
 DustSeries::DustSeries(std::vector<DustMoment> moments) : moments_(std::move(moments)) {

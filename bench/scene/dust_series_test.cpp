@@ -97,6 +97,7 @@ TEST_F(DustSeriesFile, EachFaultIsOneClearLine) {
     EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,1.5\n"), HasSubstr("opacity is 1.5, allowed: 0..1"));
     EXPECT_THAT(refusal("x,y,radius,opacity\n1,2,1,1\n"), HasSubstr("no column for position; it has: x, y"));
     EXPECT_THAT(refusal("x,y,z,opacity\n1,2,1,1\n"), HasSubstr("no column for radius"));
+    EXPECT_THAT(refusal("x,y,z,\"two\nlines\"\n1,2,1,1\n"), HasSubstr("no column for radius"));
     EXPECT_THAT(refusal("x,y,z,radius\n1,2,1,1\n"), HasSubstr("no column for opacity or mass"));
     EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,0.1\n", "radius=width"), HasSubstr("no column 'width'"));
     EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,0.1\n", "radios=width"), HasSubstr("did you mean 'radius'"));
