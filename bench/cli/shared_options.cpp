@@ -1,5 +1,7 @@
 #include "bench/cli/shared_options.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <tuple>
@@ -26,12 +28,14 @@ bench::ParameterLists parseParameters(const std::vector<std::string>& texts) {
 }
 
 void checkWorlds(const std::vector<bench::PlannedRun>& plan) {
-    std::set<std::tuple<std::string, std::string, bench::ParameterTexts>> seen;
+    std::set<std::tuple<std::string, std::string, bench::ParameterTexts, std::string>> seen;
     for (const bench::PlannedRun& run : plan) {
         const auto parameters = bench::resolveParameters(findMethod(run.spec.method), run.spec.parameters);
         (void)bench::dataFilesOf(parameters.method);
-        if (seen.emplace(run.spec.scene, run.spec.drive, parameters.world.canonical()).second)
-            const bench::World loads(run.spec.scene, run.spec.drive, parameters.world, run.spec.seed);
+        const std::string dust = fmt::format("{}\n{}\n{}", run.spec.dust, run.spec.dustColumns, run.spec.frames);
+        if (!seen.emplace(run.spec.scene, run.spec.drive, parameters.world.canonical(), dust).second) continue;
+        bench::World loads(run.spec.scene, run.spec.drive, parameters.world, run.spec.seed);
+        loads.useDust(bench::givenDust(run.spec));
     }
 }
 

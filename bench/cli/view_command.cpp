@@ -59,6 +59,8 @@ bench::ViewState ofOptions(const ViewOptions& options) {
     state.scene = spec.scene;
     state.drive = byKeyboard ? bench::keyboardDrive : spec.drive;
     state.cameraPath = spec.cameraPath;
+    state.dust = spec.dust;
+    state.dustColumns = spec.dustColumns;
     state.seed = spec.seed;
     state.size = spec.size;
     state.threads = spec.threads;

@@ -42,6 +42,14 @@ void WorldOptions::declareWorld(Arguments& arguments) {
         "key-framed camera instead of the parameter `camera`: CSV with time_s, eye_x, eye_y, eye_z, target_x, "
         "target_y, target_z, fov_deg; or its rows, separated by ';'",
         cameraPath);
+    arguments.text("--dust", "FILE",
+                   "particles of another program instead of the scene's dust: .vtp, .vdb, .csv, or a series of them, "
+                   ".pvd or .series; frame 0 shows its first moment",
+                   dust);
+    arguments.text("--dust-columns", "key=NAME,…",
+                   "what its columns are, by the keys position, radius, opacity, mass, age, lifetime, id, velocity, "
+                   "colour, time, scale, up; or a .toml file with them; default: the usual names",
+                   dustColumns);
     arguments.texts("-P", "name=value", "set a parameter of the method or of the world", parameters);
     arguments.integer("--warmup", "unrecorded frames before frame 0", warmup, 0, 10'000'000);
     arguments.text("--size", "WxH", "of the picture, pixels", size);
@@ -65,6 +73,8 @@ bench::RunSpec WorldOptions::toWorldSpec() const {
     if (!spec.drive.empty()) (void)files::findData("drive", "drives", spec.drive, ".csv");
     spec.cameraPath = cameraPath;
     if (!cameraPath.empty()) (void)bench::CameraPath::read(cameraPath);
+    spec.dust = dust;
+    spec.dustColumns = dustColumns;
     spec.warmup = warmup;
     spec.size = bench::parseSize(size);
     spec.seed = static_cast<std::uint64_t>(seed);

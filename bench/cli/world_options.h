@@ -13,7 +13,7 @@ namespace dustbench::cli {
 
 struct WorldOptions {
     std::string method;
-    std::string scene = bench::RunSpec().scene, drive, cameraPath;
+    std::string scene = bench::RunSpec().scene, drive, cameraPath, dust, dustColumns;
     std::vector<std::string> parameters;  ///< of -P, not yet parsed
     std::vector<std::string> changes;     ///< of --at
     std::int64_t warmup = bench::RunSpec().warmup;

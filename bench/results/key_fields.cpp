@@ -42,6 +42,8 @@ RunSpec specFromKey(const StoredRun& run) {
         if (name == "scene") spec.scene = text;
         if (name == "drive") spec.drive = text;
         if (name == "camera_path") spec.cameraPath = text;
+        if (name == "dust") spec.dust = text;
+        if (name == "dust_columns") spec.dustColumns = text;
         if (name == "frames") readNumber(run, name, text, spec.frames);
         if (name == "warmup") readNumber(run, name, text, spec.warmup);
         if (name == "size") spec.size = parseSize(text);

@@ -146,6 +146,8 @@ Json specObject(const RunSpec& spec) {
             {"scene", spec.scene},
             {"drive", spec.drive},
             {"camera_path", spec.cameraPath},
+            {"dust", spec.dust},
+            {"dust_columns", spec.dustColumns},
             {"seed", spec.seed},
             {"repetition", spec.repetition},
             {"frames", spec.frames},
@@ -165,7 +167,8 @@ Json specObject(const RunSpec& spec) {
 Json resolvedSpecObject(const RunSpec& spec, const std::string& drive) {
     Json object = specObject(spec);
     object["drive"] = drive;
-    if (spec.cameraPath.empty()) object["camera_path"] = nullptr;
+    for (const char* name : {"camera_path", "dust", "dust_columns"})
+        if (object[name] == "") object[name] = nullptr;
     object["parameters"] = parametersObject(spec.parameters);
     return object;
 }
@@ -234,6 +237,8 @@ RunSpec specFromJson(std::string_view text) {
         spec.scene = json.at("scene").get<std::string>();
         spec.drive = json.at("drive").get<std::string>();
         spec.cameraPath = json.at("camera_path").get<std::string>();
+        spec.dust = json.at("dust").get<std::string>();
+        spec.dustColumns = json.at("dust_columns").get<std::string>();
         for (const auto& [name, value] : json.at("parameters").items())
             spec.parameters[name] = value.get<std::string>();
         spec.frames = json.at("frames").get<std::int64_t>();

@@ -99,9 +99,14 @@ void requireFramesWithinRun(const RunSpec& spec) {
                                  spec.volumes->frames.last, spec.frames - 1, spec.frames));
 }
 
+GivenDust givenDust(const RunSpec& spec) {
+    return {spec.dust, spec.dustColumns, spec.warmup, spec.frames};
+}
+
 std::string canonicalKey(const RunSpec& spec) {
     std::string key = fmt::format("method={}\nscene={}\ndrive={}\n", spec.method, spec.scene, spec.drive);
     if (!spec.cameraPath.empty()) key += fmt::format("camera_path={}\n", spec.cameraPath);
+    if (!spec.dust.empty()) key += fmt::format("dust={}\ndust_columns={}\n", spec.dust, spec.dustColumns);
     for (const auto& [name, text] : spec.parameters) key += fmt::format("p.{}={}\n", name, text);
     key += fmt::format("frames={}\nwarmup={}\nsize={}x{}\nseed={}\nthreads={}\nsync={}\nimages={}\nrepetition={}\n",
                        spec.frames, spec.warmup, spec.size.width, spec.size.height, spec.seed, spec.threads,

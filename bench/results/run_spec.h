@@ -11,6 +11,7 @@
 
 #include "bench/export/volume_settings.h"
 #include "bench/reference/judge/judging_plan.h"
+#include "bench/scene/given_dust.h"
 #include "methods/contract/method.h"
 #include "methods/contract/parameters.h"
 
@@ -35,6 +36,8 @@ struct RunSpec {
     std::string scene = "plain";
     std::string drive;          ///< empty: the scene's own
     std::string cameraPath;     ///< file or rows (camera_path.h); empty: the camera of the parameter `camera`
+    std::string dust;           ///< particles from a file (dust_files.h) in place of the scene's; empty: the scene's
+    std::string dustColumns;    ///< what its columns mean (dust_columns.h); empty: by their names
     ParameterTexts parameters;  ///< the world's and the method's, all of them, in canonical form
     std::int64_t frames = 120;
     std::int64_t warmup = 10;
@@ -51,6 +54,8 @@ struct RunSpec {
 
 /// Throws InputError if a volume or metric is requested for a frame that the run does not record.
 void requireFramesWithinRun(const RunSpec& spec);
+/// The dust for World::useDust.
+[[nodiscard]] GivenDust givenDust(const RunSpec& spec);
 /// Throws InputError if something is to change after the last frame.
 void requireChangesWithinRun(const RunSpec& spec);
 

@@ -33,6 +33,7 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
     const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
     World world(spec.scene, spec.drive, parameters.world, spec.seed);
     world.followPath(spec.cameraPath);
+    world.useDust(givenDust(spec));
     requireFramesWithinDrive(spec, world);
     if (const std::string reason = info.cannotTake ? info.cannotTake(world.scene()) : ""; !reason.empty())
         throw InputError(fmt::format("method {} cannot take scene '{}': {}", spec.method, spec.scene, reason));

@@ -31,6 +31,7 @@ class FinerRun {
           world_(spec.scene, spec.drive, parameters_.world, spec.seed),
           runner_(spec, world_, device, parameters_.method, false) {
         world_.followPath(spec.cameraPath);
+        world_.useDust(givenDust(spec));
     }
 
     void step(std::int64_t step, std::int64_t prerollSteps, std::int64_t warmup) {
@@ -78,12 +79,13 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
     const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
     World world(spec.scene, spec.drive, parameters.world, spec.seed);
     world.followPath(spec.cameraPath);
+    world.useDust(givenDust(spec));
     std::optional<World> continuum;
     std::optional<FinerRun> finer;
-    if (spec.judging->finer.empty())
-        continuum.emplace(spec.scene, spec.drive, parameters.world, spec.seed, continuumParticles);
-    else
+    if (!spec.judging->finer.empty())
         finer.emplace(spec, device);
+    else if (spec.dust.empty())
+        continuum.emplace(spec.scene, spec.drive, parameters.world, spec.seed, continuumParticles);
     FrameRunner runner(spec, world, device, parameters.method, false);
     const std::vector<std::int64_t> moments = spec.judging->momentsOf(spec.frames);
     const std::vector<std::int64_t> stretch = JudgingPlan::stretchOf(spec.frames);
@@ -96,9 +98,12 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         if (!isMoment && !inStretch) return;
         const scene::View view = world.view(spec.size.width, spec.size.height);
         const DrawnMoment drawn = runner.drawn(isMoment);
-        const ExactMoment exact = finer ? finer->moment(isMoment)
-                                        : exactMoment(view, drawn, world.dust(), isMoment,
-                                                      isMoment ? std::optional(continuum->dust()) : std::nullopt);
+        ExactMoment exact = finer
+                                ? finer->moment(isMoment)
+                                : exactMoment(view, drawn, world.dust(), isMoment,
+                                              isMoment && continuum ? std::optional(continuum->dust()) : std::nullopt);
+        // Nothing emits dust from a file: it is its own continuum.
+        if (isMoment && !finer && !continuum) exact.continuum = exact.layer;
         MomentMetrics metrics;
         if (isMoment) {
             CollectedVolume volume, reference;

@@ -143,6 +143,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     const ResolvedParameters parameters = resolveParameters(info, spec.parameters);
     World world(spec.scene, spec.drive, parameters.world, spec.seed);
     world.followPath(spec.cameraPath);
+    world.useDust(givenDust(spec));
     record.drive = world.driveId();
     record.provenance.inputs = hashInputs(inputFilesOf(world, parameters.method, read));
     const int threads = oneapi::tbb::this_task_arena::max_concurrency();

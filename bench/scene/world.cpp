@@ -1,5 +1,7 @@
 #include "bench/scene/world.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +9,7 @@
 #include <stdexcept>
 
 #include "bench/scene/drive_controls.h"
+#include "bench/scene/dust_series.h"
 #include "bench/scene/scene_file.h"
 #include "bench/scene/vehicle_dynamics.h"
 #include "methods/contract/errors.h"
@@ -77,6 +80,31 @@ const ParameterSet& worldParameters() {
     return parameters;
 }
 
+/// The dust that a file gives, and its particles now.
+struct ShownDust {
+    ShownDust(DustSeries given, std::int64_t heldSteps, glm::vec3 colour)
+        : series(std::move(given)), stepsHeld(heldSteps) {
+        store.colourOfAll = colour;
+        series.show(0, store);
+    }
+
+    void showAfter(std::int64_t steps) {
+        series.show(static_cast<double>(std::max<std::int64_t>(steps - stepsHeld, 0)) * stepSeconds, store);
+    }
+
+    [[nodiscard]] MemoryReport memory() const {
+        MemoryReport report;
+        for (const auto& [structure, bytes] : ledger.entries()) report.push_back({structure, bytes, 0});
+        report.push_back({"dust of the file", series.bytes(), 0});
+        return report;
+    }
+
+    DustSeries series;
+    std::int64_t stepsHeld;  ///< steps after which the first moment still shows
+    MemoryLedger ledger;
+    particles::ParticleStore store{ledger};
+};
+
 struct World::State {
     SceneFile file;
     std::string driveId;
@@ -91,7 +119,8 @@ struct World::State {
     Controls controls{};
     SceneState now{};
     CameraLag lag{};
-    std::optional<CameraPath> path{};  ///< instead of `camera`
+    std::optional<CameraPath> path{};    ///< instead of `camera`
+    std::unique_ptr<ShownDust> given{};  ///< instead of `dust`
 
     [[nodiscard]] const VehicleParameters& vehicle() const { return file.scene.vehicle->parameters; }
     [[nodiscard]] double time() const { return static_cast<double>(stepIndex) * stepSeconds; }
@@ -144,7 +173,10 @@ const SceneState& World::state() const {
     return state_->now;
 }
 Puffs World::dust() const {
-    return state_->dust.store();
+    return state_->given ? state_->given->store : state_->dust.store();
+}
+bool World::hasGivenDust() const {
+    return state_->given != nullptr;
 }
 RunSetup World::setup() const {
     return {state_->seed, state_->fixedCount};
@@ -186,6 +218,32 @@ void World::followPath(const std::string& fileOrRows) {
     if (isCameraFile(fileOrRows)) state_->file.files.emplace_back(fileOrRows);
 }
 
+void World::useDust(const GivenDust& given) {
+    State& s = *state_;
+    if (given.file.empty()) {
+        if (!given.columns.empty()) throw InputError("--dust-columns: got it without --dust, whose columns it names");
+        return;
+    }
+    if (s.stepIndex != -s.prerollSteps) throw std::logic_error("World::useDust: after the first step");
+    if (s.fixedCount > 0)
+        throw InputError(
+            fmt::format("parameter particles: got {} with --dust {}, allowed: 0, for the file says which "
+                        "particles there are",
+                        s.fixedCount, given.file));
+    DustSeries series = DustSeries::read(given.file, given.columns);
+    const double last = static_cast<double>(given.frames - 1) * stepSeconds;
+    if (!series.isStill() && last > series.seconds() + sameMomentSeconds)
+        throw InputError(fmt::format(
+            "{}: ends {:.6g} s after its first moment, the run's last frame is at {:.6g} s, "
+            "allowed: --frames 1..{:.0f}",
+            given.file, series.seconds(), last, std::floor((series.seconds() + sameMomentSeconds) / stepSeconds) + 1));
+    for (const std::filesystem::path& file : series.files()) s.file.files.push_back(file);
+    if (given.columns.ends_with(".toml")) s.file.files.emplace_back(given.columns);
+    // Frame 0 is the step after preroll and warm-up; without a preroll one step stands for it.
+    const std::int64_t held = std::max<std::int64_t>(s.prerollSteps, 1) + given.warmup + 1;
+    s.given = std::make_unique<ShownDust>(std::move(series), held, scene::dustColour(s.file.scene));
+}
+
 void World::readInput() {
     State& s = *state_;
     s.controls = s.source->decide(s.vehicle(), s.now.vehicle, s.time());
@@ -197,11 +255,14 @@ void World::simulate() {
     ++s.stepIndex;
     s.now.timeSeconds = s.time();
     s.lag = s.lag.followed(s.now.vehicle, s.file.cameras.chase.smoothingSeconds, stepSeconds);
-    s.dust.update({s.file.scene, s.now, stepSeconds, s.fixedCount, s.particlesPerPuff});
+    if (s.given)
+        s.given->showAfter(s.stepIndex + s.prerollSteps);
+    else
+        s.dust.update({s.file.scene, s.now, stepSeconds, s.fixedCount, s.particlesPerPuff});
 }
 
 std::uint64_t World::stateHash() const {
-    const std::uint64_t dust = state_->dust.stateHash();
+    const std::uint64_t dust = state_->given ? state_->given->store.hash() : state_->dust.stateHash();
     return particles::stateHash(state_->now, std::span(&dust, 1));
 }
 
@@ -209,7 +270,7 @@ MemoryReport World::memory() const {
     const scene::Scene& scene = state_->file.scene;
     std::size_t meshBytes = bytesOf(*scene.vehicle->body.mesh) + bytesOf(*scene.vehicle->wheel.mesh);
     for (const scene::Solid& solid : scene.solids) meshBytes += bytesOf(*solid.mesh);
-    MemoryReport report = state_->dust.memory();
+    MemoryReport report = state_->given ? state_->given->memory() : state_->dust.memory();
     report.push_back({"terrain", scene.terrain.heights().size() * sizeof(float), 0});
     report.push_back({"meshes", meshBytes, 0});
     return report;

@@ -13,6 +13,7 @@
 #include "bench/scene/camera_path.h"
 #include "bench/scene/cameras.h"
 #include "bench/scene/control_source.h"
+#include "bench/scene/given_dust.h"
 #include "bench/scene/time_step.h"
 #include "methods/contract/memory_report.h"
 #include "methods/contract/method.h"
@@ -52,6 +53,13 @@ class World {
     /// follow() the rows or the file of a camera path (CameraPath::read), which then is one of the input files; an
     /// empty text changes nothing.
     void followPath(const std::string& fileOrRows);
+
+    /// Particles from a file in place of the scene's own, from the first step on; an empty file name changes nothing.
+    /// Its files then are input files. The preroll is as long as with the scene's dust. Call before the first step.
+    /// Throws InputError for an error in the files, if they end before the last frame, and with `particles` above 0.
+    void useDust(const GivenDust& given);
+    /// True if the dust is from a file.
+    [[nodiscard]] bool hasGivenDust() const;
 
     /// The seed and the requested number of particles.
     [[nodiscard]] RunSetup setup() const;

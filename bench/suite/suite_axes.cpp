@@ -32,6 +32,7 @@ std::string worldKey(const RunSpec& spec) {
         fmt::format("{}\n{}\n{}x{}\n{}\n", spec.scene, spec.drive, spec.size.width, spec.size.height, spec.seed);
     for (const auto& [name, text] : spec.parameters)
         if (isOfTheWorld(name)) key += fmt::format("{}={}\n", name, text);
+    if (!spec.dust.empty()) key += fmt::format("dust={}\n{}\n", spec.dust, spec.dustColumns);
     return key;
 }
 

@@ -234,6 +234,13 @@ ChartView readChart(files::TomlReader& table) {
     return chart;
 }
 
+/// A file's path, relative to the suite.
+std::string usableDust(const SuiteDraft& draft, files::TomlReader& table) {
+    const std::filesystem::path named(table.text("dust"));
+    if (named.empty() || named.is_absolute()) return named.string();
+    return (draft.file.parent_path() / named).lexically_normal().string();
+}
+
 }  // namespace
 
 void SuiteDraft::read(files::TomlReader& table) {
@@ -243,6 +250,8 @@ void SuiteDraft::read(files::TomlReader& table) {
     if (std::ranges::find(methods, "all") != methods.end()) methods = allMethods();
     readDataNames(*this, table, "scenes", ".toml", scenes);
     readDataNames(*this, table, "drives", ".csv", drives);
+    if (table.has("dust")) base.dust = usableDust(*this, table);
+    if (table.has("dust_columns")) base.dustColumns = files::fromFile(file, table.text("dust_columns"), ".toml");
     readNames(table, "sizes", sizes, [](const std::string& size) { (void)parseSize(size); });
 
     base.frames = table.integer("frames", 1, maximumFrames, base.frames);

@@ -64,6 +64,8 @@ class LineReader {
             {"--scene", text(state_.scene)},
             {"--drive", text(state_.drive)},
             {"--camera-path", text(state_.cameraPath)},
+            {"--dust", text(state_.dust)},
+            {"--dust-columns", text(state_.dustColumns)},
             {"-P", [this](const std::string& value) { setParameter(value); }},
             {"--at", [this](const std::string& value) { changes_ += (changes_.empty() ? "" : ";") + value; }},
             {"--size", [this](const std::string& value) { state_.size = parseSize(value); }},
@@ -161,6 +163,8 @@ std::string commandLine(const ViewState& given, Half which, const std::string& o
     };
     if (!spec.drive.empty()) add("--drive", spec.drive);
     if (!spec.cameraPath.empty()) add("--camera-path", spec.cameraPath);
+    if (!spec.dust.empty()) add("--dust", spec.dust);
+    if (!spec.dustColumns.empty()) add("--dust-columns", spec.dustColumns);
     for (const ParameterTexts& set : {state.world, half(state, which).parameters})
         for (const auto& [name, value] : set) addParameter(words, method, name, value);
     if (spec.seed != RunSpec().seed) add("--seed", std::to_string(spec.seed));

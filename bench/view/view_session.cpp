@@ -103,6 +103,7 @@ std::unique_ptr<World> ViewSession::makeWorld(const ViewState& state, std::share
                      ? std::make_unique<World>(state.scene, std::make_unique<KeyboardControls>(std::move(input)),
                                                values, state.seed)
                      : std::make_unique<World>(state.scene, state.drive, values, state.seed);
+    world->useDust({state.dust, state.dustColumns, state.warmup, /*frames=*/0});
     aim(*world, state);
     return world;
 }

@@ -65,6 +65,8 @@ RunSpec runOf(const ViewState& state, Half which) {
     spec.scene = state.scene;
     spec.drive = state.drive;
     spec.cameraPath = state.cameraPath;
+    spec.dust = state.dust;
+    spec.dustColumns = state.dustColumns;
     spec.parameters = canonicalParameters(method, together(state.world, shown.parameters));
     spec.frames = state.frame + 1;
     spec.warmup = state.warmup;

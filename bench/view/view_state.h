@@ -31,7 +31,9 @@ struct ViewState {
     std::string scene = "plain";
     std::string drive;       ///< a name, a file or keyboardDrive; empty: the scene's own
     std::string cameraPath;  ///< file or rows (camera_path.h); empty: the camera of the world's parameters
-    ParameterTexts world;    ///< parameters of the world that are set
+    std::string dust;        ///< file of particles; empty: the scene's dust
+    std::string dustColumns;
+    ParameterTexts world;  ///< parameters of the world that are set
     std::uint64_t seed = 1;
     ImageSize size;
     int threads = 0;          ///< 0: one per core

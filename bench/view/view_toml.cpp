@@ -77,6 +77,8 @@ std::string toToml(const ViewState& state) {
     std::string text = fmt::format("scene = {}\n", tomlText(state.scene));
     if (!state.drive.empty()) text += fmt::format("drive = {}\n", tomlText(state.drive));
     if (!state.cameraPath.empty()) text += fmt::format("camera_path = {}\n", tomlText(state.cameraPath));
+    if (!state.dust.empty()) text += fmt::format("dust = {}\n", tomlText(state.dust));
+    if (!state.dustColumns.empty()) text += fmt::format("dust_columns = {}\n", tomlText(state.dustColumns));
     text += fmt::format("seed = {}\nsize = \"{}x{}\"\nthreads = {}\nwarmup = {}\nframe = {}\n", state.seed,
                         state.size.width, state.size.height, state.threads, state.warmup, state.frame);
     text += tableOf("world", state.world) + halfText("a", state.a);
@@ -90,6 +92,8 @@ ViewState stateOfToml(std::string_view text, const std::string& name) {
     state.scene = root.text("scene", state.scene);
     state.drive = root.text("drive", "");
     state.cameraPath = root.text("camera_path", "");
+    state.dust = root.text("dust", "");
+    state.dustColumns = root.text("dust_columns", "");
     state.seed = static_cast<std::uint64_t>(root.integer("seed", 0, maximumInteger, 1));
     const std::string size = root.text("size", "640x480");
     state.threads = static_cast<int>(root.integer("threads", 0, 1024, 0));

@@ -8,6 +8,7 @@
 
 #include "bench/export/vdb_writer.h"
 #include "bench/export/vti_writer.h"
+#include "bench/export/vtp_writer.h"
 #include "bench/report/page.h"
 #include "bench/report/report_reader.h"
 #include "bench/results/run_record.h"
@@ -15,6 +16,7 @@
 #include "bench/results/summary.h"
 #include "bench/scene/camera_path.h"
 #include "bench/scene/drive.h"
+#include "bench/scene/dust_series.h"
 #include "bench/scene/height_image.h"
 #include "bench/scene/relief_file.h"
 #include "bench/scene/scene_file.h"
@@ -229,6 +231,38 @@ TEST(Fuzz, VolumesOfOpenVdb) {
         "small.vdb", bytesOf(folder.path() / "small.vdb"),
         [](const fs::path& file) { (void)volumes::readVectors(file, "velocity"); }, fs::temp_directory_path(),
         std::max(cases() / 10, 1));
+}
+
+/// An index is mutated beside the file that it names.
+TEST(Fuzz, DustFromFiles) {
+    const TestFolder folder;
+    const auto read = [](const fs::path& file) { (void)bench::DustSeries::read(file, ""); };
+    const std::vector<float> numbers{0.25f, 0.5f, 0.75f};
+    const std::vector<std::uint64_t> serials{3, 4, 9};
+    Puffs dust;
+    dust.serial = serials;
+    for (auto* column : {&dust.x, &dust.y, &dust.z, &dust.velocityX, &dust.velocityY, &dust.velocityZ, &dust.age,
+                         &dust.lifetime, &dust.radius, &dust.opacity})
+        *column = numbers;
+    bench::writeVtp(dust, 1.5, folder.path() / "one.vtp");
+    const std::string whole = bytesOf(folder.path() / "one.vtp");
+    expectSound("dust.vtp", whole, read);
+    expectSound("dust_text.vtp",
+                "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"2\"><PointData>\n<DataArray "
+                "type=\"Float64\" Name=\"R\">1 2</DataArray>\n<DataArray type=\"Float32\" Name=\"alpha\">0.5 1"
+                "</DataArray></PointData>\n<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\">1 2 3 4 5 6"
+                "</DataArray></Points></Piece></PolyData></VTKFile>\n",
+                read);
+    expectSound("table.csv", "time_s,id,x,y,z,radius,opacity\n0,1,0,0,0,1,0.2\n0,2,1,0,0,1,0.2\n1,2,1,3,0,2,0.2\n",
+                read);
+    expectSound("list.pvd",
+                "<VTKFile type=\"Collection\"><Collection>\n<DataSet timestep=\"0\" part=\"0\" file=\"one.vtp\"/>\n"
+                "</Collection></VTKFile>\n",
+                read, folder.path());
+    expectSound("list.series", R"({"file-series-version": "1.0", "files": [{"name": "one.vtp", "time": 0}]})", read,
+                folder.path());
+    expectSound("columns.toml", "position = [\"x\", \"y\", \"z\"]\nscale = 0.5\nradius = \"R\"\nup = \"z\"\n",
+                [](const fs::path& file) { (void)bench::DustColumns::parse(file.string()); });
 }
 
 TEST(Fuzz, Suites) {

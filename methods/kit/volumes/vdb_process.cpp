@@ -11,8 +11,11 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "methods/contract/errors.h"
 #include "methods/kit/files/limits.h"
 #include "methods/kit/files/loaded_library.h"
+#include "methods/kit/files/printable.h"
+#include "methods/kit/files/whole_text.h"
 #include "methods/kit/volumes/vdb_message.h"
 
 namespace dustbench::volumes {
@@ -20,6 +23,8 @@ namespace {
 
 constexpr const char* notWhole = "not a whole file of OpenVDB";
 constexpr std::uint64_t maximumReason = 1'000;
+constexpr std::int32_t maximumColumns = 1'000;
+constexpr const char* pointsMode = "--points";  ///< instead of a field
 
 [[noreturn]] void fail(int error) {
     throw std::runtime_error(std::string("cannot start ") + vdbReaderName +
@@ -71,6 +76,7 @@ class Reader {
     int spawn(const std::filesystem::path& file, const std::string& field, int output) {
         const std::string program = files::besideKit(vdbReaderName);
         std::string name = std::filesystem::absolute(file), argument = field, self = vdbReaderName;
+        if (field == pointsMode) std::swap(name, argument);
         std::array<char*, 4> argv{self.data(), name.data(), argument.data(), nullptr};
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
@@ -91,14 +97,37 @@ std::string readReason(Reader& reader, std::uint64_t bytes) {
 }
 
 /// Memory grows with what arrives.
-bool readValues(Reader& reader, std::size_t count, std::vector<glm::vec3>& values) {
+template <typename Value>
+bool readValues(Reader& reader, std::size_t count, std::vector<Value>& values) {
     constexpr std::size_t atOnce = 1 << 20;
     while (values.size() < count) {
         const std::size_t first = values.size();
         values.resize(std::min(count, first + atOnce));
-        if (!reader.read(&values[first], (values.size() - first) * sizeof(glm::vec3))) return false;
+        if (!reader.read(&values[first], (values.size() - first) * sizeof(Value))) return false;
     }
     return true;
+}
+
+/// The reason why there are no points, or an empty text.
+std::string readTable(Reader& reader, const WantsColumn& wants, PointTable& table) {
+    VdbMessage message;
+    if (!reader.read(&message, sizeof message)) return notWhole;
+    if (message.reasonBytes > 0) return readReason(reader, message.reasonBytes);
+    if (message.points > static_cast<std::uint64_t>(files::limits::dustParticles) || message.columns < 1 ||
+        message.columns > maximumColumns)
+        return notWhole;
+    table.points = static_cast<std::size_t>(message.points);
+    if (message.hasTime) table.timeSeconds = message.timeSeconds;
+    for (std::int32_t i = 0; i < message.columns; ++i) {
+        VdbColumn header;
+        if (!reader.read(&header, sizeof header) || (header.components != 1 && header.components != 3)) return notWhole;
+        header.name[sizeof header.name - 1] = 0;
+        PointColumn& column = table.columns.emplace_back(PointColumn{header.name, header.components, {}});
+        if (!readValues(reader, table.points * static_cast<std::size_t>(header.components), column.values))
+            return notWhole;
+        if (!wants(column.name)) column.values = {};
+    }
+    return reader.ended() ? "" : notWhole;
 }
 
 }  // namespace
@@ -120,6 +149,17 @@ std::string readVdb(const std::filesystem::path& file, const std::string& field,
     if (message.hasTime) grid.timeSeconds = message.timeSeconds;
     grid.sparse = true;
     return readValues(reader, static_cast<std::size_t>(count), grid.values) && reader.ended() ? "" : notWhole;
+}
+
+PointTable readVdbPoints(const std::filesystem::path& file, const WantsColumn& wants) {
+    std::string why = files::refusalOf(file, files::limits::geometryBytes);
+    PointTable table;
+    if (why.empty()) {
+        Reader reader(file, pointsMode);
+        why = readTable(reader, wants, table);
+    }
+    if (!why.empty()) throw InputError(file.string() + ": " + files::printable(why));
+    return table;
 }
 
 }  // namespace dustbench::volumes

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "methods/kit/volumes/point_table.h"
 #include "methods/kit/volumes/vector_grid.h"
 
 namespace dustbench::volumes {
@@ -14,5 +15,9 @@ namespace dustbench::volumes {
 /// A grid of vectors with the time from its metadata `time_s`. Empty if it was read, else the reason as one clause.
 /// Throws std::runtime_error if the program cannot be started.
 [[nodiscard]] std::string readVdb(const std::filesystem::path& file, const std::string& field, VectorGrid& grid);
+
+/// The one grid of points; its positions in the world are the column `Points`. Time as above. Throws InputError with
+/// the file and what is wrong, in one line.
+[[nodiscard]] DUSTBENCH_API PointTable readVdbPoints(const std::filesystem::path& file, const WantsColumn& wants);
 
 }  // namespace dustbench::volumes

@@ -1,9 +1,12 @@
-// The program dustbench_vdb_reader: reads a field of vectors from a `.vdb` and writes it to its standard output
-// (vdb_message.h). It is a process of its own, so that a damaged file ends no other.
+// The program dustbench_vdb_reader: reads a field of vectors, or points, from a `.vdb` and writes it to its standard
+// output (vdb_message.h). It is a process of its own, so that a damaged file ends no other.
 //
 //     dustbench_vdb_reader FILE FIELD
+//     dustbench_vdb_reader --points FILE
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
+#include <openvdb/points/PointCount.h>
+#include <openvdb/points/PointDataGrid.h>
 #include <openvdb/tools/Dense.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -13,6 +16,8 @@
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #ifdef __SANITIZE_THREAD__
 #include <tbb/global_control.h>
@@ -103,6 +108,128 @@ VdbMessage messageOf(const openvdb::Vec3SGrid& grid, const openvdb::CoordBBox& b
     write(message, reason.data(), reason.size());
 }
 
+// Points.
+
+using openvdb::points::PointDataGrid;
+using openvdb::points::PointDataTree;
+
+struct Column {
+    std::string name;
+    int components = 1;
+    std::vector<double> values;
+};
+
+template <typename Number>
+void append(const openvdb::points::AttributeArray& array, const PointDataTree::LeafNodeType& leaf, Column& column) {
+    const openvdb::points::AttributeHandle<Number> handle(array);
+    for (auto index = leaf.beginIndexOn(); index; ++index)
+        if constexpr (openvdb::VecTraits<Number>::IsVec)
+            for (int i = 0; i < 3; ++i) column.values.push_back(static_cast<double>(handle.get(*index)[i]));
+        else
+            column.values.push_back(static_cast<double>(handle.get(*index)));
+}
+
+/// False for a type that is no number.
+bool appendAttribute(const openvdb::points::AttributeArray& array, const PointDataTree::LeafNodeType& leaf,
+                     Column& column) {
+    const std::string type = array.valueType();
+    column.components = type.starts_with("vec3") ? 3 : 1;
+    if (type == "float")
+        append<float>(array, leaf, column);
+    else if (type == "double")
+        append<double>(array, leaf, column);
+    else if (type == "int16")
+        append<int16_t>(array, leaf, column);
+    else if (type == "int32")
+        append<int32_t>(array, leaf, column);
+    else if (type == "int64")
+        append<int64_t>(array, leaf, column);
+    else if (type == "vec3s")
+        append<openvdb::Vec3s>(array, leaf, column);
+    else if (type == "vec3d")
+        append<openvdb::Vec3d>(array, leaf, column);
+    else if (type == "vec3i")
+        append<openvdb::Vec3i>(array, leaf, column);
+    else
+        return false;
+    return true;
+}
+
+PointDataGrid::Ptr readPointGrid(const std::string& file, double& timeSeconds, bool& hasTime) {
+    std::ifstream stream(file, std::ios::binary);
+    stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+    openvdb::io::Stream stored(stream, /*delayLoad=*/false);
+    PointDataGrid::Ptr points;
+    for (const openvdb::GridBase::Ptr& each : *stored.getGrids()) {
+        const auto found = openvdb::gridPtrCast<PointDataGrid>(each);
+        if (found && points) throw Refusal{"it has more than one grid of points"};
+        if (found) points = found;
+    }
+    if (!points) throw Refusal{"it has no grid of points"};
+    if (const auto time = points->getMetadata<openvdb::DoubleMetadata>("time_s")) {
+        timeSeconds = time->value();
+        hasTime = true;
+    }
+    return points;
+}
+
+std::vector<Column> columnsOf(const PointDataGrid& grid) {
+    std::vector<Column> columns{{"Points", 3, {}}};
+    const auto first = grid.tree().cbeginLeaf();
+    if (!first) return columns;
+    const openvdb::points::AttributeSet::Descriptor& names = first->attributeSet().descriptor();
+    std::vector<std::pair<std::size_t, std::size_t>> places;  // attribute, column
+    for (const auto& [name, place] : names.map()) {
+        const openvdb::points::AttributeArray& array = first->constAttributeArray(place);
+        Column column{name, 1, {}};
+        if (openvdb::points::isGroup(array) || array.stride() != 1 || !appendAttribute(array, *first, column)) continue;
+        column.values.clear();
+        places.emplace_back(place, columns.size());
+        columns.push_back(std::move(column));
+    }
+    const std::size_t position = names.find("P");
+    if (position == openvdb::points::AttributeSet::INVALID_POS) throw Refusal{"its points have no positions"};
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+        if (leaf->attributeSet().descriptor() != names) throw Refusal{"its leaves have different attributes"};
+        const openvdb::points::AttributeHandle<openvdb::Vec3f> within(leaf->constAttributeArray(position));
+        for (auto index = leaf->beginIndexOn(); index; ++index) {
+            const openvdb::Vec3d place =
+                grid.indexToWorld(openvdb::Vec3d(within.get(*index)) + index.getCoord().asVec3d());
+            for (int i = 0; i < 3; ++i) columns[0].values.push_back(place[i]);
+        }
+        for (const auto& [place, column] : places)
+            if (!appendAttribute(leaf->constAttributeArray(place), *leaf, columns[column]))
+                throw Refusal{"its leaves have different attributes"};
+    }
+    return columns;
+}
+
+[[noreturn]] void runPoints(const std::string& file) {
+    double timeSeconds = 0;
+    bool hasTime = false;
+    const PointDataGrid::Ptr grid = readPointGrid(file, timeSeconds, hasTime);
+    const openvdb::Index64 count = openvdb::points::pointCount(grid->tree());
+    if (count > static_cast<openvdb::Index64>(files::limits::dustParticles))
+        throw Refusal{"it has more than 10 million particles"};
+    const std::vector<Column> columns = columnsOf(*grid);
+    VdbMessage message;
+    message.points = columns[0].values.size() / 3;
+    message.columns = static_cast<std::int32_t>(columns.size());
+    message.hasTime = hasTime ? 1 : 0;
+    message.timeSeconds = timeSeconds;
+    std::string bytes;
+    for (const Column& column : columns) {
+        if (column.values.size() != message.points * static_cast<std::size_t>(column.components))
+            throw Refusal{"an attribute has not a value for each point"};
+        VdbColumn header;
+        column.name.copy(header.name, sizeof header.name - 1);
+        header.components = column.components;
+        bytes.append(reinterpret_cast<const char*>(&header), sizeof header);
+        bytes.append(reinterpret_cast<const char*>(column.values.data()), column.values.size() * sizeof(double));
+    }
+    write(message, bytes.data(), bytes.size());
+}
+
 [[noreturn]] void run(const std::string& file, const std::string& field) {
 #ifdef __SANITIZE_THREAD__
     // ThreadSanitizer cannot see into an uninstrumented oneTBB.
@@ -110,6 +237,7 @@ VdbMessage messageOf(const openvdb::Vec3SGrid& grid, const openvdb::CoordBBox& b
 #endif
     try {
         openvdb::initialize();
+        if (file == "--points") runPoints(field);
         const openvdb::Vec3SGrid::Ptr grid = readGrid(file, field);
         Dense dense(boxOf(*grid));
         openvdb::tools::copyToDense(*grid, dense);

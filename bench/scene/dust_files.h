@@ -1,0 +1,25 @@
+// Reads the moments of dust that a path stands for: one file of particles, a series (`.pvd`, `.series`) or a table with
+// a column of times.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/scene/dust_moment.h"
+
+namespace dustbench::bench {
+
+struct DustFiles {
+    std::vector<DustMoment> moments;           ///< in the order of the series
+    std::vector<std::filesystem::path> files;  ///< all that were read, the series first
+};
+
+/// `.vtp`, `.vdb`, `.csv`, `.pvd`, `.series`; or several of the first three by a `*` in the file's name. Throws
+/// InputError, one line with the file.
+[[nodiscard]] DustFiles readDustFiles(const std::filesystem::path& path, const DustColumns& columns);
+
+/// What the moments take in memory. Throws InputError if it is more than files::limits::dustBytes.
+void requireDustFits(double particles, const std::filesystem::path& path);
+
+}  // namespace dustbench::bench

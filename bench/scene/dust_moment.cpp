@@ -1,0 +1,141 @@
+#include "bench/scene/dust_moment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "methods/contract/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr double maximumPlace = 1e6, maximumSpeed = 1e5, maximumRadius = 1e4, maximumAge = 1e6, maximumColour = 1e4;
+constexpr double maximumId = 9007199254740992.0;  // 2^53: beyond it a double has no longer every whole number
+/// As every other particle of the harness: full opacity would be an infinite depth.
+constexpr double maximumOpacity = 0.999;
+constexpr double smallest = std::numeric_limits<float>::min();
+
+/// Goes through the particles of one quantity.
+class Reader {
+ public:
+    Reader(const volumes::PointTable& table, const DustColumns& columns, const std::string& file)
+        : table_(table), columns_(columns), file_(file) {}
+
+    [[nodiscard]] std::optional<ColumnNumbers> find(std::string_view key) const {
+        return columns_.find(table_, key, file_);
+    }
+
+    [[nodiscard]] double checked(const ColumnNumbers& numbers, std::size_t point, std::size_t part, double minimum,
+                                 double maximum) const {
+        const double value = numbers.at(point, part);
+        if (!(value >= minimum && value <= maximum))  // a NaN is not either
+            throw InputError(fmt::format("{}: particle {}: {} is {}, allowed: {}..{}", file_, point, numbers.name,
+                                         value, minimum, maximum));
+        return value;
+    }
+
+    void read(const ColumnNumbers& numbers, std::size_t part, double minimum, double maximum, double factor,
+              std::vector<float>& to) const {
+        to.resize(table_.points);
+        for (std::size_t i = 0; i < table_.points; ++i)
+            to[i] = static_cast<float>(checked(numbers, i, part, minimum, maximum) * factor);
+    }
+
+    /// A vector's components; from a file with +Z up (x, y, z) becomes (x, z, −y).
+    void readVector(const ColumnNumbers& numbers, double limit, double factor, std::vector<float>& x,
+                    std::vector<float>& y, std::vector<float>& z) const {
+        const bool turned = columns_.zUp();
+        read(numbers, 0, -limit, limit, factor, x);
+        read(numbers, turned ? 2 : 1, -limit, limit, factor, y);
+        read(numbers, turned ? 1 : 2, -limit, limit, turned ? -factor : factor, z);
+    }
+
+    [[noreturn]] void failMissing(std::string_view what, std::string_view hint) const {
+        std::string has;
+        for (const volumes::PointColumn& column : table_.columns) has += (has.empty() ? "" : ", ") + column.name;
+        throw InputError(fmt::format("{}: no column for {}; it has: {} (--dust-columns {})", file_, what, has, hint));
+    }
+
+ private:
+    const volumes::PointTable& table_;
+    const DustColumns& columns_;
+    const std::string& file_;
+};
+
+void readIds(const ColumnNumbers& numbers, const Reader& reader, DustMoment& moment) {
+    moment.hasIds = true;
+    for (std::size_t i = 0; i < moment.size(); ++i) {
+        const double id = reader.checked(numbers, i, 0, 0, maximumId);
+        if (id != std::floor(id))
+            throw InputError(
+                fmt::format("{}: particle {}: {} is {}, allowed: whole numbers", moment.file, i, numbers.name, id));
+        moment.id[i] = static_cast<std::uint64_t>(id);
+    }
+    std::vector<std::uint64_t> sorted = moment.id;
+    std::ranges::sort(sorted);
+    if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
+        throw InputError(fmt::format("{}: {}: {} is there twice, expected an id for each particle", moment.file,
+                                     numbers.name, *twice));
+}
+
+/// Depth τ of a puff of mass m: m / (2π s²), s = r/2; α = 1 − exp(−τ).
+void opacityFromMass(const ColumnNumbers& mass, const Reader& reader, DustMoment& moment) {
+    moment.opacity.resize(moment.size());
+    for (std::size_t i = 0; i < moment.size(); ++i) {
+        const double s = static_cast<double>(moment.radius[i]) / 2;
+        const double tau = reader.checked(mass, i, 0, 0, 1e12) / (2 * std::numbers::pi * s * s);
+        moment.opacity[i] = static_cast<float>(std::min(-std::expm1(-tau), maximumOpacity));
+    }
+}
+
+}  // namespace
+
+DustMoment dustMoment(const volumes::PointTable& table, const DustColumns& columns, const std::string& file) {
+    const Reader reader(table, columns, file);
+    const double scale = columns.metresPerUnit();
+    DustMoment moment;
+    moment.file = file;
+    moment.timeSeconds = table.timeSeconds;
+    moment.id.resize(table.points);
+    for (std::size_t i = 0; i < table.points; ++i) moment.id[i] = i;
+
+    const auto position = reader.find("position");
+    if (!position) reader.failMissing("position", "position=NAME or position=A+B+C");
+    reader.readVector(*position, maximumPlace / scale, scale, moment.x, moment.y, moment.z);
+    const auto radius = reader.find("radius");
+    if (!radius) reader.failMissing("radius", "radius=NAME, or radius=0.5 for all");
+    reader.read(*radius, 0, smallest / std::min(scale, 1.0), maximumRadius / scale, scale, moment.radius);
+    if (const auto opacity = reader.find("opacity")) {
+        reader.read(*opacity, 0, 0, 1, 1, moment.opacity);
+        for (float& each : moment.opacity) each = std::min(each, static_cast<float>(maximumOpacity));
+    } else if (const auto mass = reader.find("mass")) {
+        opacityFromMass(*mass, reader, moment);
+    } else {
+        reader.failMissing("opacity or mass", "opacity=NAME, mass=NAME, or opacity=0.1 for all");
+    }
+    if (const auto ids = reader.find("id")) readIds(*ids, reader, moment);
+
+    if (const auto velocity = reader.find("velocity")) {
+        moment.hasVelocity = true;
+        reader.readVector(*velocity, maximumSpeed / scale, scale, moment.velocityX, moment.velocityY, moment.velocityZ);
+    }
+    if (const auto age = reader.find("age")) {
+        moment.hasAge = true;
+        reader.read(*age, 0, 0, maximumAge, 1, moment.age);
+    }
+    if (const auto lifetime = reader.find("lifetime")) {
+        moment.hasLifetime = true;
+        reader.read(*lifetime, 0, smallest, maximumAge, 1, moment.lifetime);
+    }
+    if (const auto colour = reader.find("colour")) {
+        moment.hasColour = true;
+        std::vector<float>* const channels[]{&moment.red, &moment.green, &moment.blue};
+        for (std::size_t i = 0; i < 3; ++i) reader.read(*colour, i, 0, maximumColour, 1, *channels[i]);
+    }
+    return moment;
+}
+
+}  // namespace dustbench::bench

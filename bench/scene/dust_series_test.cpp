@@ -1,0 +1,159 @@
+#include "bench/scene/dust_series.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "methods/kit/testing/test_folder.h"
+
+namespace dustbench::bench {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class DustSeriesFile : public testing::Test {
+ protected:
+    [[nodiscard]] DustSeries read(const std::string& csv, const std::string& columns = "") const {
+        return DustSeries::read(folder_.write("dust.csv", csv), columns);
+    }
+    [[nodiscard]] std::string refusal(const std::string& csv, const std::string& columns = "") const {
+        return inputError([&] { (void)read(csv, columns); });
+    }
+    [[nodiscard]] Puffs at(const DustSeries& series, double seconds) {
+        series.show(seconds, store_);
+        return store_;
+    }
+
+    TestFolder folder_;
+    MemoryLedger ledger_;
+    particles::ParticleStore store_{ledger_};
+};
+
+constexpr const char* header = "time_s,id,x,y,z,radius,opacity\n";
+
+TEST_F(DustSeriesFile, MovesInAStraightLineBetweenTwoMomentsByIdNotByRow) {
+    const DustSeries series =
+        read(std::string(header) + "5,1,0,0,0,1,0.2\n5,2,10,0,0,1,0.2\n" + "7,2,14,0,0,2,0.4\n7,1,0,8,0,1,0.2\n");
+    EXPECT_DOUBLE_EQ(series.seconds(), 2);
+    const Puffs dust = at(series, 0.5);
+    EXPECT_THAT(std::vector<std::uint64_t>(dust.serial.begin(), dust.serial.end()), ElementsAre(1, 2));
+    EXPECT_EQ(dust.position(0), glm::vec3(0, 2, 0));
+    EXPECT_EQ(dust.position(1), glm::vec3(11, 0, 0));
+    EXPECT_FLOAT_EQ(dust.radius[1], 1.25f);
+    EXPECT_FLOAT_EQ(dust.opacity[1], 0.25f);
+    EXPECT_FLOAT_EQ(dust.velocityX[1], 2);  // from its places
+    EXPECT_FLOAT_EQ(dust.age[0], 0.5f);
+    EXPECT_EQ(at(series, 2).position(1), glm::vec3(0, 8, 0));
+}
+
+TEST_F(DustSeriesFile, BirthsAndDeathsHappenAtTheMomentsOfTheFiles) {
+    const DustSeries series = read(
+        "time_s,id,x,y,z,radius,opacity,vx,vy,vz\n0,1,0,0,0,1,0.2,3,0,0\n0,2,5,0,0,1,0.2,0,0,0\n"
+        "1,2,5,0,0,1,0.2,0,0,0\n1,9,7,0,0,1,0.2,0,0,0\n");
+    EXPECT_EQ(series.births(), 1u);
+    EXPECT_EQ(series.deaths(), 1u);
+    const Puffs dying = at(series, 0.5);
+    ASSERT_EQ(dying.size(), 2u);
+    EXPECT_EQ(dying.position(0), glm::vec3(1.5, 0, 0));
+    const Puffs born = at(series, 1);
+    EXPECT_THAT(std::vector<std::uint64_t>(born.serial.begin(), born.serial.end()), ElementsAre(2, 9));
+}
+
+TEST_F(DustSeriesFile, RoundedTimesAreTheMomentsThatTheyMean) {
+    const DustSeries series =
+        read(std::string(header) + "0,1,0,0,0,1,0.2\n0.0166667,1,0.1,0,0,1,0.2\n" + "0.0333333,1,0.7,0,0,1,0.2\n");
+    EXPECT_EQ(at(series, 1 / 60.0).x[0], 0.1f);
+    EXPECT_EQ(at(series, 2 / 60.0).x[0], 0.7f);
+}
+
+TEST_F(DustSeriesFile, OneMomentIsAStillCloudAndHoldsBeforeAndAfter) {
+    const DustSeries series = read("x,y,z,radius,opacity\n1,2,3,0.5,0.1\n");
+    EXPECT_TRUE(series.isStill());
+    EXPECT_EQ(at(series, 99).position(0), glm::vec3(1, 2, 3));
+}
+
+TEST_F(DustSeriesFile, MassGivesTheOpacityOfTheSameDepth) {
+    const DustSeries series = read("x,y,z,radius,mass\n0,0,0,2,3\n");
+    EXPECT_NEAR(at(series, 0).opacity[0], 1 - std::exp(-3 / (2 * 3.14159265358979)), 1e-7);
+}
+
+TEST_F(DustSeriesFile, TakesNamesNumbersUnitsAndTheUpwardAxis) {
+    const DustSeries series =
+        read("px,py,pz,R,tau\n100,200,300,50,0\n", "position=px+py+pz,radius=R,opacity=0.25,scale=0.01,up=z");
+    const Puffs dust = at(series, 0);
+    EXPECT_EQ(dust.position(0), glm::vec3(1, 3, -2));
+    EXPECT_FLOAT_EQ(dust.radius[0], 0.5f);
+    EXPECT_FLOAT_EQ(dust.opacity[0], 0.25f);
+    const auto toml = folder_.write("columns.toml", "position = [\"px\", \"py\", \"pz\"]\nopacity = 0.5\n");
+    EXPECT_FLOAT_EQ(at(read("px,py,pz,R\n1,1,1,1\n", toml.string()), 0).opacity[0], 0.5f);
+}
+
+TEST_F(DustSeriesFile, EachFaultIsOneClearLine) {
+    EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,-1,0.1\n"), HasSubstr("particle 0: radius is -1, allowed"));
+    EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,nan,1,0.1\n"), HasSubstr("dust.csv:2"));
+    EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,1e300,1,0.1\n"), HasSubstr("is 1e+300, allowed"));
+    EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,1.5\n"), HasSubstr("opacity is 1.5, allowed: 0..1"));
+    EXPECT_THAT(refusal("x,y,radius,opacity\n1,2,1,1\n"), HasSubstr("no column for position; it has: x, y"));
+    EXPECT_THAT(refusal("x,y,z,opacity\n1,2,1,1\n"), HasSubstr("no column for radius"));
+    EXPECT_THAT(refusal("x,y,z,\"two\nlines\"\n1,2,1,1\n"), HasSubstr("no column for radius"));
+    EXPECT_THAT(refusal("x,y,z,radius\n1,2,1,1\n"), HasSubstr("no column for opacity or mass"));
+    EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,0.1\n", "radius=width"), HasSubstr("no column 'width'"));
+    EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,0.1\n", "radios=width"), HasSubstr("did you mean 'radius'"));
+    EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,0.1\n", "up=x"), HasSubstr("up: got 'x', allowed: y, z"));
+    EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,0.1\n", "scale"), HasSubstr("expected key=COLUMN"));
+    const std::string one = "0,1,0,0,0,1,0.2\n";
+    EXPECT_THAT(refusal(header + one + one), HasSubstr("id: 1 is there twice"));
+    EXPECT_THAT(refusal(header + std::string("0,1.5,0,0,0,1,0.2\n")), HasSubstr("id is 1.5, allowed: whole numbers"));
+    EXPECT_THAT(refusal(header + std::string("1,1,0,0,0,1,0.2\n") + one), HasSubstr("expected more than 1 s"));
+    EXPECT_THAT(refusal("time_s,x,y,z,radius,opacity\n0,1,1,1,1,0.1\n1,1,1,1,1,0.1\n1,1,1,1,1,0.1\n"),
+                HasSubstr("has 2 particles, expected 1"));
+}
+
+class DustIndex : public DustSeriesFile {
+ protected:
+    void SetUp() override {
+        folder_.write("a.csv", "x,y,z,radius,opacity\n1,2,3,1,0.1\n");
+        folder_.write("b.csv", "x,y,z,radius,opacity\n2,2,3,1,0.1\n");
+    }
+    [[nodiscard]] DustSeries index(const std::string& name, const std::string& text) const {
+        return DustSeries::read(folder_.write(name, text), "");
+    }
+    [[nodiscard]] std::string refusalOf(const std::string& name, const std::string& text) const {
+        return inputError([&] { (void)index(name, text); });
+    }
+};
+
+TEST_F(DustIndex, ReadsCollectionsAndFileSeries) {
+    const DustSeries pvd = index("d.pvd",
+                                 "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\"><Collection>\n<DataSet "
+                                 "timestep='2' part='0' file='a.csv'/>\n<DataSet timestep='4' file='b.csv'/>\n"
+                                 "</Collection></VTKFile>\n");
+    EXPECT_DOUBLE_EQ(pvd.seconds(), 2);
+    EXPECT_EQ(pvd.files().size(), 3u);
+    const DustSeries series = index("d.csv.series",
+                                    R"({"file-series-version": "1.0", "files": [{"name": "a.csv", "time": 0},
+                                        {"name": "b.csv", "time": 0.5}]})");
+    EXPECT_DOUBLE_EQ(series.seconds(), 0.5);
+    EXPECT_FLOAT_EQ(at(series, 0.25).x[0], 1.5f);
+}
+
+TEST_F(DustIndex, DamagedOnesAreRefused) {
+    EXPECT_THAT(refusalOf("d.series", "{\"files\": 3}"), HasSubstr("expected an object with an array 'files'"));
+    EXPECT_THAT(refusalOf("d.series", "{\"files\": [{\"name\": \"a.csv\"}]}"), HasSubstr("no time that is a number"));
+    EXPECT_THAT(refusalOf("d.series", "{\"files\": []}"), HasSubstr("names no files"));
+    EXPECT_THAT(refusalOf("d.series", "{\"files\": [{\"name\": \"gone.csv\", \"time\": 0}]}"), HasSubstr("gone.csv"));
+    EXPECT_THAT(refusalOf("d.pvd", "<VTKFile type=\"Collection\"><Collection>"), HasSubstr("ends within its XML"));
+    EXPECT_THAT(refusalOf("d.pvd", "<VTKFile type=\"PolyData\"></VTKFile>"), HasSubstr("it is no collection"));
+    EXPECT_THAT(refusalOf("d.series", R"({"files": [{"name": "a.csv", "time": 1}, {"name": "b.csv", "time": 1}]})"),
+                HasSubstr("expected more than 1 s"));
+    folder_.write("b.csv", "x,y,z,radius,opacity,age\n2,2,3,1,0.1,1\n");
+    EXPECT_THAT(refusalOf("d.series", R"({"files": [{"name": "a.csv", "time": 1}, {"name": "b.csv", "time": 2}]})"),
+                HasSubstr("has position, radius, opacity, age, expected position, radius, opacity as in"));
+    EXPECT_THAT(inputError([&] { (void)DustSeries::read(folder_.path() / "d.obj", ""); }),
+                HasSubstr("expected a file that ends in"));
+}
+
+}  // namespace
+}  // namespace dustbench::bench
