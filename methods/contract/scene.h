@@ -82,7 +82,7 @@ struct SceneState {
 [[nodiscard]] DUSTBENCH_API glm::dmat4 panelToWorld(const Panel& panel, const SceneState& state);
 
 /// The colour (linear RGB) that a cloud of dust shows: its albedo, lit by sky and sun from all sides.
-[[nodiscard]] glm::vec3 dustColour(const Scene& scene);
+[[nodiscard]] DUSTBENCH_API glm::vec3 dustColour(const Scene& scene);
 
 /// World poses of the vehicle's body and of its four wheels (order of `Wheel`).
 struct VehiclePoses {

@@ -31,7 +31,7 @@ struct Tag {
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
 /// Keeps views into the text. Members throw VolumeFault.
-class XmlScan {
+class DUSTBENCH_API XmlScan {
  public:
     explicit XmlScan(std::string_view text) : rest_(text) {}
 
