@@ -37,6 +37,7 @@ constexpr int frames = 2;
 const std::map<std::string, std::vector<std::string>> decidingValues{
     {"shadow_cells", {"0", "2"}},
     {"vorticity", {"0", "2"}},
+    {"scheme", {"ours"}},  // the demo needs a box that stands still: below
     {"at",
      {"0s:render.part=points", "0s:render.part=points;0s:render.round=on",
       "0s:render.part=points;0s:render.blend=alpha", "0s:render.part=lines",
@@ -69,6 +70,7 @@ const std::vector<Product> products{
     {"relief", {}, {"march", "shadow"}},
     {"relief", {}, {"state"}},
     {"octree_recursive", {}, {"render", "crossfade"}, true},
+    {"grid_fluid", {{"scheme", "demo"}, {"fluid", "fire"}, {"solver", "opengl"}, {"backend", "gl"}}, {}},
     {"octree_search", {}, {"render", "crossfade"}, true},
     {"voxel_shape", {}, {"render", "blend"}},
     {"exact_tiles", {}, {}, true},

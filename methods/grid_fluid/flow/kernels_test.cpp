@@ -153,6 +153,7 @@ struct SlowForces {
     /// The 27 cells around a cell and itself.
     static std::vector<glm::ivec3> around() {
         std::vector<glm::ivec3> all;
+        all.reserve(27);
         for (int n = 0; n < 27; ++n) all.emplace_back(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
         return all;
     }
