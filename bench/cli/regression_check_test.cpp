@@ -96,24 +96,25 @@ TEST_F(CompareFolders, AnAlertIsMeasuredAgainAndStandsOnlyIfItAlertsAgain) {
         }
     };
     pretend("b", 1e5);
-    const Called chance =
-        compare("b", fmt::format("--fail-on-regression 2000 --out '{0}/c' --markdown '{0}/c.md'", folder_.string()));
+    const Called chance = compare(
+        "b", fmt::format("--fail-on-regression 2000 --out '{0}/c' --markdown '{0}/told.txt'", folder_.string()));
     EXPECT_EQ(chance.code, 0) << chance.err;
     EXPECT_THAT(chance.err, AllOf(HasSubstr("not confirmed: frame_ms_median: null_method particles=10 takes "),
                                   HasSubstr("measured again, it takes "), testing::Not(HasSubstr("regression: "))));
     EXPECT_EQ(runs((folder_ / "c" / "again").string()).size(), 12u);
     std::stringstream markdown;
-    markdown << std::ifstream(folder_ / "c.md").rdbuf();
+    markdown << std::ifstream(folder_ / "told.txt").rdbuf();
     EXPECT_THAT(markdown.str(), testing::StartsWith("**0 of 3 comparisons are slower.** B is "));
 
     pretend("a", 1e-4);
-    const Called real = compare("b", fmt::format("--fail-on-regression 2000 --markdown '{}/c.md'", folder_.string()));
+    const Called real =
+        compare("b", fmt::format("--fail-on-regression 2000 --markdown '{}/told.txt'", folder_.string()));
     EXPECT_EQ(real.code, 5) << real.err;
     EXPECT_THAT(real.err, AllOf(HasSubstr("regression: frame_ms_median: null_method particles=10 takes "),
                                 HasSubstr("regression: frame_ms_median: all cells together takes "),
                                 HasSubstr("measured again, it takes "), testing::Not(HasSubstr("not confirmed"))));
     markdown.str("");
-    markdown << std::ifstream(folder_ / "c.md").rdbuf();
+    markdown << std::ifstream(folder_ / "told.txt").rdbuf();
     EXPECT_THAT(markdown.str(), AllOf(testing::StartsWith("**3 of 3 comparisons are slower.** B is "),
                                       HasSubstr("\n| column | method | particles |"), HasSubstr("<details>")));
 }

@@ -101,9 +101,10 @@ TEST_F(Executor, RecordsWhatTheSuiteLeavesOutAndRunsItOnceTheSuiteWantsIt) {
 
 /// Waits until `count` runs are at work, or for 20 s, which fails.
 std::string meeting(const fs::path& place, int count) {
-    return fmt::format("touch {0}/$$; i=0; while [ $(ls {0} | wc -l) -lt {1} ]; do i=$((i+1)); [ $i -gt 2000 ] && exit 1; "
-                       "sleep 0.01; done; ",
-                       place.string(), count);
+    return fmt::format(
+        "touch {0}/$$; i=0; while [ $(ls {0} | wc -l) -lt {1} ]; do i=$((i+1)); [ $i -gt 2000 ] && exit 1; "
+        "sleep 0.01; done; ",
+        place.string(), count);
 }
 
 TEST_F(Executor, RunsSeveralAtATimeIfAsked) {
@@ -120,10 +121,10 @@ TEST_F(Executor, RunsSeveralAtATimeIfAsked) {
 TEST_F(Executor, OfSeveralAtATimeOneFaultOfTheMachineStopsAllAndLeavesNothingHalfDone) {
     fs::create_directory(folder_ / "there");
     // One of three gives up once all three are there; the others would go on for ever.
-    ExecutionOptions options =
-        shell(meeting(folder_ / "there", 3) +
-              fmt::format("mkdir {0} 2>/dev/null && {{ echo 'dustbench: aborted: no more ink' >&2; exit 2; }}; sleep 600",
-                          (folder_ / "first").string()));
+    ExecutionOptions options = shell(
+        meeting(folder_ / "there", 3) +
+        fmt::format("mkdir {0} 2>/dev/null && {{ echo 'dustbench: aborted: no more ink' >&2; exit 2; }}; sleep 600",
+                    (folder_ / "first").string()));
     options.simultaneous = 3;
     EXPECT_THROW((void)runAll(options), files::MachineError);
     EXPECT_TRUE(entries().empty());

@@ -280,9 +280,10 @@ RunSpec inRepetition(RunSpec cell, int repetition) {
 std::vector<PlannedRun> planRuns(const Suite& cellsOnly) {
     requireFewEnough("suite", static_cast<double>(cellsOnly.cells.size()) * cellsOnly.repetitions);
     if (cellsOnly.repetitions > 1 && !cellsOnly.cells.empty() && !cellsOnly.cells.front().spec.timed)
-        throw InputError(fmt::format("repetitions: got {} of a suite with times = false, allowed: 1, because they differ "
-                                     "in times alone",
-                                     cellsOnly.repetitions));
+        throw InputError(
+            fmt::format("repetitions: got {} of a suite with times = false, allowed: 1, because they differ "
+                        "in times alone",
+                        cellsOnly.repetitions));
     const Suite suite = withBaselines(cellsOnly);
     std::vector<PlannedRun> plan;
     const auto add = [&plan](PlannedRun run, int repetition) {
