@@ -168,7 +168,7 @@ Json resolvedSpecObject(const RunSpec& spec, const std::string& drive) {
     Json object = specObject(spec);
     object["drive"] = drive;
     for (const char* name : {"camera_path", "dust", "dust_columns"})
-        if (object[name] == "") object[name] = nullptr;
+        if (object[name].get_ref<const std::string&>().empty()) object[name] = nullptr;
     object["parameters"] = parametersObject(spec.parameters);
     return object;
 }

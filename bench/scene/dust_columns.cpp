@@ -157,6 +157,7 @@ std::optional<ColumnNumbers> DustColumns::find(const volumes::PointTable& table,
     if (constant.parts.size() == quantity.parts && numbers.size() == quantity.parts && key != "id" && key != "time")
         return constant;
     std::vector<std::string> has;
+    has.reserve(table.columns.size());
     for (const volumes::PointColumn& column : table.columns)
         has.push_back(column.components == 1 ? column.name
                                              : fmt::format("{} ({} numbers)", column.name, column.components));
