@@ -7,6 +7,7 @@ MAKEFLAGS += --no-print-directory
 PAPER ?= carr2006
 METHOD ?= grid_fluid
 MINUTES ?= 10
+CASES ?= 100000
 INPUTS ?= 10000
 SEED ?= 17
 KILLS ?= 1000
@@ -84,6 +85,10 @@ fuzz: build/release/build.ninja build/asan/build.ninja ## Mutated files, command
 fuzz-guided: packages ## Our own readers under Clang's libFuzzer (MINUTES=10 for all six); findings in build/fuzz/guided
 	@.ci/install fuzz
 	@tests/fuzz/coverage/coverage_guided.sh $$(($(MINUTES) * 10)) build/fuzz/guided
+
+.PHONY: fuzz-volumes
+fuzz-volumes: packages ## Mutants of OpenVDB's files under the sanitizers (CASES=100000); findings in build/fuzz/volumes
+	@tests/fuzz/openvdb/vdb_mutants.sh $(CASES) build/fuzz/volumes
 
 .PHONY: bench
 bench: build/release/build.ninja ## Run every benchmark program

@@ -71,9 +71,13 @@ void writeSheet(const bench::Suite& suite, const bench::ResultsFolder& results) 
         std::cout << "no contact sheet: no run could be compared with exact pictures\n";
         return;
     }
-    const std::filesystem::path file = results.path() / "contact_sheet.png";
-    pictures::writeImage(bench::drawSheet(bench::sideBySideSheet(results, runs, suite.title)), file);
-    std::cout << file.string() << "\n";
+    const bench::ContactSheet sheet = bench::sideBySideSheet(results, runs, suite.title);
+    std::cout << bench::writeContactSheet(sheet, results.path()).string() << "\n";
+    try {
+        std::cout << bench::drawContactSheet(results.path()).string() << "\n";
+    } catch (const InputError& error) {
+        std::cout << "no contact_sheet.png: " << error.what() << "\n";
+    }
 }
 
 /// A method's name means the method; what follows its ':' may be the path of a file.

@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <map>
 #include <set>
-#include <sstream>
 #include <tuple>
 
 #include "bench/export/whole_file.h"
+#include "bench/report/drawing_program.h"
 #include "bench/report/report_files.h"
 #include "bench/report/report_json.h"
-#include "bench/run/child_process.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/machine_error.h"
 
@@ -21,22 +19,6 @@ namespace dustbench::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double longestSeconds = 120;
-
-fs::path findProgram(const std::string& name, const std::string& package) {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');)
-        if (fs::is_regular_file(fs::path(folder) / name)) return fs::path(folder) / name;
-    throw InputError(fmt::format(
-        "a chart as a file needs '{}', which is not installed; Debian has it in the package {}", name, package));
-}
-
-void call(const std::vector<std::string>& argv, const fs::path& log) {
-    const ChildOutcome outcome = runChild({argv, log, longestSeconds, [](std::string_view) {}, [] { return false; }});
-    if (!outcome.succeeded()) throw InputError(fmt::format("'{}' drew no chart: {}", argv.front(), outcome.reason()));
-}
 
 std::string withoutQuick(std::string id) {
     const std::string quick = "-quick";
@@ -104,16 +86,11 @@ fs::path writeChart(const fs::path& folder, const ReportData& data, const std::s
                                             "const reportData = {};\n{}",
                                             vegaScript(), chartScript(), reportFile("columns.json"),
                                             chartSpecifications(), reportJson(data), reportFile("chart_file.js")));
-    call({findProgram("node", "nodejs").string(), script.beside().string(), chart, svg.beside().string()},
-         log.beside());
-    if (format == "svg") {
+    callDrawingProgram({"node", script.beside().string(), chart, svg.beside().string()}, "nodejs", log.beside());
+    if (format == "svg")
         fs::rename(svg.beside(), drawn.beside());
-    } else {
-        std::vector<std::string> convert{findProgram("rsvg-convert", "librsvg2-bin").string(), "--format", format};
-        if (format == "png") convert.insert(convert.end(), {"--zoom", "2", "--background-color", "white"});
-        convert.insert(convert.end(), {"--output", drawn.beside().string(), svg.beside().string()});
-        call(convert, log.beside());
-    }
+    else
+        convertSvg(svg.beside(), format, 2, drawn.beside(), log.beside());
     drawn.publish();
     return place;
 }

@@ -8,8 +8,10 @@
 #include <optional>
 #include <stdexcept>
 
+#include "bench/export/whole_file.h"
 #include "bench/measure/image/flip.h"
 #include "bench/measure/image/heat_map.h"
+#include "bench/report/drawing_program.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
@@ -121,6 +123,20 @@ ContactSheet sideBySideSheet(const ResultsFolder& results, std::span<const Sheet
                 cells.push_back(SheetCell{heatMap(*picture.difference, 0, sheet.scale->maximum), ""});
     }
     return sheet;
+}
+
+fs::path writeContactSheet(const ContactSheet& sheet, const fs::path& folder) {
+    const fs::path file = folder / "contact_sheet.svg";
+    writeWhole(file, contactSheetSvg(sheet));
+    return file;
+}
+
+fs::path drawContactSheet(const fs::path& folder) {
+    const fs::path file = folder / "contact_sheet.png";
+    WholeFile drawn(file), log(file.string() + ".log");
+    convertSvg(folder / "contact_sheet.svg", "png", 1, drawn.beside(), log.beside());
+    drawn.publish();
+    return file;
 }
 
 }  // namespace dustbench::bench

@@ -4,11 +4,12 @@
 // A method with its own simulation has no exact picture: only its picture is shown.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "bench/report/sheet/contact_sheet.h"
+#include "bench/report/contact_sheet.h"
 #include "bench/results/results_folder.h"
 
 namespace dustbench::bench {
@@ -23,5 +24,10 @@ struct SheetRun {
 /// judged. Throws InputError if a picture is missing or cannot be read.
 [[nodiscard]] ContactSheet sideBySideSheet(const ResultsFolder& results, std::span<const SheetRun> runs,
                                            const std::string& title);
+
+/// Returns the file, `folder`/contact_sheet.svg.
+std::filesystem::path writeContactSheet(const ContactSheet& sheet, const std::filesystem::path& folder);
+/// `folder`/contact_sheet.png from the .svg. Throws InputError if rsvg-convert is not installed or fails.
+std::filesystem::path drawContactSheet(const std::filesystem::path& folder);
 
 }  // namespace dustbench::bench

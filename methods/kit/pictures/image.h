@@ -34,6 +34,9 @@ using maths::encodeSrgb;
 /// from .png if the whole image is opaque. Throws InputError if the file cannot be written.
 DUSTBENCH_API void writeImage(const Image& image, const std::filesystem::path& file);
 
+/// The bytes of the .png that writeImage() writes.
+[[nodiscard]] DUSTBENCH_API std::string encodedPng(const Image& image);
+
 /// Reads any image that OpenImageIO can read, converted to linear. Throws InputError with file and reason.
 [[nodiscard]] DUSTBENCH_API Image readImage(const std::filesystem::path& file);
 

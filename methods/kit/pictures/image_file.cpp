@@ -81,6 +81,15 @@ void writeImage(const Image& image, const fs::path& file) {
     if (error) fail(error.message(), error.value());
 }
 
+std::string encodedPng(const Image& image) {
+    std::string png;
+    const bool withAlpha = !isOpaque(image);
+    const std::string reason =
+        encodePng(image.width, image.height, withAlpha ? 4 : 3, encodedBytes(image, withAlpha), png);
+    if (!reason.empty()) throw InputError("cannot encode an image: " + reason);
+    return png;
+}
+
 Image readImage(const fs::path& file) {
     StoredPicture stored;
     if (const std::string reason = readPicture(file, stored); !reason.empty())

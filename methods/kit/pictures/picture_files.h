@@ -21,6 +21,9 @@ namespace dustbench::pictures {
 /// sRGB; four channels include straight alpha, else three.
 [[nodiscard]] std::string writePng(const std::filesystem::path& file, int width, int height, int channels,
                                    std::span<const std::uint8_t> bytes);
+/// The same as a file's bytes, in memory.
+[[nodiscard]] std::string encodePng(int width, int height, int channels, std::span<const std::uint8_t> bytes,
+                                    std::string& png);
 /// RGBA, linear, premultiplied.
 [[nodiscard]] std::string writeExr(const std::filesystem::path& file, int width, int height,
                                    std::span<const float> values);

@@ -23,14 +23,6 @@ struct StoredPicture {
     std::vector<float> values;     ///< pixel by pixel
 };
 
-/// Bounding box of a line of text, relative to the pen's start on the baseline; y points down.
-struct InkBox {
-    int left = 0, right = 0, top = 0, bottom = 0;
-
-    [[nodiscard]] int width() const { return right - left; }
-    [[nodiscard]] int height() const { return bottom - top; }
-};
-
 class PictureLibrary {
  public:
     virtual ~PictureLibrary() = default;
@@ -42,12 +34,6 @@ class PictureLibrary {
     [[nodiscard]] virtual std::string encodeJpeg(int width, int height, std::span<const std::uint8_t> rgb, int quality,
                                                  std::vector<std::uint8_t>& jpeg) const = 0;
 
-    /// False if the font is unavailable. Text without ink has an empty box.
-    [[nodiscard]] virtual bool findInk(const std::string& line, int pixels, const std::string& font,
-                                       InkBox& ink) const = 0;
-    /// Fraction of each pixel of `ink` that the line covers.
-    [[nodiscard]] virtual std::string drawText(const std::string& line, int pixels, const std::string& font,
-                                               const InkBox& ink, std::span<float> coverage) const = 0;
     /// RGBA, filtered with a Blackman–Harris window.
     [[nodiscard]] virtual std::string resize(std::span<const float> from, int fromWidth, int fromHeight,
                                              std::span<float> to, int width, int height) const = 0;

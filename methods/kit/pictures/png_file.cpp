@@ -77,13 +77,34 @@ std::string readPictureSize(const std::filesystem::path& file, StoredPicture& pi
     return "";
 }
 
-std::string writePng(const std::filesystem::path& file, int width, int height, int channels,
-                     std::span<const std::uint8_t> bytes) {
-    PngImage image;
+namespace {
+
+void describe(PngImage& image, int width, int height, int channels) {
     image->width = static_cast<png_uint_32>(width);
     image->height = static_cast<png_uint_32>(height);
     image->format = channels == 4 ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+}
+
+}  // namespace
+
+std::string writePng(const std::filesystem::path& file, int width, int height, int channels,
+                     std::span<const std::uint8_t> bytes) {
+    PngImage image;
+    describe(image, width, height, channels);
     return png_image_write_to_file(image.get(), file.c_str(), 0, bytes.data(), 0, nullptr) != 0 ? "" : image.message();
+}
+
+std::string encodePng(int width, int height, int channels, std::span<const std::uint8_t> bytes, std::string& png) {
+    PngImage image;
+    describe(image, width, height, channels);
+    png_alloc_size_t size = 0;  // asked for first: the whole is encoded twice
+    if (png_image_write_to_memory(image.get(), nullptr, &size, 0, bytes.data(), 0, nullptr) == 0)
+        return image.message();
+    png.resize(size);
+    describe(image, width, height, channels);
+    return png_image_write_to_memory(image.get(), png.data(), &size, 0, bytes.data(), 0, nullptr) != 0
+               ? ""
+               : image.message();
 }
 
 }  // namespace dustbench::pictures

@@ -76,23 +76,6 @@ class OpenImageIo final : public PictureLibrary {
         return "";
     }
 
-    bool findInk(const std::string& line, int pixels, const std::string& font, InkBox& ink) const override {
-        const OIIO::ROI box = OIIO::ImageBufAlgo::text_size(line, pixels, font);
-        if (!box.defined()) return false;
-        ink = box.xbegin < box.xend ? InkBox{box.xbegin, box.xend, box.ybegin, box.yend} : InkBox{};
-        return true;
-    }
-
-    std::string drawText(const std::string& line, int pixels, const std::string& font, const InkBox& ink,
-                         std::span<float> coverage) const override {
-        // White on black gives the coverage directly.
-        OIIO::ImageBuf buffer(OIIO::ImageSpec(ink.width(), ink.height(), 1, OIIO::TypeDesc::FLOAT), coverage.data());
-        const bool drawn = OIIO::ImageBufAlgo::render_text(buffer, -ink.left, -ink.top, line, pixels, font, 1.0f,
-                                                           OIIO::ImageBufAlgo::TextAlignX::Left,
-                                                           OIIO::ImageBufAlgo::TextAlignY::Baseline, 0, {}, oneThread);
-        return drawn ? "" : oneLine(buffer.geterror());
-    }
-
     std::string resize(std::span<const float> from, int fromWidth, int fromHeight, std::span<float> to, int width,
                        int height) const override {
         std::vector<float> source(from.begin(), from.end());  // OpenImageIO wraps memory that it may write to

@@ -1,8 +1,5 @@
-// The program dustbench_vdb_reader: reads a field of vectors, or points, from a `.vdb` and writes it to its standard
-// output (vdb_message.h). It is a process of its own, so that a damaged file ends no other.
-//
-//     dustbench_vdb_reader FILE FIELD
-//     dustbench_vdb_reader --points FILE
+#include "methods/kit/volumes/openvdb/vdb_reader.h"
+
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/points/PointCount.h>
@@ -39,17 +36,6 @@ struct Refusal {
 constexpr rlim_t maximumSeconds = 300;
 /// The vectors of all cells twice, and a file.
 constexpr rlim_t maximumAddresses = rlim_t{8} << 30;
-
-void limitResources() {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const rlimit none{0, 0}, seconds{maximumSeconds, maximumSeconds};
-    setrlimit(RLIMIT_CORE, &none);
-    setrlimit(RLIMIT_CPU, &seconds);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose shadow takes terabytes of addresses
-    const rlimit addresses{maximumAddresses, maximumAddresses};
-    setrlimit(RLIMIT_AS, &addresses);
-#endif
-}
 
 openvdb::Vec3SGrid::Ptr readGrid(const std::string& file, const std::string& field) {
     // OpenVDB does not detect a truncated file and continues with what is in memory; the stream detects the end.
@@ -230,15 +216,28 @@ std::vector<Column> columnsOf(const PointDataGrid& grid) {
     write(message, bytes.data(), bytes.size());
 }
 
-[[noreturn]] void run(const std::string& file, const std::string& field) {
+}  // namespace
+
+void limitVdbReader() {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const rlimit none{0, 0}, seconds{maximumSeconds, maximumSeconds};
+    setrlimit(RLIMIT_CORE, &none);
+    setrlimit(RLIMIT_CPU, &seconds);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose shadow takes terabytes of addresses
+    const rlimit addresses{maximumAddresses, maximumAddresses};
+    setrlimit(RLIMIT_AS, &addresses);
+#endif
+}
+
+void runVdbReader(const std::string& first, const std::string& second) {
 #ifdef __SANITIZE_THREAD__
     // ThreadSanitizer cannot see into an uninstrumented oneTBB.
     static const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
 #endif
     try {
         openvdb::initialize();
-        if (file == "--points") runPoints(field);
-        const openvdb::Vec3SGrid::Ptr grid = readGrid(file, field);
+        if (first == "--points") runPoints(second);
+        const openvdb::Vec3SGrid::Ptr grid = readGrid(first, second);
         Dense dense(boxOf(*grid));
         openvdb::tools::copyToDense(*grid, dense);
         write(messageOf(*grid, dense.bbox()), dense.data(), dense.valueCount() * sizeof(openvdb::Vec3s));
@@ -249,11 +248,4 @@ std::vector<Column> columnsOf(const PointDataGrid& grid) {
     }
 }
 
-}  // namespace
 }  // namespace dustbench::volumes
-
-int main(int argc, char** argv) {
-    if (argc != 3) return 3;
-    dustbench::volumes::limitResources();
-    dustbench::volumes::run(argv[1], argv[2]);
-}

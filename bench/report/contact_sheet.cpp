@@ -1,0 +1,261 @@
+#include "bench/report/contact_sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+
+#include "bench/measure/image/heat_map.h"
+#include "bench/measure/image/image_check.h"
+#include "bench/measure/image/resampled.h"
+#include "bench/report/picture_sets.h"
+#include "bench/report/text_lines.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/printable.h"
+
+namespace dustbench::bench {
+namespace {
+
+constexpr int tileWidth = 400, gap = 12, margin = 20;
+constexpr int rowHeadingWidth = 160;  // at most
+constexpr int barHeight = 22;
+constexpr Lettering plainText{28, false}, boldText{28, true}, titleText{33, true};
+
+int linePitch(const Lettering& lettering) {
+    return static_cast<int>(std::lround(1.2 * lettering.pixels));
+}
+
+/// `contact sheet, row 2 ("frame 48"), column 3 ("billboard")`: for messages.
+std::string cellName(const ContactSheet& sheet, std::size_t row, std::size_t column) {
+    const auto quoted = [](const std::vector<std::string>& headings, std::size_t index) {
+        return index < headings.size() ? " (\"" + headings[index] + "\")" : std::string();
+    };
+    return fmt::format("contact sheet, row {}{}, column {}{}", row + 1, quoted(sheet.rows, row), column + 1,
+                       quoted(sheet.columns, column));
+}
+
+void requireThat(bool holds, const std::string& message) {
+    if (!holds) throw std::invalid_argument("contact sheet: " + message);
+}
+
+/// What does not depend on the pictures. Returns the number of columns.
+std::size_t checkedColumns(const ContactSheet& sheet) {
+    requireThat(!sheet.cells.empty() && !sheet.cells.front().empty(), "there are no cells");
+    const std::size_t columns = sheet.cells.front().size(), rows = sheet.cells.size();
+    for (const auto& row : sheet.cells)
+        requireThat(row.size() == columns,
+                    fmt::format("rows of {} and {} cells, expected as many in each", columns, row.size()));
+    requireThat(sheet.columns.empty() || sheet.columns.size() == columns,
+                fmt::format("got {} headings for {} columns", sheet.columns.size(), columns));
+    requireThat(sheet.rows.empty() || sheet.rows.size() == rows,
+                fmt::format("got {} headings for {} rows", sheet.rows.size(), rows));
+    if (sheet.scale)
+        requireThat(std::isfinite(sheet.scale->minimum) && std::isfinite(sheet.scale->maximum) &&
+                        sheet.scale->minimum < sheet.scale->maximum,
+                    "the scale's maximum must be above its minimum");
+    return columns;
+}
+
+/// Height of a picture at the tiles' width. All agree within half a pixel.
+int checkedTileHeight(const ContactSheet& sheet) {
+    std::optional<double> height;
+    std::string first;
+    for (std::size_t row = 0; row < sheet.cells.size(); ++row)
+        for (std::size_t column = 0; column < sheet.cells[row].size(); ++column) {
+            const auto& cell = sheet.cells[row][column];
+            if (!cell) continue;
+            const pictures::Image& picture = cell->picture;
+            if (picture.width < 1 || picture.height < 1)
+                throw InputError(cellName(sheet, row, column) + ": the picture has no pixels");
+            const double own = static_cast<double>(tileWidth) * picture.height / picture.width;
+            const std::string size = fmt::format("{}x{}", picture.width, picture.height);
+            if (!height) {
+                height = own;
+                first = size;
+            }
+            if (std::abs(own - *height) > 0.5)
+                throw InputError(fmt::format("{}: got a picture of {}, expected the shape of the first one, {}",
+                                             cellName(sheet, row, column), size, first));
+        }
+    requireThat(height.has_value(), "there are no pictures");
+    return static_cast<int>(std::lround(std::clamp(*height, 1.0, 1e8)));
+}
+
+/// Clamped, and opaque to the bit.
+pictures::Image asShown(pictures::Image image) {
+    for (glm::vec4& pixel : image.pixels) pixel = glm::vec4(glm::clamp(glm::vec3(pixel), 0.0f, 1.0f), 1);
+    return image;
+}
+
+pictures::Image scaleBar(int width, int height) {
+    pictures::Image bar{width, height, {}};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            bar.pixels.emplace_back(heatColour((static_cast<float>(x) + 0.5f) / static_cast<float>(width)), 1);
+    return bar;
+}
+
+std::string escaped(std::string_view text) {
+    std::string safe;
+    for (const char letter : text) {
+        if (letter == '&')
+            safe += "&amp;";
+        else if (letter == '<')
+            safe += "&lt;";
+        else
+            safe += letter;
+    }
+    return safe;
+}
+
+using Lines = std::vector<std::string>;
+
+Lines linesOf(const std::string& text, int width, const Lettering& lettering) {
+    return brokenText(files::printable(text), width, lettering);
+}
+
+int heightOf(const Lines& lines, const Lettering& lettering) {
+    return static_cast<int>(lines.size()) * linePitch(lettering);
+}
+
+/// Fills the sheet from the top.
+class SheetWriter {
+ public:
+    explicit SheetWriter(const ContactSheet& sheet)
+        : sheet_(sheet), columns_(checkedColumns(sheet)), tileHeight_(checkedTileHeight(sheet)) {
+        double widest = 0;
+        for (const std::string& row : sheet.rows) {
+            rowHeadings_.push_back(linesOf(row, rowHeadingWidth, plainText));
+            for (const std::string& line : rowHeadings_.back()) widest = std::max(widest, textWidth(line, plainText));
+        }
+        gridX_ = margin + (widest > 0 ? static_cast<int>(std::ceil(widest)) + gap : 0);
+        requireRoom();
+    }
+
+    std::string run() {
+        writeTitle();
+        writeColumnHeadings();
+        for (std::size_t row = 0; row < sheet_.cells.size(); ++row) writeRow(row);
+        y_ -= gap;
+        if (sheet_.scale) writeScale(*sheet_.scale);
+        const int width = right() + margin, height = y_ + margin;
+        return fmt::format(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+            "font-family=\"DejaVu Sans, sans-serif\" fill=\"#262626\">\n"
+            "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{2}</svg>\n",
+            width, height, body_);
+    }
+
+ private:
+    [[nodiscard]] int columnX(std::size_t column) const {
+        return gridX_ + static_cast<int>(column) * (tileWidth + gap);
+    }
+    [[nodiscard]] int right() const { return columnX(columns_ - 1) + tileWidth; }
+
+    /// Of tiles alone, before anything is encoded.
+    void requireRoom() const {
+        const double width = static_cast<double>(columns_) * (tileWidth + gap) + gridX_ + margin;
+        const double height =
+            static_cast<double>(sheet_.cells.size()) * (tileHeight_ + gap + 3 * linePitch(plainText)) + 2.0 * margin +
+            4 * linePitch(titleText);
+        if (std::max(width, height) > maximumSheetSide)
+            throw InputError(
+                fmt::format("contact sheet: got {} rows of {} pictures, {:.0f}x{:.0f} pixels in all, allowed: {} a "
+                            "side; take fewer frames",
+                            sheet_.cells.size(), columns_, width, height, maximumSheetSide));
+    }
+
+    void writeImage(const pictures::Image& image, int x, int y) {
+        fmt::format_to(std::back_inserter(body_),
+                       "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
+                       "href=\"{}\"/>\n",
+                       x, y, image.width, image.height, dataUrl("image/png", pictures::encodedPng(image)));
+    }
+
+    /// `anchor` is start, middle or end: what of each line is at `x`. `y` is the top of the first line.
+    void writeText(const Lines& lines, int x, int y, const char* anchor, const Lettering& lettering) {
+        for (const std::string& line : lines) {
+            fmt::format_to(std::back_inserter(body_),
+                           "<text x=\"{}\" y=\"{:.0f}\" text-anchor=\"{}\" font-size=\"{}\"{} "
+                           "xml:space=\"preserve\">{}</text>\n",
+                           x, y + 0.95 * lettering.pixels, anchor, lettering.pixels,
+                           lettering.bold ? " font-weight=\"bold\"" : "", escaped(line));
+            y += linePitch(lettering);
+        }
+    }
+
+    void writeTitle() {
+        const Lines title = linesOf(sheet_.title, right() - margin, titleText);
+        writeText(title, margin, y_, "start", titleText);
+        y_ += title.empty() ? 0 : heightOf(title, titleText) + gap;
+    }
+
+    void writeColumnHeadings() {
+        std::vector<Lines> headings;
+        int tallest = 0;
+        for (const std::string& column : sheet_.columns) {
+            headings.push_back(linesOf(column, tileWidth, boldText));
+            tallest = std::max(tallest, heightOf(headings.back(), boldText));
+        }
+        for (std::size_t column = 0; column < headings.size(); ++column)
+            writeText(headings[column], columnX(column) + tileWidth / 2,
+                      y_ + tallest - heightOf(headings[column], boldText), "middle", boldText);
+        y_ += tallest > 0 ? tallest + gap / 2 : 0;
+    }
+
+    void writeRow(std::size_t row) {
+        int tallest = tileHeight_;
+        if (!rowHeadings_.empty()) {
+            // Beside a flat picture the heading may be the taller one; it never starts above the row.
+            const int height = heightOf(rowHeadings_[row], plainText);
+            writeText(rowHeadings_[row], margin, y_ + std::max(0, (tileHeight_ - height) / 2), "start", plainText);
+            tallest = std::max(tallest, height);
+        }
+        for (std::size_t column = 0; column < columns_; ++column) {
+            const auto& cell = sheet_.cells[row][column];
+            if (!cell) continue;
+            const std::string name = cellName(sheet_, row, column);
+            requireFinite(cell->picture, name);
+            requireOpaque(cell->picture, name);
+            // Clamped before resampling, so that values far above white do not spread; after, for rounding errors.
+            writeImage(asShown(resampled(asShown(cell->picture), tileWidth, tileHeight_)), columnX(column), y_);
+            const Lines caption = linesOf(cell->caption, tileWidth, plainText);
+            const int captionY = y_ + tileHeight_ + gap / 3;
+            writeText(caption, columnX(column) + tileWidth / 2, captionY, "middle", plainText);
+            if (!caption.empty()) tallest = std::max(tallest, captionY + heightOf(caption, plainText) - y_);
+        }
+        y_ += tallest + gap;
+    }
+
+    /// The bar, and below it `minimum label maximum`.
+    void writeScale(const SheetScale& scale) {
+        y_ += 2 * gap;
+        const int middle = (gridX_ + right()) / 2, left = middle - tileWidth / 2;
+        writeImage(scaleBar(tileWidth, barHeight), left, y_);
+        y_ += barHeight + gap / 3;
+        const Lines minimum{fmt::format("{:.4g}", scale.minimum)}, maximum{fmt::format("{:.4g}", scale.maximum)};
+        const Lines label = linesOf(scale.label, tileWidth / 2, plainText);
+        writeText(minimum, left, y_, "start", plainText);
+        writeText(label, middle, y_, "middle", plainText);
+        writeText(maximum, left + tileWidth, y_, "end", plainText);
+        y_ += std::max(linePitch(plainText), heightOf(label, plainText));
+    }
+
+    const ContactSheet& sheet_;
+    std::size_t columns_;
+    int tileHeight_;
+    std::vector<Lines> rowHeadings_;
+    int gridX_ = margin;
+    int y_ = margin;
+    std::string body_;
+};
+
+}  // namespace
+
+std::string contactSheetSvg(const ContactSheet& sheet) {
+    return SheetWriter(sheet).run();
+}
+
+}  // namespace dustbench::bench

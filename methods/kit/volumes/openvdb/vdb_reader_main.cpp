@@ -1,0 +1,12 @@
+// The program dustbench_vdb_reader: reads a field of vectors, or points, from a `.vdb` and writes it to its standard
+// output (vdb_message.h). It is a process of its own, so that a damaged file ends no other.
+//
+//     dustbench_vdb_reader FILE FIELD
+//     dustbench_vdb_reader --points FILE
+#include "methods/kit/volumes/openvdb/vdb_reader.h"
+
+int main(int argc, char** argv) {
+    if (argc != 3) return 3;
+    dustbench::volumes::limitVdbReader();
+    dustbench::volumes::runVdbReader(argv[1], argv[2]);
+}

@@ -1,0 +1,23 @@
+#!/bin/bash
+# Mutants of OpenVDB's files, under AddressSanitizer and UndefinedBehaviorSanitizer.
+#   vdb_mutants.sh CASES FOLDER        one process a core; the seed is the clock's unless SEED gives it
+set -euo pipefail
+cases="$1"
+mkdir -p "$2"
+folder="$(cd "$2" && pwd)"
+cd "$(dirname "$0")/../../.."
+seed="${SEED:-$(date +%s)}"
+
+sources=(tests/fuzz/openvdb/vdb_mutants.cpp methods/contract/errors.cpp
+    methods/kit/files/{input_log,machine_error,printable,whole_text}.cpp
+    methods/kit/volumes/{vdb_pipe,vdb_process,vector_file,vti_file,vti_numbers,xml_scan,openvdb/vdb_reader}.cpp)
+g++ -std=c++20 -O1 -g1 -I. -DDUSTBENCH_API= -fsanitize=address,undefined -fno-sanitize-recover=all -isystem /usr/include/Imath \
+    -Wl,--wrap=waitpid "${sources[@]}" -o "$folder/vdb_mutants" -lopenvdb -ltbb -lImath-3_1 -lfmt -lz -llz4
+
+jobs="$(nproc)"
+for ((job = 0; job < jobs; ++job)); do
+    ASAN_OPTIONS=detect_leaks=0 "$folder/vdb_mutants" "$((seed + job))" "$((cases / jobs))" "$folder/$job" &
+done
+status=0
+for ((job = 0; job < jobs; ++job)); do wait -n || status=1; done
+exit "$status"
