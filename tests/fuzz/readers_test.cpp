@@ -29,7 +29,9 @@
 #include "methods/kit/particles/part_toml.h"
 #include "methods/kit/pictures/image.h"
 #include "methods/kit/testing/test_folder.h"
+#include "methods/kit/volumes/vdb_process.h"
 #include "methods/kit/volumes/vector_file.h"
+#include "source_folder.h"
 #include "tests/fuzz/mutation.h"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -231,6 +233,12 @@ TEST(Fuzz, VolumesOfOpenVdb) {
         "small.vdb", bytesOf(folder.path() / "small.vdb"),
         [](const fs::path& file) { (void)volumes::readVectors(file, "velocity"); }, fs::temp_directory_path(),
         std::max(cases() / 10, 1));
+    // Five points with radii, as openvdb/vdb_mutants.cpp writes them.
+    const fs::path points = fs::path(DUSTBENCH_SOURCE_DIR) / "tests/fuzz/points.vdb";
+    expectSound(
+        "points.vdb", bytesOf(points),
+        [](const fs::path& file) { (void)volumes::readVdbPoints(file, [](std::string_view) { return true; }); },
+        fs::temp_directory_path(), std::max(cases() / 10, 1));
 }
 
 /// An index is mutated beside the file that it names.

@@ -37,10 +37,10 @@ struct Header {
 };
 static_assert(sizeof(Header) == blockBytes);
 
+/// In octal digits, up to the 0 at the field's end.
 template <std::size_t size>
 void setNumber(std::array<char, size>& field, std::uintmax_t number) {
-    const std::string text = fmt::format("{:0{}o}", number, size - 1);
-    std::ranges::copy(text, field.begin());
+    for (std::size_t digit = size - 1; digit-- > 0; number /= 8) field[digit] = static_cast<char>('0' + number % 8);
 }
 
 template <std::size_t size>

@@ -70,7 +70,7 @@ std::string readVdb(const std::filesystem::path& file, const std::string& field,
         grid.origin[axis] = message.origin[axis];
         count *= message.cells[axis];
     }
-    if (count > static_cast<double>(files::limits::volumeCells)) return notWhole;
+    if (count > static_cast<double>(files::limits::sparseCells)) return notWhole;
     grid.spacing = message.spacing;
     if (message.hasTime) grid.timeSeconds = message.timeSeconds;
     grid.sparse = true;

@@ -9,10 +9,12 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointConversion.h>
+#include <sanitizer/allocator_interface.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -36,7 +38,20 @@ namespace fs = std::filesystem;
 /// How children ended: "exit 0", "signal 11" …
 std::map<std::string, long> endings;
 
-constexpr rlim_t secondsOfAChild = 20;
+constexpr int tookTooMuch = 77;  ///< a child's exit code
+
+/// In a child: memory that was allocated and not yet freed, and what it may be at most. Without sanitizers RLIMIT_DATA
+/// is the limit.
+std::size_t heldBytes = 0, allowedBytes = 0;
+
+void countAllocated(const volatile void*, std::size_t bytes) {
+    heldBytes += bytes;
+    if (allowedBytes > 0 && heldBytes > allowedBytes) _exit(tookTooMuch);
+}
+
+void countFreed(const volatile void* memory) {
+    if (memory) heldBytes -= std::min(heldBytes, __sanitizer_get_allocated_size(const_cast<const void*>(memory)));
+}
 
 }  // namespace
 
@@ -62,9 +77,9 @@ VdbPipe startVdbReader(const std::string& first, const std::string& second) {
         dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
         close(ends[0]);
         close(ends[1]);
-        const rlimit seconds{secondsOfAChild, secondsOfAChild};
-        setrlimit(RLIMIT_CPU, &seconds);
-        limitVdbReader();
+        const std::string file = vdbFile(first.c_str(), second.c_str());
+        limitVdbReader(file);
+        allowedBytes = vdbMemoryBytes(fs::file_size(file));
         runVdbReader(first, second);
     }
     close(ends[1]);
@@ -159,6 +174,7 @@ std::vector<Original> originalsIn(const fs::path& folder) {
 
 int main(int argc, char** argv) {
     if (argc != 4) return 3;
+    __sanitizer_install_malloc_and_free_hooks(countAllocated, countFreed);
     const long cases = std::atol(argv[2]);
     const fs::path folder = argv[3], file = folder / "mutant.vdb";
     fs::create_directories(folder);

@@ -11,7 +11,7 @@ seed="${SEED:-$(date +%s)}"
 sources=(tests/fuzz/openvdb/vdb_mutants.cpp methods/contract/errors.cpp
     methods/kit/files/{input_log,machine_error,printable,whole_text}.cpp
     methods/kit/volumes/{vdb_pipe,vdb_process,vector_file,vti_file,vti_numbers,xml_scan,openvdb/vdb_reader}.cpp)
-g++ -std=c++20 -O1 -g1 -I. -DDUSTBENCH_API= -fsanitize=address,undefined -fno-sanitize-recover=all -isystem /usr/include/Imath \
+g++ -std=c++20 -O0 -g1 -I. -DDUSTBENCH_API= -fsanitize=address,undefined -fno-sanitize-recover=all -isystem /usr/include/Imath \
     -Wl,--wrap=waitpid "${sources[@]}" -o "$folder/vdb_mutants" -lopenvdb -ltbb -lImath-3_1 -lfmt -lz -llz4
 
 jobs="$(nproc)"

@@ -8,17 +8,17 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#ifdef __SANITIZE_THREAD__
-#include <tbb/global_control.h>
-#endif
 
 #include "methods/kit/files/limits.h"
 #include "methods/kit/volumes/vdb_message.h"
@@ -26,16 +26,14 @@
 namespace dustbench::volumes {
 namespace {
 
+constexpr const char* pointsMode = "--points";
+
 using Dense = openvdb::tools::Dense<openvdb::Vec3s, openvdb::tools::LayoutXYZ>;
 
 /// A reason to refuse the file, as one clause.
 struct Refusal {
     std::string reason;
 };
-
-constexpr rlim_t maximumSeconds = 300;
-/// The vectors of all cells twice, and a file.
-constexpr rlim_t maximumAddresses = rlim_t{8} << 30;
 
 openvdb::Vec3SGrid::Ptr readGrid(const std::string& file, const std::string& field) {
     // OpenVDB does not detect a truncated file and continues with what is in memory; the stream detects the end.
@@ -62,7 +60,8 @@ openvdb::CoordBBox boxOf(const openvdb::Vec3SGrid& grid) {
     double cells = 1;  // corners are any 32-bit numbers, whose differences overflow
     for (int axis = 0; axis < 3; ++axis)
         cells *= static_cast<double>(box.max()[axis]) - static_cast<double>(box.min()[axis]) + 1;
-    if (cells > static_cast<double>(files::limits::volumeCells)) throw Refusal{"it has more than 256 million cells"};
+    if (cells > static_cast<double>(files::limits::sparseCells))
+        throw Refusal{"the box of its vectors has more than 89 million cells"};
     return box;
 }
 
@@ -81,17 +80,26 @@ VdbMessage messageOf(const openvdb::Vec3SGrid& grid, const openvdb::CoordBBox& b
     return message;
 }
 
+void put(const void* data, std::size_t bytes) {
+    if (std::fwrite(data, 1, bytes, stdout) != bytes) _exit(1);
+}
+
+template <typename Header>
+void put(const Header& header) {
+    put(&header, sizeof header);
+}
+
 /// Ends the process: what the file left in memory is not taken apart.
-[[noreturn]] void write(const VdbMessage& message, const void* data, std::size_t bytes) {
-    const bool isWritten = std::fwrite(&message, sizeof message, 1, stdout) == 1 &&
-                           std::fwrite(data, 1, bytes, stdout) == bytes && std::fflush(stdout) == 0;
-    _exit(isWritten ? 0 : 1);
+[[noreturn]] void finish() {
+    _exit(std::fflush(stdout) == 0 ? 0 : 1);
 }
 
 [[noreturn]] void writeReason(const std::string& reason) {
     VdbMessage message;
     message.reasonBytes = reason.size();
-    write(message, reason.data(), reason.size());
+    put(message);
+    put(reason.data(), reason.size());
+    finish();
 }
 
 // Points.
@@ -190,6 +198,20 @@ std::vector<Column> columnsOf(const PointDataGrid& grid) {
     return columns;
 }
 
+/// A slab of eight layers at a time.
+[[noreturn]] void runVectors(const std::string& file, const std::string& field) {
+    const openvdb::Vec3SGrid::Ptr grid = readGrid(file, field);
+    const openvdb::CoordBBox box = boxOf(*grid);
+    put(messageOf(*grid, box));
+    for (int z = box.min().z(); z <= box.max().z(); z += 8) {
+        const int last = std::min(z + 7, box.max().z());
+        Dense slab(openvdb::CoordBBox(box.min().x(), box.min().y(), z, box.max().x(), box.max().y(), last));
+        openvdb::tools::copyToDense(*grid, slab);
+        put(slab.data(), slab.valueCount() * sizeof(openvdb::Vec3s));
+    }
+    finish();
+}
+
 [[noreturn]] void runPoints(const std::string& file) {
     double timeSeconds = 0;
     bool hasTime = false;
@@ -203,46 +225,63 @@ std::vector<Column> columnsOf(const PointDataGrid& grid) {
     message.columns = static_cast<std::int32_t>(columns.size());
     message.hasTime = hasTime ? 1 : 0;
     message.timeSeconds = timeSeconds;
-    std::string bytes;
-    for (const Column& column : columns) {
+    for (const Column& column : columns)
         if (column.values.size() != message.points * static_cast<std::size_t>(column.components))
             throw Refusal{"an attribute has not a value for each point"};
+    put(message);
+    for (const Column& column : columns) {
         VdbColumn header;
         column.name.copy(header.name, sizeof header.name - 1);
         header.components = column.components;
-        bytes.append(reinterpret_cast<const char*>(&header), sizeof header);
-        bytes.append(reinterpret_cast<const char*>(column.values.data()), column.values.size() * sizeof(double));
+        put(header);
+        put(column.values.data(), column.values.size() * sizeof(double));
     }
-    write(message, bytes.data(), bytes.size());
+    finish();
 }
 
 }  // namespace
 
-void limitVdbReader() {
+std::uintmax_t vdbMemoryBytes(std::uintmax_t fileBytes) {
+    constexpr std::uintmax_t atMost = std::uintmax_t{8} << 30;
+    return std::min((std::uintmax_t{256} << 20) + 64 * fileBytes, atMost);
+}
+
+std::uintmax_t vdbProcessorSeconds(std::uintmax_t fileBytes) {
+    return 10 + fileBytes / 4'000'000;
+}
+
+const char* vdbFile(const char* first, const char* second) {
+    return std::string_view(first) == pointsMode ? second : first;
+}
+
+void limitVdbReader(const std::string& file) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const rlimit none{0, 0}, seconds{maximumSeconds, maximumSeconds};
-    setrlimit(RLIMIT_CORE, &none);
+    std::error_code none;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, none);
+    const rlim_t fileBytes = none ? 0 : bytes, allowed = vdbProcessorSeconds(fileBytes);
+    const rlimit noCore{0, 0}, seconds{allowed, allowed};
+    setrlimit(RLIMIT_CORE, &noCore);
     setrlimit(RLIMIT_CPU, &seconds);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose shadow takes terabytes of addresses
-    const rlimit addresses{maximumAddresses, maximumAddresses};
-    setrlimit(RLIMIT_AS, &addresses);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose shadow takes terabytes
+    const rlimit memory{vdbMemoryBytes(fileBytes), vdbMemoryBytes(fileBytes)};
+    setrlimit(RLIMIT_DATA, &memory);
 #endif
 }
 
 void runVdbReader(const std::string& first, const std::string& second) {
-#ifdef __SANITIZE_THREAD__
-    // ThreadSanitizer cannot see into an uninstrumented oneTBB.
-    static const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
-#endif
+    const std::string file = vdbFile(first.c_str(), second.c_str());
+    // So that memory does not depend on the number of cores. (ThreadSanitizer cannot see into oneTBB either.)
+    const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
     try {
         openvdb::initialize();
-        if (first == "--points") runPoints(second);
-        const openvdb::Vec3SGrid::Ptr grid = readGrid(first, second);
-        Dense dense(boxOf(*grid));
-        openvdb::tools::copyToDense(*grid, dense);
-        write(messageOf(*grid, dense.bbox()), dense.data(), dense.valueCount() * sizeof(openvdb::Vec3s));
+        if (first == pointsMode)
+            runPoints(file);
+        else
+            runVectors(file, second);
     } catch (const Refusal& refusal) {
         writeReason(refusal.reason);
+    } catch (const std::bad_alloc&) {
+        writeReason("reading it takes more memory than a file of its size may: 256 MiB and 64 times the file");
     } catch (const std::exception&) {
         writeReason("not a whole file of OpenVDB");
     }

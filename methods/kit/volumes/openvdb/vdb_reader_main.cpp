@@ -7,6 +7,6 @@
 
 int main(int argc, char** argv) {
     if (argc != 3) return 3;
-    dustbench::volumes::limitVdbReader();
+    dustbench::volumes::limitVdbReader(dustbench::volumes::vdbFile(argv[1], argv[2]));
     dustbench::volumes::runVdbReader(argv[1], argv[2]);
 }

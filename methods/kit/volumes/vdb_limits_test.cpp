@@ -1,0 +1,67 @@
+// Small files of OpenVDB that would take much: a box of many cells, leaves that unpack to far more than the file.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
+
+#include "methods/contract/errors.h"
+#include "methods/kit/testing/test_folder.h"
+#include "methods/kit/testing/test_input_error.h"
+#include "methods/kit/volumes/vector_file.h"
+
+namespace dustbench::volumes {
+namespace {
+
+using testing::HasSubstr;
+
+std::string written(const TestFolder& folder, const openvdb::Vec3SGrid::Ptr& grid) {
+    grid->setName("velocity");
+    const std::string path = folder.path() / "a.vdb";
+    openvdb::io::File file(path);
+    file.setCompression(openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK);
+    file.write({grid});
+    return path;
+}
+
+std::string refusalOf(const std::string& file) {
+    return inputError([&] { (void)readVectors(file, "velocity"); });
+}
+
+TEST(VdbLimits, BoxesOfManyCellsAreRefused) {
+    openvdb::initialize();
+    const TestFolder folder;
+    const auto grid = openvdb::Vec3SGrid::create();
+    grid->getAccessor().setValue({0, 0, 0}, {1, 2, 3});
+    grid->getAccessor().setValue({99, 99, 8'900}, {1, 2, 3});  // 8,901 layers of 10,000
+    EXPECT_THAT(refusalOf(written(folder, grid)), HasSubstr("the box of its vectors has more than 89 million cells"));
+}
+
+TEST(VdbLimits, LayersArriveInOrder) {
+    openvdb::initialize();
+    const TestFolder folder;
+    const auto grid = openvdb::Vec3SGrid::create();
+    // From below zero, and no whole number of slabs.
+    for (int z = -5; z < 16; ++z)
+        for (int x = 0; x < 3; ++x)
+            grid->getAccessor().setValue({x, 0, z}, {0.5f + static_cast<float>(x), 0.25f, static_cast<float>(z)});
+    const VectorGrid read = readVectors(written(folder, grid), "velocity");
+    ASSERT_EQ(read.cells, glm::ivec3(3, 1, 21));
+    for (int z = 0; z < 21; ++z)
+        for (int x = 0; x < 3; ++x)
+            EXPECT_EQ(read.values[static_cast<std::size_t>(z * 3 + x)],
+                      glm::vec3(0.5f + static_cast<float>(x), 0.25f, static_cast<float>(z - 5)));
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // under which memory has no limit
+TEST(VdbLimits, FilesThatUnpackToFarMoreAreRefused) {
+    openvdb::initialize();
+    const TestFolder folder;
+    const auto grid = openvdb::Vec3SGrid::create();
+    grid->tree().denseFill(openvdb::CoordBBox(0, 0, 0, 319, 319, 319), {1, 2, 3}, true);
+    const std::string file = written(folder, grid);
+    ASSERT_LT(std::filesystem::file_size(file), 2'000'000u);
+    EXPECT_THAT(refusalOf(file), HasSubstr("more memory than a file of its size may"));
+}
+#endif
+
+}  // namespace
+}  // namespace dustbench::volumes
