@@ -9,7 +9,6 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointConversion.h>
-#include <sanitizer/allocator_interface.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -31,6 +30,12 @@
 #include "methods/kit/volumes/vector_file.h"
 #include "tests/fuzz/mutation.h"
 
+// Of AddressSanitizer's library; GCC 12 brings no header for them.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*allocated)(const volatile void*,
+                                                                           std::size_t),  // NOLINT
+                                                         void (*freed)(const volatile void*));
+extern "C" std::size_t __sanitizer_get_allocated_size(const volatile void* memory);  // NOLINT
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,7 +55,7 @@ void countAllocated(const volatile void*, std::size_t bytes) {
 }
 
 void countFreed(const volatile void* memory) {
-    if (memory) heldBytes -= std::min(heldBytes, __sanitizer_get_allocated_size(const_cast<const void*>(memory)));
+    if (memory) heldBytes -= std::min(heldBytes, __sanitizer_get_allocated_size(memory));
 }
 
 }  // namespace
@@ -182,6 +187,7 @@ int main(int argc, char** argv) {
     std::vector<Original> originals = originalsIn(folder);
     for (const Original& original : originals) original.read(folder / original.name);  // throws if it is refused
     endings.clear();
+    openvdb::initialize();  // once for all children; it starts no thread
     dustbench::fuzz::Mutation mutate(static_cast<std::uint32_t>(std::atol(argv[1])));
     double slowest = 0;
     long findings = 0;

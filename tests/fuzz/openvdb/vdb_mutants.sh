@@ -16,7 +16,7 @@ g++ -std=c++20 -O0 -g1 -I. -DDUSTBENCH_API= -fsanitize=address,undefined -fno-sa
 
 jobs="$(nproc)"
 for ((job = 0; job < jobs; ++job)); do
-    ASAN_OPTIONS=detect_leaks=0 "$folder/vdb_mutants" "$((seed + job))" "$((cases / jobs))" "$folder/$job" &
+    ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=1:malloc_context_size=2 "$folder/vdb_mutants" "$((seed + job))" "$((cases / jobs))" "$folder/$job" &
 done
 status=0
 for ((job = 0; job < jobs; ++job)); do wait -n || status=1; done
