@@ -65,8 +65,10 @@ class Breaker {
         if (fits(part)) {
             lines_.emplace_back(part);
         } else if (const auto words = split(part, 1); words.size() > 1) {
-            for (const std::string_view word : words) add(word, 1);
+            lines_.emplace_back();
+            for (const std::string_view word : words) add(word, lines_.back().empty() ? 0 : 1);
         } else {
+            if (!lines_.empty() && lines_.back().empty()) lines_.pop_back();
             for (std::string_view rest = part; !rest.empty(); rest.remove_prefix(lines_.back().size()))
                 lines_.emplace_back(fittingPart(rest, width_, lettering_));
         }

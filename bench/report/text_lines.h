@@ -1,6 +1,6 @@
 // Breaks text into lines for pictures that another program draws.
 //
-// Widths are estimated from the advances of DejaVu Sans; a bold line is at most a twentieth wider than estimated.
+// Widths are estimated from the advances of DejaVu Sans; bold lines are narrower than estimated.
 // Units: pixels. Threads: pure.
 #pragma once
 

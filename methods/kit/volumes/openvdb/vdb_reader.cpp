@@ -243,7 +243,7 @@ std::vector<Column> columnsOf(const PointDataGrid& grid) {
 
 std::uintmax_t vdbMemoryBytes(std::uintmax_t fileBytes) {
     constexpr std::uintmax_t atMost = std::uintmax_t{8} << 30;
-    return std::min((std::uintmax_t{256} << 20) + 64 * fileBytes, atMost);
+    return std::min((std::uintmax_t{64} << 20) + 64 * fileBytes, atMost);
 }
 
 std::uintmax_t vdbProcessorSeconds(std::uintmax_t fileBytes) {
@@ -281,7 +281,7 @@ void runVdbReader(const std::string& first, const std::string& second) {
     } catch (const Refusal& refusal) {
         writeReason(refusal.reason);
     } catch (const std::bad_alloc&) {
-        writeReason("reading it takes more memory than a file of its size may: 256 MiB and 64 times the file");
+        writeReason("reading it takes more memory than a file of its size may: 64 MiB and 64 times the file");
     } catch (const std::exception&) {
         writeReason("not a whole file of OpenVDB");
     }
