@@ -10,6 +10,7 @@
 #include "bench/measure/image/heat_map.h"
 #include "bench/measure/image/image_check.h"
 #include "bench/measure/image/resampled.h"
+#include "bench/report/page_template.h"
 #include "bench/report/picture_sets.h"
 #include "bench/report/text_lines.h"
 #include "methods/contract/errors.h"
@@ -95,19 +96,6 @@ pictures::Image scaleBar(int width, int height) {
         for (int x = 0; x < width; ++x)
             bar.pixels.emplace_back(heatColour((static_cast<float>(x) + 0.5f) / static_cast<float>(width)), 1);
     return bar;
-}
-
-std::string escaped(std::string_view text) {
-    std::string safe;
-    for (const char letter : text) {
-        if (letter == '&')
-            safe += "&amp;";
-        else if (letter == '<')
-            safe += "&lt;";
-        else
-            safe += letter;
-    }
-    return safe;
 }
 
 using Lines = std::vector<std::string>;

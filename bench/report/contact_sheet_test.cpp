@@ -180,7 +180,7 @@ TEST(ContactSheet, WritesEveryLetterOfItsTexts) {
     sheet.columns[2] = "bell\a and not UTF-8 \xff";
     const std::string svg = contactSheetSvg(sheet);
     const std::vector<std::string> texts = textsOf(svg);
-    EXPECT_EQ(texts.front(), "a &lt; b &amp; \"c\" > d: λ=0.5 × 10⁻³");
+    EXPECT_EQ(texts.front(), "a &lt; b &amp; &quot;c&quot; > d: λ=0.5 × 10⁻³");
     std::size_t letters = 0;
     for (const std::string& text : texts) letters += static_cast<std::size_t>(std::ranges::count(text, 'W'));
     EXPECT_EQ(letters, 60u);

@@ -31,7 +31,7 @@ const pageHead = (() => {
     const warningsText = data => {
         if (!data.warnings.length) return 'no run has warnings';
         const touched = new Set(data.warnings.flatMap(item => item.runs)).size;
-        const short = kindsOf(data).slice(0, 3).map(([kind, runs]) => `${kind.length > 60 ? kind.slice(0, 57) + '…' : kind} (${runs.size})`);
+        const short = kindsOf(data).slice(0, 3).map(([kind, runs]) => `${kind.length > 60 ? kind.slice(0, 57).replace(/\s+\S*$/, '') + ' …' : kind} (${runs.size})`);
         return `${touched} of ${data.runs.length} runs with warnings: ${short.join(', ')}${kindsOf(data).length > 3 ? ' …' : ''}`;
     };
 
