@@ -1,5 +1,5 @@
-// Reads mutants of OpenVDB's files as readVectors() and readVdbPoints() do, a thousand times as fast: what they start
-// is a fork of this process, in which OpenVDB is loaded already, instead of the program dustbench_vdb_reader.
+// Reads mutants of OpenVDB's files as readVectors() and readVdbPoints() do, some 15 ms a case: what they start is a
+// fork of this process, in which OpenVDB is loaded already, instead of the program dustbench_vdb_reader.
 //
 //     vdb_mutants SEED CASES FOLDER
 //
