@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/cli/commands.h"
@@ -37,17 +38,16 @@ bench::Picture pictureOf(const std::string& file) {
     return bench::preparePicture(pictures::readImage(file), "'" + file + "'");
 }
 
-/// The shortest decimal number that parses to the same value; `null` if empty.
-std::string jsonNumber(const std::optional<double>& value) {
-    return value ? fmt::format("{}", *value) : "null";
-}
-
+/// `null` where there is no number.
 void printJson(const Differences& found) {
-    std::cout << fmt::format(
-        "{{\n  \"psnr_db\": {},\n  \"ssim\": {},\n  \"flip\": {},\n  \"rmse_linear\": {},\n"
-        "  \"identical\": {}\n}}\n",
-        jsonNumber(found.error.psnrDb), jsonNumber(found.ssim.value), jsonNumber(found.flip.value),
-        jsonNumber(found.error.rmseLinear), found.error.identical);
+    using Json = nlohmann::ordered_json;
+    const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+    const Json object{{"psnr_db", number(found.error.psnrDb)},
+                      {"ssim", number(found.ssim.value)},
+                      {"flip", number(found.flip.value)},
+                      {"rmse_linear", number(found.error.rmseLinear)},
+                      {"identical", found.error.identical}};
+    std::cout << object.dump(2) << '\n';
 }
 
 void printTable(const Differences& found, double pixelsPerDegree) {

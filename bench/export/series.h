@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dustbench::bench {
 
@@ -22,7 +23,14 @@ class Series {
  private:
     std::filesystem::path file_;
     Kind kind_;
-    std::string entries_;
+    struct Entry {
+        std::string name;
+        double timeSeconds;
+    };
+    std::vector<Entry> entries_;
+
+    [[nodiscard]] std::string pvdText() const;
+    [[nodiscard]] std::string jsonText() const;
 };
 
 }  // namespace dustbench::bench

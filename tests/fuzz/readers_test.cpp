@@ -232,13 +232,13 @@ TEST(Fuzz, VolumesOfOpenVdb) {
     expectSound(
         "small.vdb", bytesOf(folder.path() / "small.vdb"),
         [](const fs::path& file) { (void)volumes::readVectors(file, "velocity"); }, fs::temp_directory_path(),
-        std::max(cases() / 10, 1));
+        std::max(cases() / 2, 1));
     // Five points with radii, as openvdb/vdb_mutants.cpp writes them.
     const fs::path points = fs::path(DUSTBENCH_SOURCE_DIR) / "tests/fuzz/points.vdb";
     expectSound(
         "points.vdb", bytesOf(points),
         [](const fs::path& file) { (void)volumes::readVdbPoints(file, [](std::string_view) { return true; }); },
-        fs::temp_directory_path(), std::max(cases() / 10, 1));
+        fs::temp_directory_path(), std::max(cases() / 2, 1));
 }
 
 /// An index is mutated beside the file that it names.

@@ -1,21 +1,26 @@
-// Reads mutants of OpenVDB's files as readVectors() and readVdbPoints() do, some 15 ms a case: what they start is a
-// fork of this process, in which OpenVDB is loaded already, instead of the program dustbench_vdb_reader.
+// Reads mutants of OpenVDB's files as readVectors() and readVdbPoints() do. The program dustbench_vdb_reader is
+// replaced by a fork of this process, in which OpenVDB is loaded already and which reads file after file, until one
+// ends it.
 //
 //     vdb_mutants SEED CASES FOLDER
 //
-// The children may end in any way, as OpenVDB trusts what it reads; how often they did is counted. This process must
-// read each file, or refuse it in one line. A child's memory and processor time are limited and reported.
+// What reads may end in any way, as OpenVDB trusts what it reads; how often it did is counted. This process must read
+// each file, or refuse it in one line. Memory and processor time of a case are limited and reported.
 #include <fcntl.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointConversion.h>
+#include <stdio_ext.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -40,55 +45,152 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How children ended: "exit 0", "signal 11" …
+/// How cases ended: "exit 0", "signal 11" …
 std::map<std::string, long> endings;
 
-constexpr int tookTooMuch = 77;  ///< a child's exit code
+constexpr int tookTooMuch = 77;      ///< an exit code of the worker's
+constexpr int casesOfAWorker = 500;  ///< then a fresh one: what OpenVDB does not free adds up
 
-/// In a child: memory that was allocated and not yet freed, and what it may be at most. Without sanitizers RLIMIT_DATA
-/// is the limit.
+/// In the worker: memory that was allocated since the case began and not yet freed, and what it may be at most. Without
+/// sanitizers RLIMIT_DATA is the limit.
 std::size_t heldBytes = 0, allowedBytes = 0;
+bool isWorker = false;
+
+struct Ended {
+    int code;
+};
+
+}  // namespace
+
+// Linked with --wrap=_exit: instead of the process, the case ends.
+extern "C" [[noreturn]] void __real__exit(int code);   // NOLINT
+extern "C" [[noreturn]] void __wrap__exit(int code) {  // NOLINT
+    if (isWorker) throw Ended{code};
+    __real__exit(code);
+}
+
+namespace {
 
 void countAllocated(const volatile void*, std::size_t bytes) {
     heldBytes += bytes;
-    if (allowedBytes > 0 && heldBytes > allowedBytes) _exit(tookTooMuch);
+    if (allowedBytes > 0 && heldBytes > allowedBytes) __real__exit(tookTooMuch);
 }
 
 void countFreed(const volatile void* memory) {
     if (memory) heldBytes -= std::min(heldBytes, __sanitizer_get_allocated_size(memory));
 }
 
+struct Request {
+    char first[256], second[256];
+};
+
+/// What reads. Owns: the process and its pipes.
+struct Worker {
+    pid_t process = -1;
+    int requests = -1, codes = -1, cases = 0;
+    std::string answers;  ///< a FIFO: what dustbench_vdb_reader writes to its output
+} worker;
+
+/// Processor time since the worker's start counts, so the limit moves with it.
+void limitProcessorTime(const std::string& file) {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    rlimit seconds{};
+    getrlimit(RLIMIT_CPU, &seconds);
+    seconds.rlim_cur = static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1 +
+                       dustbench::volumes::vdbProcessorSeconds(fs::file_size(file));
+    setrlimit(RLIMIT_CPU, &seconds);
+}
+
+[[noreturn]] void work(int requests, int codes) {
+    isWorker = true;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const rlimit noCore{0, 0};
+    setrlimit(RLIMIT_CORE, &noCore);
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDERR_FILENO);
+    Request request{};
+    while (read(requests, &request, sizeof request) == sizeof request) {
+        const int answer = open(worker.answers.c_str(), O_WRONLY);
+        dup2(answer, STDOUT_FILENO);
+        close(answer);
+        const std::string file = dustbench::volumes::vdbFile(request.first, request.second);
+        limitProcessorTime(file);
+        int code = 0;
+        heldBytes = 0;
+        allowedBytes = dustbench::volumes::vdbMemoryBytes(fs::file_size(file));
+        try {
+            dustbench::volumes::runVdbReader(request.first, request.second);
+        } catch (const Ended& ended) {
+            code = ended.code;
+        }
+        allowedBytes = 0;
+        __fpurge(stdout);
+        dup2(nowhere, STDOUT_FILENO);
+        if (write(codes, &code, sizeof code) != sizeof code) break;
+    }
+    __real__exit(0);
+}
+
+void startWorker() {
+    int requests[2], codes[2];
+    if (pipe(requests) != 0 || pipe(codes) != 0) std::abort();
+    worker.process = fork();
+    if (worker.process < 0) std::abort();
+    if (worker.process == 0) {
+        close(requests[1]);
+        close(codes[0]);
+        work(requests[0], codes[1]);
+    }
+    close(requests[0]);
+    close(codes[1]);
+    worker.requests = requests[1];
+    worker.codes = codes[0];
+    worker.cases = 0;
+}
+
 }  // namespace
 
-// Linked with --wrap=waitpid: every child's end passes here.
-extern "C" pid_t __real_waitpid(pid_t process, int* status, int options);   // NOLINT
-extern "C" pid_t __wrap_waitpid(pid_t process, int* status, int options) {  // NOLINT
-    const pid_t ended = __real_waitpid(process, status, options);
-    if (ended > 0)
-        ++endings[WIFEXITED(*status) ? "exit " + std::to_string(WEXITSTATUS(*status))
-                                     : "signal " + std::to_string(WTERMSIG(*status))];
-    return ended;
+// Linked with --wrap=waitpid: each case's end passes here.
+extern "C" pid_t __real_waitpid(pid_t process, int* status, int options);  // NOLINT
+
+namespace {
+
+/// Its status, as waitpid() gives it.
+int endWorker() {
+    close(worker.requests);
+    close(worker.codes);
+    int status = 0;
+    if (__real_waitpid(worker.process, &status, 0) != worker.process) std::abort();
+    worker.process = -1;
+    return status;
+}
+
+}  // namespace
+
+extern "C" pid_t __wrap_waitpid(pid_t process, int* status, int) {  // NOLINT
+    int code = 0;
+    if (read(worker.codes, &code, sizeof code) == sizeof code) {
+        *status = W_EXITCODE(code, 0);
+        if (++worker.cases == casesOfAWorker) (void)endWorker();
+    } else {
+        *status = endWorker();
+    }
+    ++endings[WIFEXITED(*status) ? "exit " + std::to_string(WEXITSTATUS(*status))
+                                 : "signal " + std::to_string(WTERMSIG(*status))];
+    return process;
 }
 
 namespace dustbench::volumes {
 
 VdbPipe startVdbReader(const std::string& first, const std::string& second) {
-    int ends[2];
-    if (pipe(ends) != 0) std::abort();
-    const pid_t child = fork();
-    if (child < 0) std::abort();
-    if (child == 0) {
-        dup2(ends[1], STDOUT_FILENO);
-        dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
-        close(ends[0]);
-        close(ends[1]);
-        const std::string file = vdbFile(first.c_str(), second.c_str());
-        limitVdbReader(file);
-        allowedBytes = vdbMemoryBytes(fs::file_size(file));
-        runVdbReader(first, second);
-    }
-    close(ends[1]);
-    return {child, ends[0]};
+    if (worker.process < 0) startWorker();
+    Request request{};
+    if (first.size() >= sizeof request.first || second.size() >= sizeof request.second) std::abort();
+    first.copy(request.first, first.size());
+    second.copy(request.second, second.size());
+    if (write(worker.requests, &request, sizeof request) != sizeof request) std::abort();
+    return {worker.process, open(worker.answers.c_str(), O_RDONLY)};
 }
 
 }  // namespace dustbench::volumes
@@ -144,7 +246,7 @@ void writeOriginals(const fs::path& folder) {
         writeVectors(folder / "blosc.vdb", COMPRESS_BLOSC | COMPRESS_ACTIVE_MASK, false, 6);
         writePoints(folder / "points.vdb", 5);
         writePoints(folder / "more_points.vdb", 60);
-        _exit(0);
+        __real__exit(0);
     }
     int status = 0;
     if (__real_waitpid(child, &status, 0) != child || status != 0) std::abort();
@@ -183,10 +285,14 @@ int main(int argc, char** argv) {
     const fs::path folder = argv[3], file = folder / "mutant.vdb";
     fs::create_directories(folder);
     writeOriginals(folder);
+    worker.answers = folder / "answers";
+    unlink(worker.answers.c_str());
+    if (mkfifo(worker.answers.c_str(), 0600) != 0) std::abort();
+    std::signal(SIGPIPE, SIG_IGN);
+    openvdb::initialize();  // once for all workers; it starts no thread
     std::vector<Original> originals = originalsIn(folder);
     for (const Original& original : originals) original.read(folder / original.name);  // throws if it is refused
     endings.clear();
-    openvdb::initialize();  // once for all children; it starts no thread
     dustbench::fuzz::Mutation mutate(static_cast<std::uint32_t>(std::atol(argv[1])));
     double slowest = 0;
     long findings = 0;
@@ -207,13 +313,15 @@ int main(int argc, char** argv) {
         slowest = std::max(slowest, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
         if ((n + 1) % 20'000 == 0) std::printf("%ld cases\n", n + 1), std::fflush(stdout);
     }
+    if (worker.process >= 0) (void)endWorker();
+    unlink(worker.answers.c_str());
     rusage used{};
     getrusage(RUSAGE_CHILDREN, &used);
-    std::printf("%ld cases of seed %s, %ld findings; slowest %.2f s; most memory of a child %ld MB\n", cases, argv[1],
+    std::printf("%ld cases of seed %s, %ld findings; slowest %.2f s; most memory of a worker %ld MB\n", cases, argv[1],
                 findings, slowest, used.ru_maxrss / 1024);
     for (const Original& original : originals)
         std::printf("%s: %zu bytes, %ld mutants read\n", original.name.c_str(), original.bytes.size(),
                     original.accepted);
-    for (const auto& [ending, count] : endings) std::printf("children, %s: %ld\n", ending.c_str(), count);
+    for (const auto& [ending, count] : endings) std::printf("cases, %s: %ld\n", ending.c_str(), count);
     return findings > 0 ? 1 : 0;
 }
