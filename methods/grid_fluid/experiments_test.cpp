@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/grid_fluid/demo_memory_experiment.h"
+#include "methods/grid_fluid/large_steps_experiment.h"
 #include "methods/grid_fluid/obstacles_experiment.h"
 #include "methods/grid_fluid/sight_experiment.h"
 #include "methods/kit/draw/test_canvas.h"
@@ -8,16 +9,31 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-TEST(ObstacleExperiment, TellsAnObstacleFromNoneAndFromOneThatSwallowsTheStream) {
-    const obstacles::ObstacleReport holds = obstacles::measureObstacleLeakage({});
-    EXPECT_LT(holds.swallowed, 0.02);
-    EXPECT_EQ(holds.smokeInside, 0);
-    obstacles::ObstacleSettings settings;
-    settings.isSolid = false;
-    EXPECT_GT(obstacles::measureObstacleLeakage(settings).smokeInside, 0.5);
-    // Without pressure the stream is not deflected.
-    settings = {flow::PressureMethod::jacobi, 0};
-    EXPECT_GT(obstacles::measureObstacleLeakage(settings).swallowed, 0.3);
+TEST(ObstacleExperiment, TellsAnObstacleFromNoneAndFromOneThatLeaks) {
+    using obstacles::Obstacle;
+    const auto measured = [](Obstacle obstacle) { return obstacles::measureObstacle({false, obstacle, 0, 3}); };
+    const obstacles::ObstacleReport none = measured(Obstacle::none), ball = measured(Obstacle::ball);
+    EXPECT_EQ(ball.smokeInside, 0);
+    EXPECT_LT(ball.inflowM3PerSecond, 1e-5 * none.inflowM3PerSecond);
+    EXPECT_GT(measured(Obstacle::perforatedBall).inflowM3PerSecond, 0.01 * none.inflowM3PerSecond);
+    EXPECT_GT(none.smokeBehind, 0.1);
+    EXPECT_LT(measured(Obstacle::wall).smokeBehind, 1e-4);
+    EXPECT_GT(measured(Obstacle::holedWall).smokeBehind, 0.01);
+}
+
+TEST(LargeStepsExperiment, TellsAStableFlowFromOneThatGrowsAndFromOneThatStands) {
+    large_steps::StepSettings settings;
+    settings.cellsPerStep = 5;
+    const large_steps::StepReport flows = large_steps::measureSteps(settings);
+    EXPECT_LT(flows.energy, 1);
+    EXPECT_GT(flows.energyLeft, 0.1);
+    EXPECT_GT(flows.travelMetres, 0.1);
+    settings.isFrozen = true;
+    const large_steps::StepReport stands = large_steps::measureSteps(settings);
+    EXPECT_EQ(stands.energy, 1);
+    EXPECT_EQ(stands.travelMetres, 0);
+    settings = {{flow::AdvectionScheme::macCormack, flow::Limit::none}, 20, false};
+    EXPECT_GT(large_steps::measureSteps(settings).energy, 1.2);
 }
 
 /// The harness's context, but without worlds: this experiment requests none.

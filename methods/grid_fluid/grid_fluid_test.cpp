@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
+#include <random>
+#include <vector>
 
 #include "methods/contract/volume.h"
 #include "methods/grid_fluid/dust_mass.h"
@@ -94,6 +97,89 @@ TEST(MeshCells, TakeOverlapsAndOpenPanels) {
     cells.add(mesh, glm::dmat4(1), 1);
     for (std::size_t at = 0; at < cells.bodies().size(); ++at)
         EXPECT_EQ(cells.bodies()[at], one.bodies()[at] | other.bodies()[at]) << at;
+}
+
+/// A box with its middle at 0 and edges of these lengths.
+scene::Mesh block(const glm::vec3& edges) {
+    scene::Mesh mesh;
+    for (int n = 0; n < 8; ++n) mesh.positions.push_back(edges * (glm::vec3(n & 1, n >> 1 & 1, n >> 2) - 0.5f));
+    for (const std::array<std::uint32_t, 4>& side : std::array<std::array<std::uint32_t, 4>, 6>{
+             {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}})
+        for (const int n : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(side[static_cast<std::size_t>(n)]);
+    mesh.normals.assign(8, glm::vec3(0, 1, 0));
+    mesh.colours.assign(8, glm::vec3(0.5f));
+    return mesh;
+}
+
+/// Cells that paths through faces lead to from the first cell without entering a body.
+std::size_t reached(const MeshCells& cells) {
+    const glm::ivec3 size = cells.cells();
+    const auto at = [&](const glm::ivec3& cell) {
+        return static_cast<std::size_t>(cell.x + size.x * (cell.y + size.y * cell.z));
+    };
+    std::vector<bool> seen(cells.bodies().size());
+    std::vector<glm::ivec3> open{glm::ivec3(0)};
+    std::size_t count = 0;
+    while (!open.empty()) {
+        const glm::ivec3 cell = open.back();
+        open.pop_back();
+        if (glm::any(glm::lessThan(cell, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(cell, size)) ||
+            seen[at(cell)] || cells.bodies()[at(cell)] != 0)
+            continue;
+        seen[at(cell)] = true;
+        ++count;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const int step : {-1, 1}) {
+                glm::ivec3 next = cell;
+                next[axis] += step;
+                open.push_back(next);
+            }
+    }
+    return count;
+}
+
+TEST(MeshCells, ASmoothRimTakesNoCellBesideIt) {
+    MemoryLedger ledger;
+    MeshCells cells({8, 8, 8}, ledger.account("cells"));
+    std::mt19937 engine(5);
+    std::uniform_real_distribution<double> place(3, 5);
+    for (int n = 0; n < 100; ++n) {
+        const glm::dvec3 middle(place(engine), place(engine), place(engine));
+        cells.clear();
+        cells.add(ball(24), placed(middle, 2), 1);
+        std::size_t at = 0;
+        for (int k = 0; k < 8; ++k)
+            for (int j = 0; j < 8; ++j)
+                for (int i = 0; i < 8; ++i, ++at)
+                    EXPECT_TRUE(cells.bodies()[at] == 0 || glm::distance(glm::dvec3(i, j, k) + 0.5, middle) < 2);
+    }
+}
+
+TEST(MeshCells, NoPathLeadsThroughAWallHoweverThin) {
+    MemoryLedger ledger;
+    constexpr glm::ivec3 size{24, 20, 22};
+    MeshCells cells(size, ledger.account("cells"));
+    std::mt19937 engine(11);
+    std::uniform_real_distribution<double> share(-1, 1);
+    const auto vector = [&] { return glm::dvec3(share(engine), share(engine), share(engine)); };
+    for (int n = 0; n < 300; ++n) {
+        const glm::dvec3 middle = glm::dvec3(size) / 2.0 + 3.0 * vector();
+        const glm::dmat4 turned = glm::rotate(glm::translate(glm::dmat4(1), middle), 3 * share(engine), vector());
+        const double thickness = std::array{0.01, 0.1, 0.7}[static_cast<std::size_t>(n % 3)];
+        cells.clear();
+        cells.add(block(glm::vec3(1)), glm::scale(turned, glm::dvec3(thickness, 80, 80)), 1);
+        if (cells.bodies()[0] != 0) continue;
+        // Free cells on the first one's side.
+        std::size_t near = 0, at = 0;
+        const auto side = [&](const glm::dvec3& place) { return glm::dot(place - middle, glm::dvec3(turned[0])) > 0; };
+        for (int k = 0; k < size.z; ++k)
+            for (int j = 0; j < size.y; ++j)
+                for (int i = 0; i < size.x; ++i, ++at)
+                    if (cells.bodies()[at] == 0 && side(glm::dvec3(i, j, k) + 0.5) == side(glm::dvec3(0.5))) ++near;
+        EXPECT_LE(reached(cells), near) << "a path leads through wall " << n;
+        EXPECT_GE(reached(cells) + 40, near) << "wall " << n << " closes off what it does not touch";
+        EXPECT_LE(filled(cells, 1), 2u * 24 * 22) << "wall " << n << " is more than two cells thick";
+    }
 }
 
 GridFluidSettings settingsOf(const char* fluid, glm::ivec3 cells) {

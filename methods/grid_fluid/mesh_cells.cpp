@@ -29,18 +29,28 @@ void MeshCells::clear() {
     std::ranges::fill(bodies_, std::uint8_t{0});
 }
 
-void MeshCells::cross(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+MeshCells::Sweep MeshCells::sweepAlong(int axis) const {
+    const glm::ivec3 strides(1, cells_.x, cells_.x * cells_.y);
+    const auto turned = [&](const glm::ivec3& each) {
+        return glm::ivec3(each[axis], each[(axis + 1) % 3], each[(axis + 2) % 3]);
+    };
+    return {turned(cells_), turned(strides)};
+}
+
+void MeshCells::cross(const Sweep& sweep, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const glm::dvec3 minimum = glm::min(glm::min(a, b), c), maximum = glm::max(glm::max(a, b), c);
-    const glm::dvec3 size(cells_);
+    const glm::dvec3 size(sweep.cells);
     // Triangles next to the box cross none of its rows; those in front of it or behind it still count.
     if (maximum.y < 0 || maximum.z < 0 || minimum.y > size.y || minimum.z > size.z) return;
-    const glm::dvec3 normal = glm::cross(b - a, c - a);
-    if (!(std::abs(normal.x) > 0)) return;
-    const bool leaving = normal.x > 0;
     const auto firstOf = [](double value) { return std::max(0, static_cast<int>(std::ceil(value - 0.5))); };
     const int firstJ = firstOf(minimum.y), firstK = firstOf(minimum.z);
     const int lastJ = static_cast<int>(std::min(size.y - 1, std::floor(maximum.y - 0.5)));
     const int lastK = static_cast<int>(std::min(size.z - 1, std::floor(maximum.z - 0.5)));
+    if (firstJ > lastJ || firstK > lastK) return;
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    if (!(std::abs(normal.x) > 0)) return;
+    const bool leaving = normal.x > 0;
+    const glm::vec3 unit(glm::normalize(normal));
     const glm::dvec2 pa(a.y, a.z), pb(b.y, b.z), pc(c.y, c.z);
     for (int k = firstK; k <= lastK; ++k)
         for (int j = firstJ; j <= lastJ; ++j) {
@@ -49,9 +59,8 @@ void MeshCells::cross(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
             const bool left = isLeftOf(pa, pb, point);
             if (left != leaving || isLeftOf(pb, pc, point) != leaving || isLeftOf(pc, pa, point) != leaving) continue;
             const double x = a.x - (normal.y * (point.x - a.y) + normal.z * (point.y - a.z)) / normal.x;
-            crossings_.push_back(
-                {static_cast<std::uint32_t>(k) * static_cast<std::uint32_t>(cells_.y) + static_cast<std::uint32_t>(j),
-                 static_cast<float>(x), leaving ? -1 : 1});
+            const int row = j * sweep.strides.y + k * sweep.strides.z;
+            crossings_.push_back({static_cast<std::uint32_t>(row), static_cast<float>(x), leaving ? -1 : 1, unit});
         }
 }
 
@@ -65,17 +74,39 @@ void MeshCells::add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uin
     }
     if (glm::any(glm::lessThan(maximum, glm::dvec3(0))) || glm::any(glm::greaterThan(minimum, glm::dvec3(cells_))))
         return;
+    for (int axis = 0; axis < 3; ++axis) {
+        sweep(mesh.indices, axis, body);
+        for (glm::dvec3& place : places_) place = {place.y, place.z, place.x};
+    }
+}
+
+void MeshCells::sweep(std::span<const std::uint32_t> indices, int axis, std::uint8_t body) {
+    const Sweep along = sweepAlong(axis);
     crossings_.clear();
-    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
-        cross(places_[mesh.indices[t]], places_[mesh.indices[t + 1]], places_[mesh.indices[t + 2]]);
+    for (std::size_t t = 0; t + 2 < indices.size(); t += 3)
+        cross(along, places_[indices[t]], places_[indices[t + 1]], places_[indices[t + 2]]);
     std::ranges::sort(crossings_, [](const Crossing& a, const Crossing& b) {
         return std::tie(a.row, a.x, a.inwards) < std::tie(b.row, b.x, b.inwards);
     });
     for (std::size_t first = 0; first < crossings_.size();) {
         std::size_t end = first;
         while (end < crossings_.size() && crossings_[end].row == crossings_[first].row) ++end;
-        fillRow({crossings_.data() + first, end - first}, body);
+        const std::span<const Crossing> row(crossings_.data() + first, end - first);
+        if (axis == 0) fillRow(row, body);
+        fillThinWalls(along, row, body);
         first = end;
+    }
+}
+
+void MeshCells::fillThinWalls(const Sweep& sweep, std::span<const Crossing> crossings, std::uint8_t body) {
+    constexpr float opposed = -0.5f;  // the cosine of 120 degrees
+    for (std::size_t n = 1; n < crossings.size(); ++n) {
+        const Crossing &entered = crossings[n - 1], &left = crossings[n];
+        if (entered.inwards != 1 || left.inwards != -1 || glm::dot(entered.normal, left.normal) > opposed) continue;
+        if (left.x - entered.x >= 1) continue;  // a centre lies in it; a shorter one's is that of its middle's cell
+        const int i = static_cast<int>(std::floor(0.5f * (entered.x + left.x)));
+        if (i >= 0 && i < sweep.cells.x)
+            bodies_[entered.row + static_cast<std::size_t>(i) * static_cast<std::size_t>(sweep.strides.x)] = body;
     }
 }
 
@@ -85,7 +116,7 @@ void MeshCells::fillRow(std::span<const Crossing> crossings, std::uint8_t body) 
     int depth = 0;
     for (const Crossing& crossing : crossings) depths_.push_back(depth = std::max(0, depth + crossing.inwards));
     depth = 0;
-    std::uint8_t* row = bodies_.data() + std::size_t{crossings[0].row} * static_cast<std::size_t>(cells_.x);
+    std::uint8_t* row = bodies_.data() + crossings[0].row;
     const auto firstBeyond = [&](float x) {
         return static_cast<int>(std::clamp(std::ceil(x - 0.5f), 0.0f, static_cast<float>(cells_.x)));
     };

@@ -2,6 +2,11 @@
 //
 // A ray counts the surfaces that it enters and leaves, from both of its ends; a cell is inside if both counts agree, so
 // meshes may overlap, and open panels on a surface do no harm.
+//
+// A wall that passes between two centres takes the cell that its middle is in: rays along x, y and z find the places
+// where a mesh is entered and left between neighbouring centres, through surfaces that face away from each other. So no
+// path from cell to cell through their faces leads through a wall, however thin. A smooth rim, whose surfaces face the
+// same way there, takes none.
 // Units: cells. Owns: a byte for each cell, booked. Threads: one writer.
 // Source: Crane2007, 30.2.4. Departs: rays by row instead of slices by the GPU's stencil.
 #pragma once
@@ -21,8 +26,8 @@ class MeshCells {
     MeshCells(glm::ivec3 cells, MemoryAccount& account);
 
     void clear();
-    /// Sets cells whose centre is inside the mesh to `body`, overwriting previous values. `toCells` transforms the
-    /// mesh's positions to cell units from the minimum corner of the grid.
+    /// Sets cells whose centre is inside the mesh, and those of thin walls, to `body`, overwriting previous values.
+    /// `toCells` transforms the mesh's positions to cell units from the minimum corner of the grid.
     void add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uint8_t body);
     /// Sets one cell, for shapes that are not meshes.
     void set(int i, int j, int k, std::uint8_t body) { bodies_[index(i, j, k)] = body; }
@@ -32,19 +37,28 @@ class MeshCells {
     [[nodiscard]] glm::ivec3 cells() const { return cells_; }
 
  private:
+    /// Rays along one axis; their places are turned so that it comes first.
+    struct Sweep {
+        glm::ivec3 cells;    ///< along the rays, and numbers of rays
+        glm::ivec3 strides;  ///< in `bodies_`
+    };
     /// Intersection of a row's ray with a surface.
     struct Crossing {
         std::uint32_t row;
         float x;
         int inwards;  ///< 1 entering, −1 leaving
+        glm::vec3 normal;
     };
     [[nodiscard]] std::size_t index(int i, int j, int k) const {
         return (static_cast<std::size_t>(k) * static_cast<std::size_t>(cells_.y) + static_cast<std::size_t>(j)) *
                    static_cast<std::size_t>(cells_.x) +
                static_cast<std::size_t>(i);
     }
-    void cross(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+    [[nodiscard]] Sweep sweepAlong(int axis) const;
+    void sweep(std::span<const std::uint32_t> indices, int axis, std::uint8_t body);
+    void cross(const Sweep& sweep, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
     void fillRow(std::span<const Crossing> crossings, std::uint8_t body);
+    void fillThinWalls(const Sweep& sweep, std::span<const Crossing> crossings, std::uint8_t body);
 
     glm::ivec3 cells_;
     LedgerVector<std::uint8_t> bodies_;

@@ -1,132 +1,225 @@
 #include "methods/grid_fluid/obstacles_experiment.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <memory>
 #include <string>
-#include <utility>
+#include <vector>
 
+#include "methods/grid_fluid/demo/demo_solver.h"
 #include "methods/grid_fluid/flow/fluid_solver.h"
+#include "methods/grid_fluid/mesh_cells.h"
 
 namespace dustbench::grid_fluid::obstacles {
 namespace {
 
-using flow::CellLayout;
-
-constexpr glm::ivec3 cells{56, 32, 32};
+constexpr glm::ivec3 cells{44, 24, 24};
 constexpr double edge = 0.1;
-constexpr glm::vec3 stream{1, 0, 0};
 constexpr double stepSeconds = 1.0 / 30;
-constexpr int steps = 30;
-constexpr double radius = 0.7;
+constexpr int steps = 50;
+constexpr double radius = 0.5;
+constexpr glm::dvec3 wallPlace{2.4, 1.2, 1.2};  ///< where the jet meets it
 
-flow::FluidSettings settingsOf(const ObstacleSettings& settings) {
-    flow::FluidSettings solver;
-    solver.box = {cells, edge, {0, 0, 0}};
-    solver.windMetresPerSecond = stream;
-    solver.sides = flow::withWind(flow::openOverFloor, stream);
-    solver.pressure = settings.pressure;
-    solver.jacobiSweeps = settings.jacobiSweeps;
-    return solver;
+std::size_t index(const glm::ivec3& cell) {
+    return static_cast<std::size_t>(cell.x + cells.x * (cell.y + cells.y * cell.z));
 }
 
-/// 1 in the cells whose centres lie in the ball.
-std::vector<std::uint8_t> ballAt(const glm::dvec3& centre, double ballRadius) {
-    std::vector<std::uint8_t> inside;
+glm::dvec3 centreOf(const glm::ivec3& cell) {
+    return (glm::dvec3(cell) + 0.5) * edge;
+}
+
+template <typename Function>
+void forCells(const Function& function) {
     for (int k = 0; k < cells.z; ++k)
         for (int j = 0; j < cells.y; ++j)
-            for (int i = 0; i < cells.x; ++i) {
-                const glm::dvec3 away = (glm::dvec3(i, j, k) + 0.5) * edge - centre;
-                inside.push_back(glm::dot(away, away) < ballRadius * ballRadius ? 1 : 0);
-            }
-    return inside;
+            for (int i = 0; i < cells.x; ++i) function(glm::ivec3(i, j, k));
 }
 
-/// Returns the share that is swallowed of what the undisturbed stream, relative to the ball, carries into the cells up
-/// to two edges from the ball.
-double shareSwallowed(const flow::FluidSolver& solver, const glm::dvec3& centre, const glm::vec3& ballVelocity) {
-    const std::vector<std::uint8_t> near = ballAt(centre, radius + 2 * edge);
-    const auto isNear = [&](const glm::ivec3& cell) {
-        return near[static_cast<std::size_t>(cell.x + cells.x * (cell.y + cells.y * cell.z))] != 0;
-    };
-    const auto faceSpeed = [&](const glm::ivec3& cell, int axis) {
-        return static_cast<double>(solver.cells().cell(solver.layout().at(cell.x, cell.y, cell.z))[axis]);
-    };
-    double swallowed = 0, undisturbed = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        glm::ivec3 next(0);
-        next[axis] = 1;
-        for (int k = 0; k + next.z < cells.z; ++k)
-            for (int j = 0; j + next.y < cells.y; ++j)
-                for (int i = 0; i + next.x < cells.x; ++i) {
-                    const glm::ivec3 one(i, j, k), other = one + next;
-                    if (isNear(one) == isNear(other)) continue;
-                    const double inwards = isNear(other) ? 1 : -1;
-                    swallowed += inwards * faceSpeed(other, axis);
-                    undisturbed += std::max(inwards * static_cast<double>(stream[axis] - ballVelocity[axis]), 0.0);
-                }
+using Bodies = std::vector<std::uint8_t>;
+
+Bodies ballAt(const glm::dvec3& centre, bool perforated) {
+    Bodies bodies;
+    forCells([&](const glm::ivec3& cell) {
+        const bool isHole = perforated && (cell.x + cell.y + cell.z) % 4 == 0;
+        bodies.push_back(glm::distance(centreOf(cell), centre) < radius && !isHole ? 1 : 0);
+    });
+    return bodies;
+}
+
+/// Its first axis is the wall's normal.
+glm::dmat4 wallToWorld() {
+    const glm::dmat4 placed = glm::translate(glm::dmat4(1), wallPlace);
+    return glm::rotate(glm::rotate(placed, 0.35, glm::dvec3(0, 0, 1)), 0.2, glm::dvec3(0, 1, 0));
+}
+
+bool isBehindWall(const glm::dvec3& place) {
+    return glm::dot(place - wallPlace, glm::dvec3(wallToWorld()[0])) > 0;
+}
+
+scene::Mesh unitBox() {
+    scene::Mesh mesh;
+    for (int n = 0; n < 8; ++n) mesh.positions.push_back(glm::vec3(n & 1, n >> 1 & 1, n >> 2) - 0.5f);
+    using Side = std::array<std::uint32_t, 4>;
+    for (const Side& side :
+         {Side{0, 4, 6, 2}, Side{1, 3, 7, 5}, Side{0, 1, 5, 4}, Side{2, 6, 7, 3}, Side{0, 2, 3, 1}, Side{4, 5, 7, 6}})
+        for (const std::size_t corner : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(side[corner]);
+    return mesh;
+}
+
+Bodies wall(bool holed) {
+    MemoryLedger ledger;
+    MeshCells found(cells, ledger.account("cells"));
+    const glm::dmat4 toCells = glm::scale(glm::dmat4(1), glm::dvec3(1 / edge)) * wallToWorld();
+    found.add(unitBox(), glm::scale(toCells, glm::dvec3(0.1 * edge, 20, 20)), 1);
+    Bodies bodies(found.bodies().begin(), found.bodies().end());
+    if (holed)
+        forCells([&](const glm::ivec3& cell) {
+            const glm::dvec3 away = glm::abs(centreOf(cell) - wallPlace) / edge;
+            if (away.y < 2 && away.z < 2) bodies[index(cell)] = 0;
+        });
+    return bodies;
+}
+
+/// A solver, and what it stores.
+class Flow {
+ public:
+    explicit Flow(bool asPublished) : asPublished_(asPublished) {
+        flow::FluidSettings settings;
+        settings.box = {cells, edge, {0, 0, 0}};
+        if (asPublished)
+            solver_ = std::make_unique<demo::DemoSolver>(demo::demoOf(settings, false), ledger_);
+        else
+            solver_ = std::make_unique<flow::FluidSolver>(settings, ledger_);
     }
-    return std::abs(swallowed) / undisturbed;
+    [[nodiscard]] flow::Solver& solver() { return *solver_; }
+
+    void gather() {
+        for (int axis = 0; axis < 3; ++axis)
+            solver_->gatherStored(static_cast<flow::Lane>(flow::velocityX + axis),
+                                  speeds_[static_cast<std::size_t>(axis)]);
+        solver_->gather(flow::density, density_);
+    }
+    [[nodiscard]] double density(const glm::ivec3& cell) const { return static_cast<double>(density_[index(cell)]); }
+    /// Of the face towards the previous cell along an axis; where speeds are stored at the centres, the mean of both.
+    [[nodiscard]] double faceSpeed(const glm::ivec3& cell, int axis) const {
+        const std::vector<float>& speeds = speeds_[static_cast<std::size_t>(axis)];
+        const auto here = static_cast<double>(speeds[index(cell)]);
+        if (!asPublished_) return here;
+        glm::ivec3 before = cell;
+        --before[axis];
+        return 0.5 * (here + static_cast<double>(speeds[index(before)]));
+    }
+
+ private:
+    bool asPublished_;
+    MemoryLedger ledger_;
+    std::unique_ptr<flow::Solver> solver_;
+    const std::size_t count_ = flow::FluidBox{cells, edge, {}}.cellCount();
+    std::array<std::vector<float>, 3> speeds_{std::vector<float>(count_), std::vector<float>(count_),
+                                              std::vector<float>(count_)};
+    std::vector<float> density_ = std::vector<float>(count_);
+};
+
+/// Through the faces between the ball's cells and others, relative to the ball, where it flows inwards.
+double inflow(const Flow& flow, const Bodies& ball, const glm::vec3& ballVelocity) {
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        forCells([&](const glm::ivec3& cell) {
+            if (cell[axis] == 0) return;
+            glm::ivec3 before = cell;
+            --before[axis];
+            const bool isIn = ball[index(cell)] != 0, wasIn = ball[index(before)] != 0;
+            if (isIn == wasIn) return;
+            const double speed = flow.faceSpeed(cell, axis) - static_cast<double>(ballVelocity[axis]);
+            sum += std::max(isIn ? speed : -speed, 0.0);
+        });
+    return sum * edge * edge;
 }
 
-double smokeInside(const flow::FluidSolver& solver, const std::vector<std::uint8_t>& inside) {
+double smokeInside(const Flow& flow, const Bodies& bodies) {
     double within = 0, around = 0;
-    std::size_t cell = 0;
-    for (int k = 0; k < cells.z; ++k)
-        for (int j = 0; j < cells.y; ++j)
-            for (int i = 0; i < cells.x; ++i) {
-                const auto density =
-                    static_cast<double>(solver.cells().cell(solver.layout().at(i, j, k))[flow::density]);
-                double& maximum = inside[cell++] != 0 ? within : around;
-                maximum = std::max(maximum, density);
-            }
+    forCells([&](const glm::ivec3& cell) {
+        double& maximum = bodies[index(cell)] != 0 ? within : around;
+        maximum = std::max(maximum, flow.density(cell));
+    });
     return around > 0 ? within / around : 0;
+}
+
+double smokeBehind(const Flow& flow) {
+    double behind = 0, all = 0;
+    forCells([&](const glm::ivec3& cell) {
+        all += flow.density(cell);
+        if (isBehindWall(centreOf(cell))) behind += flow.density(cell);
+    });
+    return behind / all;
+}
+
+flow::FluidSource jet(float metresPerSecond) {
+    flow::FluidSource source;
+    source.centreMetres = {0.9, 1.2, 1.2};
+    source.radiusMetres = 0.3;
+    source.densityPerSecond = 4;
+    source.velocityMetresPerSecond = {metresPerSecond, 0, 0};
+    source.velocityPerSecond = 30;
+    return source;
 }
 
 }  // namespace
 
-ObstacleReport measureObstacleLeakage(const ObstacleSettings& settings) {
-    MemoryLedger ledger;
-    flow::FluidSolver solver(settingsOf(settings), ledger);
-    flow::FluidSource smoke;
-    smoke.centreMetres = {1.6, 1.6, 1.6};
-    smoke.radiusMetres = 0.4;
-    smoke.densityPerSecond = 4;
+ObstacleReport measureObstacle(const ObstacleSettings& settings) {
+    using enum Obstacle;
+    const bool isWall = settings.obstacle == wall || settings.obstacle == holedWall;
+    const bool isBall = settings.obstacle == ball || settings.obstacle == perforatedBall;
+    Flow flow(settings.asPublished);
+    const flow::FluidSource source = jet(settings.jetMetresPerSecond);
     flow::BodyMotion motion;
-    motion.velocity = -settings.ballMetresPerSecond * stream;
+    motion.velocity = {-settings.ballMetresPerSecond, 0, 0};
+    Bodies solid;
+    if (isWall) flow.solver().setSolids({solid = obstacles::wall(settings.obstacle == holedWall), {}});
     ObstacleReport report;
     for (int step = 0; step < steps; ++step) {
-        const glm::dvec3 centre = glm::dvec3(3.2, 1.6, 1.6) + glm::dvec3(motion.velocity) * (stepSeconds * step);
-        const std::vector<std::uint8_t> inside = ballAt(centre, radius);
-        if (settings.isSolid) solver.setSolids({inside, {&motion, 1}});
-        solver.step(stepSeconds, {&smoke, 1});
-        report.smokeInside = std::max(report.smokeInside, smokeInside(solver, inside));
-        report.swallowed = std::max(report.swallowed, shareSwallowed(solver, centre, motion.velocity));
+        const glm::dvec3 centre = glm::dvec3(2.6, 1.2, 1.2) + glm::dvec3(motion.velocity) * (stepSeconds * step);
+        if (isBall)
+            flow.solver().setSolids({solid = ballAt(centre, settings.obstacle == perforatedBall), {&motion, 1}});
+        flow.solver().step(stepSeconds, {&source, 1}, StageClock());
+        flow.gather();
+        if (!solid.empty()) report.smokeInside = std::max(report.smokeInside, smokeInside(flow, solid));
+        if (!isWall)
+            report.inflowM3PerSecond =
+                std::max(report.inflowM3PerSecond, inflow(flow, ballAt(centre, false), motion.velocity));
     }
+    report.smokeBehind = smokeBehind(flow);
     return report;
 }
 
 namespace {
 
-std::vector<Finding> measureLeakages() {
+std::vector<Finding> measureBoth() {
+    using enum Obstacle;
     std::vector<Finding> findings;
-    double inside = 0;
-    for (const auto& [name, method] :
-         {std::pair{"multigrid", flow::PressureMethod::multigrid}, {"jacobi", flow::PressureMethod::jacobi}})
-        for (const auto& [state, speed] : {std::pair{"rest", 0.0f}, {"moving", 0.5f}}) {
-            ObstacleSettings settings;
-            settings.pressure = method;
-            settings.ballMetresPerSecond = speed;
-            const ObstacleReport report = measureObstacleLeakage(settings);
-            findings.push_back({fmt::format("swallowed_{}_{}", state, name), report.swallowed, report.swallowed,
-                                report.swallowed, steps});
-            inside = std::max(inside, report.smokeInside);
-        }
-    findings.push_back({"smoke_inside", inside, inside, inside, 4 * steps});
+    for (const bool asPublished : {false, true}) {
+        const auto measured = [&](Obstacle obstacle, float ballSpeed = 0, float jetSpeed = 3) {
+            return measureObstacle({asPublished, obstacle, ballSpeed, jetSpeed});
+        };
+        const auto found = [&](const char* quantity, double value, int runs = 1) {
+            const std::string name = std::string(quantity) + (asPublished ? "_demo" : "_ours");
+            findings.push_back({name, value, value, value, runs * steps});
+        };
+        const ObstacleReport nothing = measured(none), rest = measured(ball), moving = measured(ball, 0.5f);
+        const ObstacleReport behind = measured(wall), fast = measured(wall, 0, 12);
+        found("inflow_rest", rest.inflowM3PerSecond / nothing.inflowM3PerSecond);
+        found("inflow_moving", moving.inflowM3PerSecond / measured(none, 0.5f).inflowM3PerSecond);
+        found("inflow_perforated", measured(perforatedBall).inflowM3PerSecond / nothing.inflowM3PerSecond);
+        found("smoke_inside", std::max({rest.smokeInside, moving.smokeInside, behind.smokeInside}), 3);
+        found("behind_wall", behind.smokeBehind);
+        found("behind_wall_fast", fast.smokeBehind);
+        found("behind_hole", measured(holedWall).smokeBehind);
+        found("behind_nothing", nothing.smokeBehind);
+    }
     return findings;
 }
 
@@ -134,9 +227,9 @@ std::vector<Finding> measureLeakages() {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How much of a stream an obstacle swallows, and what of its smoke gets inside.";
+    info.summary = "What flows into obstacles: air through a ball's surface, smoke into it and through a thin wall.";
     info.source = "Senger2009";
-    info.run = [](ExperimentContext&) { return measureLeakages(); };
+    info.run = [](ExperimentContext&) { return measureBoth(); };
     return info;
 }
 
