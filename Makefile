@@ -125,6 +125,10 @@ faults: build/release/build.ninja ## Every call of the system fails once, and 1,
 	@python3 -B tests/faults/faults_test.py $(PROGRAM) build/release/tests/libfailing_calls.so build/release/tests/faults
 	@python3 -B tests/faults/kills.py $(PROGRAM) build/release/tests/kills --kills $(KILLS)
 
+.PHONY: external
+external: build ## Our exact pictures against POV-Ray, vdb_render and Cycles, those that are here; figures in tests/external
+	@python3 -B tests/external/external.py $(PROGRAM) --write tests/external/figures.csv
+
 .PHONY: tsan
 tsan: build/tsan/build.ninja ## The unit tests that need no GPU under ThreadSanitizer
 	@cmake --build --preset tsan --parallel $(JOBS) --target unit_tests

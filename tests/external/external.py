@@ -86,21 +86,26 @@ def main():
                 if case.name in given.cases.split(","):
                     rows.append(compare(os.path.abspath(given.program), OTHERS[name], case, work, given.width, given.mass))
                     row = rows[-1]
-                    print(f"{name:11} {case.name:9} {row['psnr_mask_db']:>6} dB, error {row['error_max']}, depth x {row['depth_ratio']}; explained "
-                          f"{row['explained_psnr_mask_db']:>6} dB, depth x {row['explained_depth_ratio']}: {row['holds']}", flush=True)
+                    print(f"{name:11} {case.name:9} {row['psnr_mask_db']:>6} dB, error {row['error_max']}, depth x {row['depth_ratio']}; "
+                          f"explained {row['explained_psnr_mask_db']:>6} dB, depth x {row['explained_depth_ratio']}: {row['holds']}", flush=True)
     except (RuntimeError, ValueError, OSError) as error:
         sys.exit(f"external.py: {error}")
     finally:
         if not given.keep:
             shutil.rmtree(work, ignore_errors=True)
+    missed = any(row["holds"] == "no" for row in rows)
     if given.write and rows:
+        done = {(row["program"], row["case"]) for row in rows}
+        if os.path.exists(given.write):  # rows of programs that are elsewhere stay
+            with open(given.write, newline="") as file:
+                rows = [row for row in csv.DictReader(file) if (row["program"], row["case"]) not in done] + rows
         with open(given.write, "w", newline="") as file:
             table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
             table.writeheader()
             table.writerows(rows)
     if not rows:
         return 77
-    return 1 if any(row["holds"] == "no" for row in rows) else 0
+    return 1 if missed else 0
 
 
 if __name__ == "__main__":
