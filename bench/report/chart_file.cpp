@@ -1,6 +1,7 @@
 #include "bench/report/chart_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -19,6 +20,8 @@ namespace dustbench::bench {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 3> formats{"svg", "png", "pdf"};
 
 std::string withoutQuick(std::string id) {
     const std::string quick = "-quick";
@@ -70,28 +73,36 @@ std::vector<std::string> chartIds(const ReportData& data) {
     return ids;
 }
 
-fs::path writeChart(const fs::path& folder, const ReportData& data, const std::string& id, const std::string& format) {
-    constexpr std::array<std::string_view, 3> formats{"svg", "png", "pdf"};
+void drawChart(const ReportData& data, const std::string& id, const fs::path& file, const std::string& what) {
+    const std::string ending = file.extension().string();
+    const std::string format = ending.empty() ? ending : ending.substr(1);
     if (std::ranges::find(formats, format) == formats.end())
-        throw InputError(fmt::format("--format: got '{}', allowed: svg, png, pdf", format));
-    const std::string chart = resolved(data, id);
-    const fs::path place = folder / "charts" / fmt::format("{}.{}", chart, format);
+        throw InputError(
+            fmt::format("{}: got '{}', allowed: a file that ends in .svg, .png or .pdf", what, file.string()));
     std::error_code error;
-    fs::create_directories(place.parent_path(), error);
-    if (error) files::failWriting(place.parent_path(), error.value());
-    removeUnfinished(place.parent_path());
+    if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
+    if (error) files::failWriting(file.parent_path(), error.value());
 
-    WholeFile script(place.string() + ".js"), svg(place.string() + ".svg"), drawn(place), log(place.string() + ".log");
+    WholeFile script(file.string() + ".js"), svg(file.string() + ".svg"), drawn(file), log(file.string() + ".log");
     writeWhole(script.beside(), fmt::format("{}\n{}\nconst reportColumns = {};\nconst reportCharts = {};\n"
                                             "const reportData = {};\n{}",
                                             vegaScript(), chartScript(), reportFile("columns.json"),
                                             chartSpecifications(), reportJson(data), reportFile("chart_file.js")));
-    callDrawingProgram({"node", script.beside().string(), chart, svg.beside().string()}, "nodejs", log.beside());
+    callDrawingProgram({"node", script.beside().string(), id, svg.beside().string()}, "nodejs", log.beside());
     if (format == "svg")
         fs::rename(svg.beside(), drawn.beside());
     else
         convertSvg(svg.beside(), format, 2, drawn.beside(), log.beside());
     drawn.publish();
+}
+
+fs::path writeChart(const fs::path& folder, const ReportData& data, const std::string& id, const std::string& format) {
+    if (std::ranges::find(formats, format) == formats.end())
+        throw InputError(fmt::format("--format: got '{}', allowed: {}", format, fmt::join(formats, ", ")));
+    const std::string chart = resolved(data, id);
+    fs::path place = folder / "charts" / fmt::format("{}.{}", chart, format);
+    removeUnfinished(place.parent_path());
+    drawChart(data, chart, place, "--chart");
     return place;
 }
 

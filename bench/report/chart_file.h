@@ -19,4 +19,9 @@ namespace dustbench::bench {
 std::filesystem::path writeChart(const std::filesystem::path& folder, const ReportData& data, const std::string& id,
                                  const std::string& format);
 
+/// Draws the chart with exactly this id into `file`, whose ending says the format. Throws InputError as writeChart, and
+/// for another ending with `what`.
+void drawChart(const ReportData& data, const std::string& id, const std::filesystem::path& file,
+               const std::string& what);
+
 }  // namespace dustbench::bench

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,7 @@ struct RunGroup {
     std::vector<ReportCell> cells;
     std::vector<ReportFit> fits;
     std::vector<PublishedPoint> published;
+    std::optional<double> budgetMs;  ///< a line at this time in the chart of quality against `method_ms_median`
 };
 
 /// Frame times of one run: all as a histogram, a selection as a trace.

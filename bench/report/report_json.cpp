@@ -119,6 +119,7 @@ json groupJson(const RunGroup& group, const RunIndex& index) {
             {"cells", each(group.cells, [&](const ReportCell& cell) { return cellJson(group, cell, index); })},
             {"fits", each(group.fits, fitJson)},
             {"published", each(group.published, publishedJson)},
+            {"budgetMs", group.budgetMs ? number(*group.budgetMs) : json()},
             {"comparisons", each(group.comparisons, comparisonJson)}};
 }
 

@@ -36,6 +36,7 @@ const qualityChart = (() => {
         });
         const panels = distinct(points.map(point => point.panel));
         const front = panels.flatMap(panel => frontOf(points.filter(point => point.panel === panel), info.better === 'high'));
+        const budgets = against === 'method_ms_median' && experiment.budgetMs ? [{ x: experiment.budgetMs, text: `budget ${withUnit(experiment.budgetMs, cost.unit)}` }] : [];
         const xLog = (chart.xLog ?? spans(points.map(point => point.x), 8)) && points.every(point => point.xLow > 0);
         const yLog = (chart.yLog ?? false) && points.every(point => point.yLow > 0);
         const series = distinct(points.map(point => point.series)).map(name => ({ name, method: points.find(point => point.series === name).method }));
@@ -50,7 +51,8 @@ const qualityChart = (() => {
         setData(spec, 'panels', panels.map(panel => ({ panel })));
         setData(spec, 'points', points);
         setData(spec, 'front', front);
-        setScale(spec, 'x', { type: xLog ? 'log' : 'linear', domain: domainOf(points.flatMap(point => [point.x, point.xLow, point.xHigh]), xLog, false) });
+        setData(spec, 'budgets', budgets);
+        setScale(spec, 'x', { type: xLog ? 'log' : 'linear', domain: domainOf([...points.flatMap(point => [point.x, point.xLow, point.xHigh]), ...budgets.map(budget => budget.x)], xLog, false) });
         const yDomain = domainOf(points.flatMap(point => [point.y, point.yLow, point.yHigh]), yLog, info.better === 'low');
         setScale(spec, 'y', { type: yLog ? 'log' : 'linear', domain: yDomain });
         if (yLog) spec.marks[0].axes[0].values = logTicks(yDomain);
