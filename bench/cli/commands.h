@@ -16,6 +16,7 @@ namespace dustbench::cli {
 [[nodiscard]] Command mergeCommand();
 [[nodiscard]] Command reproduceCommand();
 [[nodiscard]] Command reportCommand();
+[[nodiscard]] Command recommendCommand();
 [[nodiscard]] Command diffCommand();
 [[nodiscard]] Command compareCommand();
 [[nodiscard]] Command viewCommand();

@@ -7,7 +7,7 @@
 namespace dustbench::cli {
 
 std::vector<std::string> DeclaredOption::words() const {
-    static const std::regex list("[a-z0-9]+(\\|[a-z0-9]+)+", std::regex::optimize);
+    static const std::regex list("[a-z0-9_]+(\\|[a-z0-9_]+)+", std::regex::optimize);
     std::vector<std::string> words;
     if (!std::regex_match(placeholder, list)) return words;
     std::istringstream text(placeholder);

@@ -10,6 +10,7 @@ enum ExitCode {
     exitBadInput = 3,
     exitInternal = 4,
     exitRegression = 5,
+    exitNothingFits = 5,  ///< as a regression: a limit that was asked for is not met
     exitNotComparable = 6,
 };
 

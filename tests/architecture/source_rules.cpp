@@ -36,8 +36,8 @@ std::string territoryOf(const std::string& path) {
 }
 
 /// The rooms of bench/: each may use those before it.
-constexpr std::array<std::string_view, 11> benchRooms{"scene",  "measure", "export", "reference", "results", "suite",
-                                                      "claims", "run",     "view",   "report",    "cli"};
+constexpr std::array<std::string_view, 12> benchRooms{"scene",  "measure", "export", "reference", "results",   "suite",
+                                                      "claims", "run",     "view",   "report",    "recommend", "cli"};
 
 /// Where a room of bench/ stands in that order; nothing for all other files.
 std::optional<std::size_t> roomOf(const std::string& path) {

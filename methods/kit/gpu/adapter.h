@@ -30,7 +30,7 @@ struct Adapter {
 [[nodiscard]] DUSTBENCH_API std::string_view platformName(Adapter::Platform platform);
 
 /// True for renderers that draw on the CPU.
-[[nodiscard]] bool isSoftwareRenderer(std::string_view renderer);
+[[nodiscard]] DUSTBENCH_API bool isSoftwareRenderer(std::string_view renderer);
 
 /// The default choice: the first hardware device, else surfaceless, else a software device, among adapters without a
 /// problem. Empty if every adapter has one.

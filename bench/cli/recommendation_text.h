@@ -1,0 +1,24 @@
+// A recommendation as text for a person: the answer of each world, its flaws, and what it rests on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/recommend/budget.h"
+#include "bench/recommend/rankings.h"
+#include "bench/recommend/recommendation.h"
+
+namespace dustbench::cli {
+
+/// `recommendations` has one for each ranking, in their order.
+[[nodiscard]] std::string recommendationText(const bench::Budget& budget, const bench::MeasuredRuns& runs,
+                                             const bench::Rankings& rankings,
+                                             const std::vector<bench::Recommendation>& recommendations);
+
+/// How many runs are not used, and why; empty if all are.
+[[nodiscard]] std::string leftOutText(const bench::MeasuredRuns& runs);
+
+/// Settings that have a time or a quality but not both, and those that have neither; empty if there are none.
+[[nodiscard]] std::string incompleteText(const bench::Rankings& rankings);
+
+}  // namespace dustbench::cli

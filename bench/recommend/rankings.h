@@ -1,0 +1,82 @@
+// Settings of methods that were measured in one world, with their time and the quality of their pictures.
+//
+// Times and pictures may be of different runs: they are joined by method, parameters, world and machine. Worlds, ways
+// of timing (sync, threads, frames), references of the pictures and lengths of the judged runs are never mixed: each
+// combination is a ranking of its own. A value is the median over the seeds (over the repetitions of a single seed),
+// its interval that of median_interval.h. Units: as the columns of summary.csv. Threads: pure.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/recommend/measured_runs.h"
+#include "bench/report/median_interval.h"
+
+namespace dustbench::bench {
+
+/// The column of a method's own time.
+inline constexpr std::string_view timeColumn = "method_ms_median";
+
+/// A metric that ranks pictures, or one that measures a flaw. reports/METRICS.md defines them.
+struct PictureMetric {
+    std::string_view column, unit;
+    std::string_view perfect;  ///< of a picture that equals the reference
+    bool higherIsBetter = false;
+};
+inline constexpr std::array<PictureMetric, 3> qualityMetrics{
+    {{"psnr_mask_db", "dB", "identical", true}, {"ssim_mask", "", "1", true}, {"flip_mask", "", "0", false}}};
+inline constexpr std::array<PictureMetric, 9> flawMetrics{{{"popping", "encoded value", "0"},
+                                                           {"gaps", "share of the trail", "0"},
+                                                           {"components", "parts", "as the reference"},
+                                                           {"cutoff", "alpha/pixel", "0"},
+                                                           {"self_similarity", "", "0"},
+                                                           {"banding", "linear light", "0"},
+                                                           {"error_max", "linear light", "0"},
+                                                           {"quads_per_pixel", "1/pixel", "any"},
+                                                           {"volume_error", "", "0"}}};
+/// Throws InputError that begins with `what`.
+[[nodiscard]] const PictureMetric& qualityMetric(const std::string& what, const std::string& column);
+
+/// One method with one set of parameters.
+struct MeasuredSetting {
+    std::string method;
+    SettingTexts own;
+    std::string label{};  ///< `billboard soft=on`: parameters other than the defaults, and those that vary
+    MedianInterval ms{};  ///< of its own time
+    std::size_t timedSeeds = 1;
+    MedianInterval quality{};                                      ///< `values`: the number of seeds
+    std::map<std::string, MedianInterval, std::less<>> metrics{};  ///< by column, as far as they were measured
+    bool otherRuns = false;  ///< some of its pictures were judged in runs that give no time
+    bool onFront = false;    ///< every other one, by intervals that do not overlap, costs more or errs more
+};
+
+struct Ranking {
+    SettingTexts world, conduct;
+    std::string label{};       ///< `scene=plain drive=straight size=320x240 particles=500`
+    std::string judgedFrames;  ///< length of the judged runs
+    std::string reference;     ///< `exact`, or a finer setting
+    std::size_t machine = 0;
+    std::vector<MeasuredSetting> settings{};  ///< best picture first
+};
+
+/// A setting that cannot be ranked.
+struct Incomplete {
+    std::string label, world;
+    bool hasTime = false, hasQuality = false;
+};
+
+struct Rankings {
+    PictureMetric quality;
+    std::vector<Ranking> rankings;  ///< those with a setting
+    std::vector<Incomplete> incomplete;
+};
+
+[[nodiscard]] Rankings rankSettings(const MeasuredRuns& runs, const PictureMetric& quality);
+
+/// True if every value of the interval of `a` is better than every one of `b`.
+[[nodiscard]] bool isClearlyBetter(const MedianInterval& a, const MedianInterval& b, const PictureMetric& metric);
+[[nodiscard]] bool isBetter(double a, double b, const PictureMetric& metric);
+
+}  // namespace dustbench::bench
