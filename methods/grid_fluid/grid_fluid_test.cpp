@@ -1,3 +1,4 @@
+// Over 400 lines: the method and the voxeliser of its solids share the bodies that they are tested on.
 #include "methods/grid_fluid/grid_fluid.h"
 
 #include <gtest/gtest.h>
