@@ -149,6 +149,7 @@ TEST_F(MachineFaults, NoDescendantOutlivesItsRun) {
     // In a session of their own, twice: the process group's signal does not reach them.
     const std::string left = "setsid sh -c 'echo $$ >> " + pids.string() + "; setsid sh -c \"echo \\$\\$ >> " +
                              pids.string() + "; exec sleep 600\" & exec sleep 600' & ";
+    std::ofstream(pids).close();  // to be counted before either process starts
     EXPECT_EQ(run(left + "while [ $(wc -l < " + pids.string() + ") -lt 2 ]; do sleep 0.01; done; " + good()).done, 3u);
     std::ifstream file(pids);
     int count = 0;
