@@ -1,3 +1,4 @@
+// Each kind of rule, judged by results with a known answer. Over 400 lines: all kinds share the same results.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -199,6 +200,14 @@ TEST(ClaimRules, ATrendIsTheRankCorrelationWithTheLoad) {
         return particles == 400 ? 1.0 : particles * scatter(particles, repetition, 6);
     };
     EXPECT_EQ(judged(rule, upAndDown).verdict, ClaimVerdict::refuted);
+    // Student's interval of −1 and 1 by turns is wider than what a correlation can be.
+    const auto byTurns = [](const std::string&, int particles, int repetition) {
+        return repetition % 2 ? 1.0 * particles : 1000.0 - particles;
+    };
+    const ClaimResult wide = judged(rule, byTurns);
+    EXPECT_EQ(wide.verdict, ClaimVerdict::unresolved);
+    EXPECT_EQ(wide.low, -1);
+    EXPECT_EQ(wide.high, 1);
 }
 
 TEST(ClaimRules, SlopesAreEqualForALineOnly) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -45,16 +46,20 @@ MeanAndError meanAndError(const std::vector<double>& values) {
     return result;
 }
 
-/// Values are compared as logarithms or as they are.
+/// Values are compared as logarithms or as they are. What an interval says beyond a quantity's own range is cut off.
 struct Scale {
     bool logarithmic = false;
+    double least = -std::numeric_limits<double>::infinity(), most = -least;
     [[nodiscard]] double to(double value) const { return logarithmic ? std::log(value) : value; }
-    [[nodiscard]] double from(double value) const { return logarithmic ? std::exp(value) : value; }
+    [[nodiscard]] double from(double value) const {
+        return std::clamp(logarithmic ? std::exp(value) : value, least, most);
+    }
 };
 
 Scale scaleOf(const Rule& rule, const ClaimSamples& samples) {
     const bool isFactor =
         rule.quantity == Quantity::ratio || rule.quantity == Quantity::matched || rule.quantity == Quantity::growth;
+    if (rule.quantity == Quantity::trend) return {false, -1, 1};
     return {isFactor && std::ranges::none_of(samples.list, [](const ClaimSample& each) { return each.value <= 0; })};
 }
 

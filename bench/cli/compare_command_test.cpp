@@ -49,6 +49,21 @@ TEST_F(CompareCommand, WritesMetricsSummaryAndContactSheetAndGoesOnWhereItWas) {
     EXPECT_EQ(again.out, first.out);
 }
 
+TEST_F(CompareCommand, LeavesTheSvgAndSaysWhyWhereNothingDrawsIt) {
+    const char* const path = std::getenv("PATH");
+    const std::string before = path ? path : "";
+    setenv("PATH", folder_.c_str(), 1);
+    const Called called = compare(
+        "billboard billboard:soft=true --size 96x72 --frames 6 --warmup 1 --repetitions 1 -P preroll=0.1 "
+        "-P particles=50");
+    setenv("PATH", before.c_str(), 1);
+    EXPECT_EQ(called.code, 0) << called.err;
+    EXPECT_THAT(called.out, AllOf(HasSubstr("contact_sheet.svg"), HasSubstr("no contact_sheet.png: "),
+                                  HasSubstr("'rsvg-convert', which is not installed")));
+    EXPECT_TRUE(fs::exists(fs::path(out()) / "contact_sheet.svg"));
+    EXPECT_FALSE(fs::exists(fs::path(out()) / "contact_sheet.png"));
+}
+
 TEST_F(CompareCommand, ShowsAMethodWithASimulationOfItsOwnBesideTheJudged) {
     if (std::ranges::none_of(methods(), [](const MethodInfo& info) { return info.id == "grid_fluid"; }))
         GTEST_SKIP() << "no fluid here";

@@ -65,6 +65,7 @@ int recommend(const RecommendOptions& options) {
     if (rankings.rankings.empty()) return refuse(runs, rankings);
 
     std::vector<bench::Recommendation> answers;
+    answers.reserve(rankings.rankings.size());
     for (const bench::Ranking& ranking : rankings.rankings)
         answers.push_back(bench::recommend(ranking, quality, budget.ms));
     if (!options.chart.empty()) drawChart(options, rankings, runs, budget);

@@ -145,6 +145,7 @@ std::string machineText(const bench::MachineFacts& machine, const std::string& n
         return fmt::format(
             "measured on: unknown{}, a summary.csv alone does not say it (machine.csv beside it would)\n", number);
     std::vector<std::string> commits;
+    commits.reserve(machine.commits.size());
     constexpr std::size_t shortCommit = 12;
     for (const std::string& commit : machine.commits)
         commits.push_back(commit.empty() ? "outside git" : commit.substr(0, shortCommit));

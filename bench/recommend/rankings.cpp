@@ -61,6 +61,7 @@ std::map<std::string, std::vector<double>> valuesBySeed(const RunList& runs, std
 
 MedianInterval overSeeds(const std::map<std::string, std::vector<double>>& bySeed) {
     std::vector<double> medians;
+    medians.reserve(bySeed.size());
     for (const auto& [seed, values] : bySeed) medians.push_back(intervalOf(values).median);
     return intervalOf(std::move(medians));
 }
@@ -229,6 +230,7 @@ const PictureMetric& qualityMetric(const std::string& what, const std::string& c
     const auto* const found = std::ranges::find(qualityMetrics, column, &PictureMetric::column);
     if (found != qualityMetrics.end()) return *found;
     std::vector<std::string_view> names;
+    names.reserve(qualityMetrics.size());
     for (const PictureMetric& metric : qualityMetrics) names.push_back(metric.column);
     throw InputError(fmt::format("{}: got '{}', allowed: {}", what, column, fmt::join(names, ", ")));
 }

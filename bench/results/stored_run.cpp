@@ -4,6 +4,7 @@
 #include <simdjson.h>
 
 #include <cmath>
+#include <new>
 #include <set>
 
 #include "bench/results/summary.h"
@@ -115,7 +116,11 @@ StoredRun readRunFile(const std::filesystem::path& file) {
         run.outputs = readOutputs(json);
         requireSound(run);
         return run;
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
+        const auto* const ofReader = dynamic_cast<const simdjson::simdjson_error*>(&error);
+        if (ofReader && ofReader->error() == simdjson::MEMALLOC) throw std::bad_alloc();
         throw InputError(file.string() + ": is no run.json of dustbench: " + error.what());
     }
 }
