@@ -3,6 +3,7 @@
 #include "methods/grid_fluid/demo_memory_experiment.h"
 #include "methods/grid_fluid/large_steps_experiment.h"
 #include "methods/grid_fluid/obstacles_experiment.h"
+#include "methods/grid_fluid/scheme_accuracy_experiment.h"
 #include "methods/grid_fluid/sight_experiment.h"
 #include "methods/kit/draw/test_canvas.h"
 
@@ -34,6 +35,31 @@ TEST(LargeStepsExperiment, TellsAStableFlowFromOneThatGrowsAndFromOneThatStands)
     EXPECT_EQ(stands.travelMetres, 0);
     settings = {{flow::AdvectionScheme::macCormack, flow::Limit::none}, 20, false};
     EXPECT_GT(large_steps::measureSteps(settings).energy, 1.2);
+}
+
+TEST(SchemeAccuracyExperiment, MeasuresDistancesThatFallAsTheGridIsRefined) {
+    using namespace scheme_accuracy;
+    constexpr int cells = 8;
+    const auto after = [](flow::AdvectionScheme scheme, int refinement) {
+        return jetAfter(0.5, scheme, cells, refinement, 3);
+    };
+    const CoarseFlow reference = after(flow::AdvectionScheme::semiLagrangian, 4);
+    const Distance none = distanceOf(reference, reference, cells);
+    EXPECT_EQ(none.density + none.picture + none.velocity + none.enstrophy + none.detail, 0);
+    const Distance coarse = distanceOf(after(flow::AdvectionScheme::semiLagrangian, 1), reference, cells),
+                   finer = distanceOf(after(flow::AdvectionScheme::semiLagrangian, 2), reference, cells);
+    for (const auto of :
+         {&Distance::density, &Distance::picture, &Distance::velocity, &Distance::enstrophy, &Distance::detail})
+        EXPECT_LT(finer.*of, 0.7 * coarse.*of);
+    // A flow of half the speed has a quarter of the enstrophy and of the detail.
+    CoarseFlow slower = reference;
+    for (std::vector<float>& speed : slower.velocity)
+        for (float& value : speed) value /= 2;
+    const Distance half = distanceOf(slower, reference, cells);
+    EXPECT_EQ(half.density, 0);
+    EXPECT_NEAR(half.velocity, 0.5, 1e-6);
+    EXPECT_NEAR(half.enstrophy, std::log(4.0), 1e-5);
+    EXPECT_NEAR(half.detail, std::log(4.0), 1e-5);
 }
 
 /// The harness's context, but without worlds: this experiment requests none.
