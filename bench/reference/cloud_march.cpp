@@ -9,10 +9,10 @@
 #include <stdexcept>
 
 #include "bench/reference/camera_rays.h"
-#include "bench/reference/fast_functions.h"
 #include "bench/reference/puff_list.h"
-#include "bench/reference/sun_depth.h"
+#include "bench/reference/sun_lattice.h"
 #include "methods/contract/volume.h"
+#include "methods/kit/maths/fast_functions.h"
 #include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::bench {
@@ -37,18 +37,18 @@ struct RayPuff {
     glm::dvec3 colour;
 };
 
-/// Contents between two distances along a ray: depth, and depth-weighted colour.
-struct Slab {
-    double depth = 0;
-    glm::dvec3 colour{0};
-};
-
 struct Lighting {
     const SunLight& light;
-    SunDepth depths;
+    SunLattice depths;
 
-    [[nodiscard]] glm::dvec3 at(const glm::dvec3& position) const {
-        return light.sun / 4.0 * std::exp(-depths.at(position)) + light.ambient;
+    /// Of light that goes on along a ray of this direction.
+    [[nodiscard]] glm::dvec3 scattered(const glm::dvec3& direction) const {
+        const double cosine = glm::dot(direction, glm::normalize(light.toSun));
+        return light.sun / 4.0 *
+               static_cast<double>(scene::phaseFactor(static_cast<float>(light.asymmetry), static_cast<float>(cosine)));
+    }
+    [[nodiscard]] glm::dvec3 at(const glm::dvec3& position, const glm::dvec3& scattered) const {
+        return scattered * std::exp(-depths.at(position)) + light.ambient;
     }
 };
 
@@ -87,18 +87,20 @@ class RayMarch {
         MarchedPixel pixel;
         if (puffs_.empty()) return pixel;
         fillSlabs();
+        const glm::dvec3 scattered = lighting ? lighting->scattered(direction) : glm::dvec3(1);
         double transmittance = 1;
-        for (std::size_t k = 0; k < slabs_.size(); ++k) {
-            const Slab& slab = slabs_[k];
-            if (!(slab.depth > 0)) continue;
-            pixel.depth += slab.depth;
+        for (std::size_t k = 0; k < depths_.size(); ++k) {
+            const double depth = depths_[k];
+            if (!(depth > 0)) continue;
+            pixel.depth += depth;
             const double reached = transmittance;
-            transmittance *= std::exp(-slab.depth);
-            if (reached * slab.depth < minimumShare) continue;
-            glm::dvec3 seen = slab.colour / slab.depth * (reached * -std::expm1(-slab.depth));
-            if (lighting) seen *= lighting->at(eye + (begin_ + (static_cast<double>(k) + 0.5) * length_) * direction);
+            transmittance *= std::exp(-depth);
+            if (reached * depth < minimumShare) continue;
+            glm::dvec3 seen = glm::dvec3(reds_[k], greens_[k], blues_[k]) / depth * (reached * -std::expm1(-depth));
+            if (lighting)
+                seen *= lighting->at(eye + (begin_ + (static_cast<double>(k) + 0.5) * length_) * direction, scattered);
             pixel.colour += seen;
-            pixel.unevenness += reached * slab.depth * slab.depth / 8;
+            pixel.unevenness += reached * depth * depth / 8;
         }
         return pixel;
     }
@@ -117,36 +119,46 @@ class RayMarch {
                 fmt::format("ground truth: slabs of {} m cut the {} m of a ray into more than {} parts", slabMetres_,
                             end - begin_, maximumSlabs));
         length_ = (end - begin_) / count;
-        slabs_.assign(static_cast<std::size_t>(count), Slab{});
+        for (std::vector<double>* column : {&depths_, &reds_, &greens_, &blues_})
+            column->assign(static_cast<std::size_t>(count), 0.0);
         for (const RayPuff& puff : puffs_) {
             // From the first to the last slab that it covers; the tails beyond are added to these two.
-            const std::size_t first = slabOf(puff.begin), last = slabOf(puff.end);
-            double before = halfErf_(((puff.begin > 0 ? -infinite : 0.0) - puff.foot) * puff.inverseWidth);
-            for (std::size_t k = first; k <= last; ++k) {
-                const double to = k < last ? begin_ + static_cast<double>(k + 1) * length_
-                                           : (puff.end < sceneMetres_ ? infinite : sceneMetres_);
-                const double after = halfErf_((to - puff.foot) * puff.inverseWidth);
-                const double depth = puff.depth * (after - before);
-                slabs_[k].depth += depth;
-                slabs_[k].colour += depth * puff.colour;
-                before = after;
+            const std::size_t first = slabOf(puff.begin), slabs = slabOf(puff.end) - first + 1;
+            passed_.resize(slabs + 1);
+            double* const passed = passed_.data();
+            const double start = begin_ + static_cast<double>(first) * length_ - puff.foot;
+            for (std::size_t k = 0; k <= slabs; ++k)
+                passed[k] = halfErf_((start + static_cast<double>(k) * length_) * puff.inverseWidth);
+            passed[0] = halfErf_(((puff.begin > 0 ? -infinite : 0.0) - puff.foot) * puff.inverseWidth);
+            passed[slabs] =
+                halfErf_(((puff.end < sceneMetres_ ? infinite : sceneMetres_) - puff.foot) * puff.inverseWidth);
+            double *const depths = &depths_[first], *const reds = &reds_[first], *const greens = &greens_[first],
+                          *const blues = &blues_[first];
+            for (std::size_t k = 0; k < slabs; ++k) {
+                const double depth = puff.depth * (passed[k + 1] - passed[k]);
+                depths[k] += depth;
+                reds[k] += depth * puff.colour.r;
+                greens[k] += depth * puff.colour.g;
+                blues[k] += depth * puff.colour.b;
             }
         }
     }
 
     [[nodiscard]] std::size_t slabOf(double metres) const {
         const double index = std::floor((metres - begin_) / length_);
-        return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(slabs_.size() - 1)));
+        return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(depths_.size() - 1)));
     }
 
     static constexpr double infinite = 1e300;
 
-    const HalfErrorFunction& halfErf_ = HalfErrorFunction::instance();
+    const maths::HalfErrorFunction& halfErf_ = maths::HalfErrorFunction::instance();
     double slabMetres_;
     double sceneMetres_ = 0;
     double begin_ = 0, length_ = 0;
     std::vector<RayPuff> puffs_;
-    std::vector<Slab> slabs_;
+    std::vector<double> depths_;                 ///< of each slab
+    std::vector<double> reds_, greens_, blues_;  ///< weighted by depth
+    std::vector<double> passed_;                 ///< share of a puff before each face of its slabs, less a half
 };
 
 glm::dvec3 checkedColour(const Puffs& store, std::size_t i) {
@@ -167,7 +179,9 @@ CloudImage march(const Puffs& store, const scene::View& view, const OpaqueDistan
     const auto puffs = preparePuffs(store, rays, options.opticalDepthShare, neglected);
     const OpaqueDistances distances = options.ignoreScene ? skyDistances(view) : given;
     std::optional<Lighting> lighting;
-    if (light) lighting.emplace(*light, SunDepth(store, light->toSun, options.opticalDepthShare, neglected));
+    if (light)
+        lighting.emplace(*light,
+                         SunLattice(store, light->toSun, options.opticalDepthShare, neglected, 2 * options.slabMetres));
 
     std::vector<glm::dvec3> colours;
     colours.reserve(puffs.size());
@@ -223,6 +237,16 @@ CloudImage march(const Puffs& store, const scene::View& view, const OpaqueDistan
 }
 
 }  // namespace
+
+SunLight SunLight::of(const scene::Scene& scene) {
+    const scene::Lights& lights = scene.lights;
+    const glm::dvec3 sun(lights.sun), ambient(lights.ambient), all = ambient + sun / 4.0;
+    const glm::dvec3 share(all.r > 0 ? 1 / all.r : 0, all.g > 0 ? 1 / all.g : 0, all.b > 0 ? 1 / all.b : 0);
+    return {.toSun = glm::dvec3(lights.toSun),
+            .sun = sun * share,
+            .ambient = ambient * share,
+            .asymmetry = static_cast<double>(scene.dustAsymmetry)};
+}
 
 CloudImage marchParticles(const Puffs& store, const scene::View& view, const OpaqueDistances& distances,
                           const ReferenceOptions& options) {

@@ -20,18 +20,23 @@
 #include <optional>
 
 #include "bench/reference/particle_image.h"
+#include "methods/contract/scene.h"
 #include "methods/contract/volume.h"
 
 namespace dustbench::bench {
 
-/// Light of the lit variant. As in scene::dustColour, a white surface facing the sun has the value `sun`, and
-/// scattering is isotropic (phase 1/4π): single scattering gives ϖ·sun/4 from the sun, attenuated on its way through
-/// the dust, and ϖ·ambient from the sky, which is not attenuated. Not included: multiple scattering, shadows of ground,
-/// solids and vehicle in the dust, and the dust's shadow on them.
+/// Light of the lit variant. As in scene::dustColour, a white surface facing the sun has the value `sun`: single
+/// scattering gives ϖ·F·sun/4 from the sun, attenuated on its way through the dust, with the phase function F of
+/// scene::phaseFactor, and ϖ·ambient from the sky, which is not attenuated. Not included: multiple scattering, and
+/// shadows of ground, solids and vehicle in the dust.
 struct SunLight {
+    /// That of scene::dustLight, to be multiplied by colours that the dust has without light.
+    [[nodiscard]] static SunLight of(const scene::Scene& scene);
+
     glm::dvec3 toSun{0, 1, 0};  ///< towards the sun, world
     glm::dvec3 sun{1};
     glm::dvec3 ambient{0};
+    double asymmetry = 0;  ///< of F; 0: F = 1
     /// ϖ of all puffs; empty: each puff's colour in the store is its ϖ.
     std::optional<glm::dvec3> albedo{};
 };
@@ -40,7 +45,7 @@ struct SunLight {
 [[nodiscard]] CloudImage marchParticles(const Puffs& store, const scene::View& view, const OpaqueDistances& distances,
                                         const ReferenceOptions& options = {});
 
-/// J(t) = sun/4·exp(−Σ towards the sun) + ambient, single scattering; the depth towards the sun is again the closed
+/// J(t) = F·sun/4·exp(−Σ towards the sun) + ambient, single scattering; the depth towards the sun is again the closed
 /// form. `options.slabMetres` controls the error; halving it divides the error by four if slabs are short relative to
 /// the puffs (r/4 or less). With 0.1 m and puffs with radii of 0.5 m and larger, halving changes no channel of a lit
 /// trail by more than 1e-3. The opacities are those of renderParticles, for any slab length.

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "bench/reference/sun_depth.h"
 #include "bench/reference/test_clouds.h"
 
 namespace dustbench::bench {
@@ -145,28 +144,6 @@ TEST(CloudMarch, EqualsABruteForceMarchOfColours) {
         }
 }
 
-TEST(SunDepth, EqualsTheClosedFormPuffByPuff) {
-    MemoryLedger ledger;
-    const ParticleStore store = test::ball(ledger, 6, 300, {20, 1, -7}, 6, 0.5f);
-    for (const glm::dvec3 toSun : {glm::dvec3(0, 1, 0), glm::dvec3(-0.93, 0.26, -0.25), glm::dvec3(0, 0, -3)}) {
-        const SunDepth sun(store, toSun, 0.5, 1e-9);
-        for (std::uint64_t k = 0; k < 300; ++k) {
-            const auto a = maths::uniform4(6, 9, k);
-            const glm::dvec3 at = glm::dvec3(20, 1, -7) +
-                                  12.0 * glm::dvec3(maths::centred(a[0]), maths::centred(a[1]), maths::centred(a[2]));
-            double sum = 0;
-            for (std::size_t i = 0; i < store.size(); ++i) {
-                const glm::dvec3 toCentre = glm::dvec3(store.position(i)) - at;
-                const double foot = glm::dot(toCentre, glm::normalize(toSun));
-                const double b = glm::length(glm::cross(toCentre, glm::normalize(toSun)));
-                sum += 0.5 * maths::rayOpticalDepth(static_cast<double>(store.opacity[i]),
-                                                    static_cast<double>(store.radius[i]), b, foot, 0, 1e9);
-            }
-            ASSERT_NEAR(sun.at(at), sum, 3e-7 + 4e-9 * sum);
-        }
-    }
-}
-
 TEST(LitParticles, EqualTheClosedFormsWithTheSunAlongTheRay) {
     // At the centre of the picture the ray is the axis. Sun behind the eye: light takes the same path in and out, ∫
     // e^(−2τ) dτ = ½(1 − e^(−2Σ)). Sun ahead: from any point it passes through the whole cloud, Σ·e^(−Σ).
@@ -192,6 +169,44 @@ TEST(LitParticles, EqualTheClosedFormsWithTheSunAlongTheRay) {
     light.ambient = {0.3, 0.4, 0.5};
     const CloudImage sky = renderLitParticles(store, view, skyDistances(view), light, options);
     EXPECT_NEAR(lit(sky), 0.8 * 0.4 * (1 - std::exp(-depth)), 1e-6);
+}
+
+TEST(LitParticles, ScatterByTheAngleBetweenSightAndSun) {
+    // F = (1 − g²)/(1 + g² − 2g·cos)^1.5 multiplies what the sun adds: for g = ½: 6 at cos = 1, 2/9 at −1.
+    MemoryLedger ledger;
+    ParticleStore store(ledger);
+    test::add(store, {0, 0, 0}, 1, 0.5f);
+    const scene::View view = test::viewFrom({0, 0, 12}, {0, 0, 0}, 41, 31);
+    SunLight light{.toSun = {0, 0, -1}, .sun = {1, 1, 1}, .ambient = glm::dvec3(0), .albedo = glm::dvec3(1)};
+    const auto middle = [&] {
+        return static_cast<double>(renderLitParticles(store, view, skyDistances(view), light).image.at(20, 15).g);
+    };
+    const double ahead = middle();
+    light.toSun = {0, 0, 1};
+    const double behind = middle();
+    light.asymmetry = 0.5;
+    EXPECT_NEAR(middle() / behind, 2.0 / 9, 1e-6);
+    light.toSun = {0, 0, -1};
+    EXPECT_NEAR(middle() / ahead, 6, 1e-5);
+}
+
+TEST(LitParticles, AreThoseOfTheSceneWithoutShadowAndPhase) {
+    // Thin dust that scatters to all sides alike has its colours: SunLight::of is scene::dustLight.
+    MemoryLedger ledger;
+    ParticleStore store(ledger);
+    test::add(store, {0, 0, 0}, 1, 1e-4f);
+    store.colourOfAll = {0.75f, 0.6f, 0.45f};
+    const scene::View view = test::viewFrom({0, 0, 12}, {0, 0, 0}, 41, 31);
+    scene::Scene scene;
+    scene.dustAsymmetry = 0;
+    const glm::vec4 unlit = renderParticles(store, view, skyDistances(view)).image.at(20, 15);
+    const glm::vec4 lit = renderLitParticles(store, view, skyDistances(view), SunLight::of(scene)).image.at(20, 15);
+    for (int c = 0; c < 4; ++c) EXPECT_NEAR(lit[c] / unlit[c], 1, 1e-4f) << c;
+    // And with both: the colour times scene::dustLight of the puff's centre, where it is thin.
+    scene.dustAsymmetry = 0.6f;
+    const float cosine = glm::dot(glm::vec3(0, 0, -1), scene.lights.toSun);
+    const glm::vec4 phased = renderLitParticles(store, view, skyDistances(view), SunLight::of(scene)).image.at(20, 15);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(phased[c] / unlit[c], scene::dustLight(scene, 1, cosine)[c], 2e-4f) << c;
 }
 
 TEST(LitParticles, ConvergeAtOrderTwoAndToWhatIsPromised) {

@@ -7,11 +7,13 @@
 #include <limits>
 #include <numbers>
 
-#include "bench/reference/fast_functions.h"
+#include "methods/kit/maths/fast_functions.h"
 #include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::bench {
 namespace {
+
+using maths::HalfErrorFunction, maths::powerOfTwo;
 
 constexpr int rowsAtOnce = 4;
 /// Pixels of a row that are culled against a puff together; the loops run over whole groups.

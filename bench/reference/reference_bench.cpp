@@ -1,9 +1,11 @@
 // The ground truth's images at 640×480: a trail like that of the default scene, seen as its chase camera sees it, with
 // a level ground, for both references; and from within the trail.
 //
-// What `particles` and `continuum` must reach on 2 cores: 1 s and 15 s.
+// What `particles` and `continuum` must reach on 2 cores: 1 s and 15 s; what lit dust of 3,000 puffs must at 320×240: 1
+// s.
 #include <benchmark/benchmark.h>
 
+#include "bench/reference/cloud_march.h"
 #include "bench/reference/particle_image.h"
 #include "bench/reference/test_clouds.h"
 
@@ -48,12 +50,25 @@ void continuumReference(benchmark::State& state, Place place) {
     render(state, place, 1.0 / 64);
 }
 
+void litReference(benchmark::State& state, Place place) {
+    MemoryLedger ledger;
+    const particles::ParticleStore store = test::trail(ledger, static_cast<std::size_t>(state.range(0)), 80);
+    scene::View view = viewFrom(place);
+    view.width = 320;
+    view.height = 240;
+    const OpaqueDistances ground = test::groundDistances(view, 0);
+    const SunLight light = SunLight::of({});
+    for (auto _ : state) benchmark::DoNotOptimize(renderLitParticles(store, view, ground, light));
+}
+
 void settings(benchmark::internal::Benchmark* benchmark) {
     benchmark->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
 }
 
 BENCHMARK_CAPTURE(particlesReference, chasing, Place::chasing)->Arg(5'000)->Apply(settings);
 BENCHMARK_CAPTURE(particlesReference, within, Place::within)->Arg(5'000)->Apply(settings);
+BENCHMARK_CAPTURE(litReference, chasing, Place::chasing)->Arg(3'000)->Apply(settings);
+BENCHMARK_CAPTURE(litReference, within, Place::within)->Arg(3'000)->Apply(settings);
 BENCHMARK_CAPTURE(continuumReference, chasing, Place::chasing)->Arg(320'000)->Apply(settings);
 BENCHMARK_CAPTURE(continuumReference, within, Place::within)->Arg(320'000)->Apply(settings);
 

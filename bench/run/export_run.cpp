@@ -35,7 +35,7 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
     world.followPath(spec.cameraPath);
     world.useDust(givenDust(spec));
     requireFramesWithinDrive(spec, world);
-    if (const std::string reason = info.cannotTake ? info.cannotTake(world.scene()) : ""; !reason.empty())
+    if (const std::string reason = whyNotTaken(info, world.scene()); !reason.empty())
         throw InputError(fmt::format("method {} cannot take scene '{}': {}", spec.method, spec.scene, reason));
     record.drive = world.driveId();
 

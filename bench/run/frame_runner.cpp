@@ -134,6 +134,7 @@ void FrameRunner::frame(std::int64_t index) {
     {
         const auto timing = clock.measure(Stage::simulate);
         world_.simulate();
+        (void)world_.dust();  // lights it, where the sun does
     }
     const Frame now = host_.see(index, clock);
     {

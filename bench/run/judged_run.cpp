@@ -98,12 +98,15 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         if (!isMoment && !inStretch) return;
         const scene::View view = world.view(spec.size.width, spec.size.height);
         const DrawnMoment drawn = runner.drawn(isMoment);
-        ExactMoment exact = finer
-                                ? finer->moment(isMoment)
-                                : exactMoment(view, drawn, world.dust(), isMoment,
-                                              isMoment && continuum ? std::optional(continuum->dust()) : std::nullopt);
+        ExactMoment exact =
+            finer ? finer->moment(isMoment)
+                  : exactMoment(world.scene(), view, drawn, world.unlitDust(), isMoment,
+                                isMoment && continuum ? std::optional(continuum->unlitDust()) : std::nullopt);
         // Nothing emits dust from a file: it is its own continuum.
-        if (isMoment && !finer && !continuum) exact.continuum = exact.layer;
+        if (isMoment && !finer && !continuum) {
+            exact.continuum = exact.layer;
+            exact.ofOneColour = true;
+        }
         MomentMetrics metrics;
         if (isMoment) {
             CollectedVolume volume, reference;

@@ -18,9 +18,10 @@ class JudgedRun : public testing::Test {
     /// The summary of a judged run with this many frames.
     std::map<std::string, double> judged(const std::string& method, const ParameterTexts& parameters,
                                          std::int64_t frames = 31, const std::string& drive = "straight",
-                                         const ParameterTexts& finer = {}) {
+                                         const ParameterTexts& finer = {}, const std::string& scene = "plain") {
         RunSpec spec;
         spec.method = method;
+        spec.scene = scene;
         spec.drive = drive;
         spec.size = {160, 120};
         spec.frames = frames;
@@ -53,6 +54,33 @@ TEST_F(JudgedRun, SoftBillboardsAreTheExactPictureAndHardOnesAreCutOff) {
     EXPECT_GT(hard.at("cutoff"), 5 * soft.at("cutoff"));
     EXPECT_EQ(soft.at("volume_error"), 0);
     EXPECT_GT(soft.at("quads_per_pixel"), 0);
+}
+
+TEST_F(JudgedRun, LitDustIsJudgedByItsLightAndItsGapsStayAsTheyAre) {
+    if (!hasMethod("exact_tiles") || !hasMethod("null_method")) GTEST_SKIP() << "no exact tiles here";
+    const auto of = [&](const char* method, const char* light) {
+        return judged(method, {{"light", light}, {"particles", "600"}}, 5);
+    };
+    const auto unlit = of("exact_tiles", "none"), lit = of("exact_tiles", "sun"), nothing = of("null_method", "sun");
+    EXPECT_EQ(lit.at("gaps"), unlit.at("gaps"));
+    EXPECT_TRUE(unlit.contains("psnr_continuum_db"));
+    EXPECT_FALSE(lit.contains("psnr_continuum_db"));
+    // What remains is that puffs are lit, not points.
+    EXPECT_GT(lit.at("psnr_mask_db"), 35);
+    EXPECT_LT(lit.at("psnr_mask_db"), 60);
+    EXPECT_LT(nothing.at("psnr_mask_db"), lit.at("psnr_mask_db") - 15);
+}
+
+TEST_F(JudgedRun, DustOfTwoSoilsNeedsOrder) {
+    if (!hasMethod("weighted_oit") || !hasMethod("moment_oit") || !hasMethod("exact_tiles"))
+        GTEST_SKIP() << "no OIT here";
+    const auto of = [&](const char* method) {
+        return judged(method, {{"particles", "600"}}, 5, "straight", {}, "two_soils").at("psnr_mask_db");
+    };
+    const double weighted = of("weighted_oit"), moments = of("moment_oit"), exact = of("exact_tiles");
+    EXPECT_LT(weighted, 52);
+    EXPECT_GT(moments, weighted + 8);
+    EXPECT_GT(exact, moments + 30);
 }
 
 TEST_F(JudgedRun, GapsOfBillboardsRiseWithSpeed) {

@@ -148,7 +148,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     record.provenance.inputs = hashInputs(inputFilesOf(world, parameters.method, read));
     const int threads = oneapi::tbb::this_task_arena::max_concurrency();
 
-    if (const std::string reason = info.cannotTake ? info.cannotTake(world.scene()) : ""; !reason.empty()) {
+    if (const std::string reason = whyNotTaken(info, world.scene()); !reason.empty()) {
         record.status = RunStatus::skipped;
         record.reason = reason;
         record.summary = identityColumns(record, threads);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bench/results/summary.h"
+#include "bench/run/method_host.h"
 #include "methods/contract/registry.h"
 #include "methods/kit/testing/test_folder.h"
 
@@ -57,6 +58,19 @@ TEST(MeasuredRun, WithoutTimesKeepsNothingThatDependsOnTheMachinesSpeed) {
     EXPECT_TRUE(fs::exists(without / "images/f000001.png"));
     for (const std::string& warning : untimed.provenance.warnings)
         EXPECT_THAT(warning, testing::Not(testing::AnyOf(testing::HasSubstr("busy"), testing::HasSubstr("stall"))));
+}
+
+TEST(MeasuredRun, LitDustIsShownByMethodsThatTakeItAlone) {
+    scene::Scene scene;
+    MethodInfo takes, refuses;
+    takes.takesLights = true;
+    EXPECT_EQ(whyNotTaken(takes, scene), "");
+    EXPECT_EQ(whyNotTaken(refuses, scene), "");
+    scene.lights.onDust = true;
+    EXPECT_EQ(whyNotTaken(takes, scene), "");
+    EXPECT_EQ(whyNotTaken(refuses, scene), "shows no lit dust (light=sun)");
+    takes.cannotTake = [](const scene::Scene&) { return "needs a vehicle"; };
+    EXPECT_EQ(whyNotTaken(takes, scene), "needs a vehicle");
 }
 
 TEST(MeasuredRun, WhetherItHasTimesIsKeptOnTheWayToItsProcess) {

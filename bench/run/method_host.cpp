@@ -17,6 +17,11 @@ Value asCell(const FactValue& value) {
 
 }  // namespace
 
+std::string whyNotTaken(const MethodInfo& method, const scene::Scene& scene) {
+    if (scene.lights.onDust && !method.takesLights) return "shows no lit dust (light=sun)";
+    return method.cannotTake ? method.cannotTake(scene) : "";
+}
+
 MethodHost::MethodHost(const World& world, gpu::Device& device, const MethodInfo& info,
                        const ParameterValues& parameters, int width, int height)
     : world_(world),
@@ -33,6 +38,7 @@ MethodHost::MethodHost(const World& world, gpu::Device& device, const MethodInfo
     layer_ = std::make_unique<gpu::Layer>(device, scene_->depth());
     composite_ = std::make_unique<draw::Composite>(device, width, height);
     method_->prepare(world.scene(), world.setup(), device);
+    dustThrowsShadow_ = world.scene().lights.onDust && !method_->stateHash();
 }
 
 void MethodHost::resize(int width, int height) {
@@ -61,7 +67,7 @@ void MethodHost::draw(const Frame& frame) {
     const gpu::LedgerScope booked(device_, ledger_);
     {
         const auto timing = frame.clock.measure(Stage::scene);
-        scene_->draw(frame.state, frame.view, method_->lights());
+        scene_->draw(frame.state, frame.view, method_->lights(), dustThrowsShadow_ ? frame.dust : Puffs{});
     }
     const auto timing = frame.clock.measure(Stage::draw);
     {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "bench/reference/judge/moment_pictures.h"
 #include "bench/results/run_record.h"
@@ -19,6 +20,9 @@
 #include "methods/kit/pictures/image.h"
 
 namespace dustbench::bench {
+
+/// Why the method cannot show this scene, its lights included; empty if it can.
+[[nodiscard]] std::string whyNotTaken(const MethodInfo& method, const scene::Scene& scene);
 
 class MethodHost {
  public:
@@ -72,6 +76,8 @@ class MethodHost {
     std::unique_ptr<draw::Composite> composite_;
     gpu::Texture noScene_;  ///< an empty depth image, created on first use
     int width_, height_;
+    /// False for a method with a simulation of its own: it does not show the shared dust.
+    bool dustThrowsShadow_ = false;
     scene::View view_{};
     Facts ofFrame_;
     std::vector<std::optional<FactValue>> maxima_;  ///< by index in info_.facts

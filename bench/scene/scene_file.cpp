@@ -219,6 +219,8 @@ SceneFile readScene(const std::filesystem::path& file) {
     readLights(root, result.scene.lights);
     result.scene.wind = bounded(root, "wind", {}, -100, 100, "three numbers -100..100, metres per second");
     result.scene.dustAlbedo = colour(root, "dust_albedo", result.scene.dustAlbedo, 1);
+    result.scene.dustAsymmetry =
+        static_cast<float>(root.number("dust_asymmetry", -0.95, 0.95, static_cast<double>(result.scene.dustAsymmetry)));
     readVehicle(root, result.scene);
     readCameras(root, result.cameras);
     for (TomlReader& table : root.tables("solid")) readSolid(table, file, result);

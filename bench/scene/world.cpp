@@ -75,6 +75,9 @@ const ParameterSet& worldParameters() {
         set.real("speed", 0, 0, 60, "m/s", "replaces every target speed above 0 of the drive; 0: as the drive says");
         set.real("preroll", -1, -1, 120, "s", "untimed simulation before the drive begins; below 0: one mean lifetime");
         set.choice("camera", CameraKind::chase, cameraKinds, "which of the scene's cameras looks on");
+        set.choice(
+            "light", DustLight::none, dustLights,
+            "what lights the dust; none: it has one colour wherever it is; sun: sun and sky, and it shadows itself");
         return set;
     }();
     return parameters;
@@ -121,6 +124,13 @@ struct World::State {
     CameraLag lag{};
     std::optional<CameraPath> path{};    ///< instead of `camera`
     std::unique_ptr<ShownDust> given{};  ///< instead of `dust`
+    LitDust litDust{};
+    std::optional<Puffs> lit{};  ///< of this step and this camera, once it was asked for
+
+    [[nodiscard]] Puffs unlit() const { return given ? given->store : dust.store(); }
+    [[nodiscard]] scene::Camera eyeCamera() const {
+        return path ? path->at(now.timeSeconds) : cameraAt(camera, file.cameras, now, lag, file.scene.terrain);
+    }
 
     [[nodiscard]] const VehicleParameters& vehicle() const { return file.scene.vehicle->parameters; }
     [[nodiscard]] double time() const { return static_cast<double>(stepIndex) * stepSeconds; }
@@ -156,6 +166,7 @@ void World::begin(SceneFile file, const std::string& drive, std::unique_ptr<Cont
                                            .dust = particles::ParticleSystem::load(dustFile, seed),
                                            .source = std::move(source)});
     State& s = *state_;
+    s.file.scene.lights.onDust = parameters.choice("light", dustLights) == DustLight::sun;
     const double preroll = parameters.real("preroll");
     s.prerollSteps = std::llround((preroll < 0 ? s.dust.meanLifetimeSeconds() : preroll) / stepSeconds);
     s.stepIndex = -s.prerollSteps;
@@ -173,7 +184,15 @@ const SceneState& World::state() const {
     return state_->now;
 }
 Puffs World::dust() const {
-    return state_->given ? state_->given->store : state_->dust.store();
+    State& s = *state_;
+    if (!s.file.scene.lights.onDust) return s.unlit();
+    if (!s.lit)
+        s.lit =
+            s.litDust.light(s.unlit(), s.file.scene, s.eyeCamera().eye, 1.0 / static_cast<double>(s.particlesPerPuff));
+    return *s.lit;
+}
+Puffs World::unlitDust() const {
+    return state_->unlit();
 }
 bool World::hasGivenDust() const {
     return state_->given != nullptr;
@@ -198,18 +217,18 @@ std::vector<std::filesystem::path> World::inputFiles() const {
 }
 
 scene::View World::view(int width, int height) const {
-    const State& s = *state_;
-    if (s.path) return {s.path->at(s.now.timeSeconds), width, height};
-    return {cameraAt(s.camera, s.file.cameras, s.now, s.lag, s.file.scene.terrain), width, height};
+    return {state_->eyeCamera(), width, height};
 }
 
 void World::look(CameraKind camera) {
     state_->camera = camera;
     state_->path.reset();
+    state_->lit.reset();
 }
 
 void World::follow(CameraPath path) {
     state_->path = std::move(path);
+    state_->lit.reset();
 }
 
 void World::followPath(const std::string& fileOrRows) {
@@ -259,6 +278,7 @@ void World::simulate() {
         s.given->showAfter(s.stepIndex + s.prerollSteps);
     else
         s.dust.update({s.file.scene, s.now, stepSeconds, s.fixedCount, s.particlesPerPuff});
+    s.lit.reset();
 }
 
 std::uint64_t World::stateHash() const {
@@ -271,6 +291,7 @@ MemoryReport World::memory() const {
     std::size_t meshBytes = bytesOf(*scene.vehicle->body.mesh) + bytesOf(*scene.vehicle->wheel.mesh);
     for (const scene::Solid& solid : scene.solids) meshBytes += bytesOf(*solid.mesh);
     MemoryReport report = state_->given ? state_->given->memory() : state_->dust.memory();
+    if (scene.lights.onDust) report.push_back({"light of the dust", state_->litDust.bytes(), 0});
     report.push_back({"terrain", scene.terrain.heights().size() * sizeof(float), 0});
     report.push_back({"meshes", meshBytes, 0});
     return report;

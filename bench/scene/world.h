@@ -14,6 +14,7 @@
 #include "bench/scene/cameras.h"
 #include "bench/scene/control_source.h"
 #include "bench/scene/given_dust.h"
+#include "bench/scene/lit_dust.h"
 #include "bench/scene/time_step.h"
 #include "methods/contract/memory_report.h"
 #include "methods/contract/method.h"
@@ -44,8 +45,11 @@ class World {
 
     [[nodiscard]] const scene::Scene& scene() const;
     [[nodiscard]] const scene::SceneState& state() const;
-    /// Valid until the next step.
+    /// The dust as methods show it; with `light=sun` lit as the camera sees it, which is computed once a step. Valid
+    /// until the next step or change of camera.
     [[nodiscard]] Puffs dust() const;
+    /// The same in the colours that it has without light. Valid until the next step.
+    [[nodiscard]] Puffs unlitDust() const;
     [[nodiscard]] scene::View view(int width, int height) const;
     /// The camera from now on; nothing else of the world changes. At first it is that of the parameter `camera`.
     void look(CameraKind camera);

@@ -10,6 +10,7 @@
 #include "bench/scene/control_recording.h"
 #include "bench/scene/drive_controls.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/maths/transmittance.h"
 #include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
@@ -165,6 +166,63 @@ TEST(World, ACameraPathChangesTheViewAlone) {
     world.look(CameraKind::fixed);
     EXPECT_EQ(world.view(64, 48).camera.eye, glm::dvec3(48, 3, 18));
     EXPECT_THAT(inputError([&] { world.followPath("aside"); }), HasSubstr("camera path: got 'aside'"));
+}
+
+TEST(World, SunlightChangesColoursAloneAndByTheClosedForm) {
+    World unlit("plain", "", with({{"preroll", "4"}, {"particles", "300"}}), 5);
+    World lit("plain", "", with({{"preroll", "4"}, {"particles", "300"}, {"light", "sun"}}), 5);
+    for (const scene::Scene* scene : {&unlit.scene(), &lit.scene()})
+        EXPECT_EQ(scene->lights.onDust, scene == &lit.scene());
+    run(unlit, 250);
+    run(lit, 250);
+    EXPECT_EQ(lit.stateHash(), unlit.stateHash());
+    const Puffs before = unlit.dust(), after = lit.dust();
+    ASSERT_EQ(after.size(), before.size());
+    ASSERT_GT(after.size(), 200u);
+    EXPECT_TRUE(before.uniformColour);
+    EXPECT_TRUE(lit.unlitDust().uniformColour);
+    ASSERT_FALSE(after.uniformColour);
+    const glm::vec3 toSun = lit.scene().lights.toSun;
+    const glm::dvec3 eye = lit.view(4, 3).camera.eye;
+    float darkest = 1;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        ASSERT_EQ(after.position(i), before.position(i));
+        double depth = 0;
+        for (std::size_t k = 0; k < before.size(); ++k) {
+            const glm::dvec3 toCentre = glm::dvec3(before.position(k)) - glm::dvec3(before.position(i));
+            const double foot = glm::dot(toCentre, glm::dvec3(toSun));
+            depth += maths::rayOpticalDepth(
+                static_cast<double>(before.opacity[k]), static_cast<double>(before.radius[k]),
+                std::sqrt(std::max(0.0, glm::dot(toCentre, toCentre) - foot * foot)), foot, 0, 1e9);
+        }
+        const glm::dvec3 sight = glm::normalize(glm::dvec3(before.position(i)) - eye);
+        const float transmittance = static_cast<float>(std::exp(-depth));
+        const glm::vec3 light =
+            scene::dustLight(lit.scene(), transmittance, static_cast<float>(glm::dot(sight, glm::dvec3(toSun))));
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(after.colour(i)[c], before.colour(i)[c] * light[c], 4e-3f) << i;
+        darkest = std::min(darkest, transmittance);
+    }
+    EXPECT_LT(darkest, 0.8f);
+    // Another camera sees other colours: light scatters forwards.
+    const glm::vec3 seen = after.colour(0);
+    lit.look(CameraKind::orbit);
+    EXPECT_NE(lit.dust().colour(0), seen);
+}
+
+TEST(World, DustOfTwoSoilsHasTwoColoursInRows) {
+    World world("two_soils", "", with({{"preroll", "2"}}), 5);
+    run(world, 140);
+    const Puffs dust = world.dust();
+    ASSERT_FALSE(dust.uniformColour);
+    std::map<std::uint64_t, glm::vec3> ofRow;
+    std::size_t pale = 0;
+    for (std::size_t i = 0; i < dust.size(); ++i) {
+        const auto [row, isNew] = ofRow.emplace(dust.serial[i] / 100, dust.colour(i));
+        ASSERT_EQ(row->second, dust.colour(i)) << dust.serial[i];
+        pale += dust.red[i] > 0.5f ? 1 : 0;
+    }
+    EXPECT_GT(pale, dust.size() / 5);
+    EXPECT_LT(pale, dust.size() * 4 / 5);
 }
 
 TEST(World, ACameraPathGoesByTheTimeOfTheDrive) {

@@ -20,9 +20,10 @@ ExactHalf::ExactHalf(gpu::Device& device, int width, int height)
       layer_(gpu::Texture::make2D(device, "exact layer", gpu::Format::rgba32F, width, height)),
       depth_(gpu::Texture::make2D(device, "depth of the exact picture", gpu::Format::r32F, width, height)) {}
 
-void ExactHalf::draw(const DrawnMoment& drawn, const scene::View& view, const Puffs& dust, std::string whyNotJudged) {
+void ExactHalf::draw(const DrawnMoment& drawn, const scene::Scene& scene, const scene::View& view, const Puffs& dust,
+                     std::string whyNotJudged) {
     const std::int64_t start = steadyNow();
-    const ExactMoment exact = exactMoment(view, drawn, dust, false, std::nullopt);
+    const ExactMoment exact = exactMoment(scene, view, drawn, dust, false, std::nullopt);
     whyNotJudged_ = std::move(whyNotJudged);
     judged_ = {
         {}, opaque(pictures::over(drawn.layer, drawn.scene)), opaque(pictures::over(exact.layer, drawn.scene)), {}};

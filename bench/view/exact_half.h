@@ -17,9 +17,10 @@ class ExactHalf {
  public:
     ExactHalf(gpu::Device& device, int width, int height);
 
-    /// Draws the dust before the method's scene and compares the method's picture with it. `whyNotJudged`: why numbers
-    /// would say nothing; empty: they are computed.
-    void draw(const DrawnMoment& drawn, const scene::View& view, const Puffs& dust, std::string whyNotJudged);
+    /// Draws the dust, given in its colours without light, before the method's scene and compares the method's picture
+    /// with it. `whyNotJudged`: why numbers would say nothing; empty: they are computed.
+    void draw(const DrawnMoment& drawn, const scene::Scene& scene, const scene::View& view, const Puffs& dust,
+              std::string whyNotJudged);
 
     [[nodiscard]] HalfTextures textures() const { return {display_, scene_, layer_, depth_}; }
     /// The exact picture, and the method's: linear light, opaque.

@@ -110,7 +110,7 @@ std::unique_ptr<World> ViewSession::makeWorld(const ViewState& state, std::share
 
 ViewSession::ShownHalf ViewSession::makeHalf(const ViewState& state, Half which, const World& world) const {
     const MethodInfo& method = findMethod(half(state, which).method);
-    if (const std::string reason = method.cannotTake ? method.cannotTake(world.scene()) : ""; !reason.empty())
+    if (const std::string reason = whyNotTaken(method, world.scene()); !reason.empty())
         throw InputError(fmt::format("method {} cannot take scene '{}': {}", method.id, state.scene, reason));
     ParameterValues values(method.parameters);
     for (const auto& [name, text] : half(state, which).parameters) values.set(name, text);
@@ -217,7 +217,7 @@ void ViewSession::drawExact() {
     MethodHost& host = *halves_[indexOf(Half::a)].host;
     const DrawnMoment drawn = host.drawn(host.see(frame(), untimed), false);
     if (!exact_) exact_ = std::make_unique<ExactHalf>(device_, state_.size.width, state_.size.height);
-    exact_->draw(drawn, view(), world_->dust(), whyNotJudged({}, host.method()));
+    exact_->draw(drawn, world_->scene(), view(), world_->unlitDust(), whyNotJudged({}, host.method()));
     exactMoment_ = moment_;
     noteDrawn();
 }

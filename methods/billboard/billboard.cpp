@@ -109,6 +109,7 @@ MethodInfo describe() {
     info.summary =
         "One camera-facing quad for each particle, sorted far to near and blended in one instanced draw call.";
     info.source = "Carr2006";
+    info.takesLights = true;
     info.parameters
         .choice("sort", draw::SortKind::radix, draw::sortKinds,
                 "order in which puffs are blended: far to near by the paper's quicksort or by a radix sort, or as they "

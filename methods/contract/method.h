@@ -91,7 +91,7 @@ struct MethodInfo {
     ParameterSet parameters;
     std::vector<FactInfo> facts;  ///< facts that `Method::report` reports
     bool drawsPanels = false;     ///< draws the scene's reliefs itself; for other methods the harness draws them flat
-    bool takesLights = false;     ///< shows dust lit by the scene's lights
+    bool takesLights = false;     ///< shows dust where the scene's lights light it (Lights::onDust)
     std::function<std::unique_ptr<Method>(const ParameterValues&)> create;
     /// Returns why the method cannot take this scene (`needs a vehicle`), or an empty text if it can. Unset: takes
     /// every scene.

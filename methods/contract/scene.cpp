@@ -17,6 +17,23 @@ glm::vec3 dustColour(const Scene& scene) {
     return albedo / (1.0f - albedo / 2.0f) * incoming;
 }
 
+float phaseFactor(float asymmetry, float cosine) {
+    const float g = asymmetry;
+    const float square = 1 + g * g - 2 * g * cosine;
+    return (1 - g * g) / (square * std::sqrt(square));
+}
+
+glm::vec3 dustLight(const Scene& scene, float transmittance, float cosine) {
+    // The light of dustColour(), of which the share T of the sun's arrives and leaves by the phase function.
+    const glm::vec3 sun = scene.lights.sun / 4.0f, ambient = scene.lights.ambient;
+    const glm::vec3 seen = ambient + phaseFactor(scene.dustAsymmetry, cosine) * transmittance * sun;
+    const glm::vec3 all = ambient + sun;
+    glm::vec3 share(0);
+    for (int i = 0; i < 3; ++i)
+        if (all[i] > 0) share[i] = seen[i] / all[i];
+    return share;
+}
+
 namespace {
 
 /// Wheel axes as columns: rolling direction, up, and the axle to the right; rotated about the axle by the rolled angle.

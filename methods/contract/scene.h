@@ -24,6 +24,9 @@ struct Lights {
     glm::vec3 skyZenith{0.16f, 0.33f, 0.68f};
     glm::vec3 skyHorizon{0.74f, 0.80f, 0.86f};
     float hazePerMetre = 0.0015f;  ///< extinction of the clear air, which fades to the horizon's colour
+    /// True: the dust is lit by dustLight() and shadows itself, the ground and the vehicle. Only methods that take
+    /// lights (MethodInfo::takesLights) then show it.
+    bool onDust = false;
 };
 
 /// A lamp at a point: a white surface that faces it from a distance d reads intensity/d². It throws no shadows.
@@ -71,6 +74,7 @@ struct Scene {
     std::vector<Panel> panels;
     std::optional<VehicleModel> vehicle;
     glm::vec3 dustAlbedo{0.64f, 0.54f, 0.42f};
+    float dustAsymmetry = 0.6f;  ///< g of Henyey and Greenstein, −1..1: mean cosine of the angle of scattering
 };
 
 struct SceneState {
@@ -83,6 +87,15 @@ struct SceneState {
 
 /// The colour (linear RGB) that a cloud of dust shows: its albedo, lit by sky and sun from all sides.
 [[nodiscard]] DUSTBENCH_API glm::vec3 dustColour(const Scene& scene);
+
+/// How much light is scattered towards the eye, relative to a medium that scatters equally in all directions. `cosine`:
+/// of the angle between the direction from the eye and that to the sun.
+/// Source: Henyey1941, Eq. 2.
+[[nodiscard]] DUSTBENCH_API float phaseFactor(float asymmetry, float cosine);
+
+/// What a colour of dust is multiplied by where lights.onDust: single scattering of the sunlight that arrives, a share
+/// `transmittance` of it, and ambient light, which arrives everywhere. 1 where all arrives and g is 0.
+[[nodiscard]] DUSTBENCH_API glm::vec3 dustLight(const Scene& scene, float transmittance, float cosine);
 
 /// World poses of the vehicle's body and of its four wheels (order of `Wheel`).
 struct VehiclePoses {

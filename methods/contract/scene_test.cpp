@@ -94,6 +94,35 @@ TEST(DustColour, IsTheSumOverOrdersOfScattering) {
     expectNear(dustColour(scene), sum, 1e-6);
 }
 
+TEST(DustLight, PhaseFunctionIsNormalisedAndHasItsMeanCosine) {
+    for (const float g : {-0.5f, 0.0f, 0.3f, 0.6f, 0.9f}) {
+        double sum = 0, mean = 0;
+        constexpr int steps = 20000;
+        for (int k = 0; k < steps; ++k) {
+            const double cosine = -1 + (k + 0.5) * 2 / steps;
+            const auto factor = static_cast<double>(phaseFactor(g, static_cast<float>(cosine)));
+            sum += factor / steps;
+            mean += cosine * factor / steps;
+        }
+        EXPECT_NEAR(sum, 1, 1e-4) << g;
+        EXPECT_NEAR(mean, static_cast<double>(g), 1e-4) << g;
+    }
+}
+
+TEST(DustLight, IsOneWhereAllLightArrivesAndAmbientLightRemains) {
+    Scene scene;
+    scene.dustAsymmetry = 0;
+    EXPECT_EQ(dustLight(scene, 1, 0.3f), glm::vec3(1));
+    const glm::vec3 dark = dustLight(scene, 0, 0.3f);
+    const glm::vec3 left = scene.lights.ambient / (scene.lights.ambient + scene.lights.sun / 4.0f);
+    for (int i = 0; i < 3; ++i) EXPECT_FLOAT_EQ(dark[i], left[i]);
+    scene.dustAsymmetry = 0.6f;
+    EXPECT_GT(dustLight(scene, 1, 0.9f).r, 1);
+    EXPECT_LT(dustLight(scene, 1, -0.9f).r, 1);
+    scene.lights.sun = scene.lights.ambient = glm::vec3(0);
+    EXPECT_EQ(dustLight(scene, 1, 0.9f), glm::vec3(0));
+}
+
 TEST(DustColour, IsBlackWithoutLightAndTanInDaylight) {
     Scene scene;
     const glm::vec3 tan = dustColour(scene);

@@ -52,6 +52,7 @@ MethodInfo describe() {
     info.title = "Dense grid dust";
     info.summary = "The voxels of an octree's finest level in a grid that holds every cell of the world, empty or not.";
     info.source = "Carr2006";
+    info.takesLights = true;
     info.parameters
         .integer("depth", 8, octree::minimumDepth, octree::maximumDepth, "levels",
                  "halvings of the world's edge: 2^depth cells along each axis")

@@ -106,6 +106,7 @@ MethodInfo describe() {
     info.summary =
         "The exact picture of the dust: closed-form optical depths of each tile's puffs, summed in a compute shader.";
     info.source = "Olsson2011";
+    info.takesLights = true;
     info.parameters
         .real("tolerated_depth", 1e-6, 1e-9, 0.01, "",
               "optical depth of a pixel that may be neglected beyond the edges of puffs; more is faster")

@@ -97,6 +97,7 @@ MethodInfo describe() {
     info.title = "Grid fluid";
     info.summary = "Smoke, fire or dust flows in a grid around solids, and is ray cast.";
     info.source = "Senger2009";
+    info.takesLights = true;
     info.parameters.dataFile("fluid", "dust", "fluids", ".toml", fluidNames(), "what flows, from where, in which box")
         .cells("grid", "128x64x64", 4, 4096, "cells along x, y and z")
         .real("spacing_m", asTheFileSays, asTheFileSays, 1000, "m",

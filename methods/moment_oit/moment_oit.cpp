@@ -102,6 +102,7 @@ MethodInfo describe() {
         "Puffs added up in any order in two passes: moments of the depth along each ray, then colours by their "
         "transmittance.";
     info.source = "Munstermann2018";
+    info.takesLights = true;
     info.parameters.choice("moments", "6", {"4", "6"}, "power moments of a pixel's depth, besides the whole of it")
         .choice(
             "profile", Shape::puff, shapes,

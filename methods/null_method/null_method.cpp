@@ -24,6 +24,7 @@ MethodInfo describe() {
     MethodInfo info;
     info.title = "Null method";
     info.summary = "Draws nothing: what remains of a frame is the world, the opaque scene and the harness.";
+    info.takesLights = true;
     info.parameters
         .integer("work", 0, 0, 1'000'000, "units", "1000 random numbers each, drawn in `build`: a load of known size")
         .choice("entry", "first", {"first", "second"},

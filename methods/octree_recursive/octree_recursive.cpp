@@ -13,6 +13,7 @@ MethodInfo describe() {
     info.summary =
         "Voxels of an octree that lists of particles are split down into: one recursion that also lists the voxels.";
     info.source = "Carr2006";
+    info.takesLights = true;
     octree::declareDust(info);
     octree::declareLayout(info,
                           "the paper's construction, with its cells found beforehand (lists are split by Morton codes) "

@@ -13,6 +13,7 @@ MethodInfo describe() {
     info.summary =
         "Voxels of an octree that each particle is searched a place in: one pass from the root, one traversal.";
     info.source = "Carr2006";
+    info.takesLights = true;
     octree::declareDust(info);
     octree::declareLayout(info,
                           "the paper's construction, with its cells found beforehand (Morton codes are the paths) or "

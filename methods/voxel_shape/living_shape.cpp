@@ -13,7 +13,7 @@ namespace dustbench::voxel_shape {
 
 void LivingShape::prepare(MemoryLedger& ledger, const scene::Scene& scene, gpu::Device& device, std::uint64_t seed) {
     system_.emplace(buildShape(ledger, shape_, scene, device, seed));
-    if (shape_.look.lit) light_.emplace(ledger, system_->grid(), scene.lights);
+    if (shape_.look.lit || scene.lights.onDust) light_.emplace(ledger, system_->grid(), scene.lights);
     if (shape_.stress.fullMetres > 0) stress_.emplace(ledger, *system_, shape_.stress);
     if (shape_.dustDrawsPerSecond > 0) flow_.emplace(ledger);
     if (!shape_.flow.files.empty()) field_.emplace(shape_.flow.files, shape_.flow.field);

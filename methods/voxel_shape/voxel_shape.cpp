@@ -181,6 +181,7 @@ MethodInfo describe() {
     info.title = "Voxel-shaped particles";
     info.summary = "Voxelises a mesh; each voxel determines how the particles in it look and move.";
     info.source = "JuckelBeckhaus2007";
+    info.takesLights = true;
     info.parameters.dataFile("shape", "car", "shapes", ".toml", shapeNames(), "the shape made of particles")
         .integer("shape_particles", 0, 0, 10'000'000, "", "particles that the shape holds; 0: as in its file")
         .integer("particles_per_voxel", 0, 0, 100'000, "",

@@ -64,6 +64,7 @@ MethodInfo describe() {
     info.summary =
         "Puffs added up in any order, weighted by distance; the cloud's alpha is exact, colours that differ are mixed.";
     info.source = "McGuireBavoil2013";
+    info.takesLights = true;
     info.parameters
         .choice("weight", Weight::eq7, weights,
                 "how a puff's weight falls with its distance: an equation of the paper, or not at all")

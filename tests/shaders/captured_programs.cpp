@@ -95,7 +95,8 @@ class Stage {
         world_.step();
         opaque_.draw(world_.state(), world_.view(width, height));
         for (const bool vehicle : {false, true})
-            for (const bool solids : {false, true}) drawBare(vehicle, solids);
+            for (const bool solids : {false, true})
+                for (const bool lit : {false, true}) drawBare(vehicle, solids, lit);
     }
 
     void show(const MethodInfo& info, const Values& values, const particles::ParticleStore& dust) {
@@ -136,10 +137,11 @@ class Stage {
 
  private:
     /// The scene without its vehicle or its solids, which no file of ours leaves out.
-    void drawBare(bool vehicle, bool solids) {
+    void drawBare(bool vehicle, bool solids, bool lit) {
         scene::Scene bare = world_.scene();
         if (!vehicle) bare.vehicle.reset();
         if (!solids) bare.solids.clear(), bare.solidPoses.clear();
+        bare.lights.onDust = lit;
         draw::OpaqueScene opaque(bare, device_, width, height);
         opaque.draw(world_.state(), world_.view(width, height));
         const scene::PointLight lamp{{0, 2, 0}, glm::vec3(1)};

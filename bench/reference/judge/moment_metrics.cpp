@@ -95,8 +95,9 @@ JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, con
 
     JudgedMoment judged = compare(prepared);
     MomentMetrics& metrics = judged.metrics;
-    metrics.psnrContinuumDb =
-        pictureError(preparePicture(overScene(exact.continuum, drawn.scene), "the continuum"), picture).psnrDb;
+    if (exact.ofOneColour)
+        metrics.psnrContinuumDb =
+            pictureError(preparePicture(overScene(exact.continuum, drawn.scene), "the continuum"), picture).psnrDb;
     metrics.gaps = gaps(alpha, continuum).value;
     const TrailParts parts = components(alpha, continuum);
     metrics.components = asNumber(parts.parts);

@@ -1,25 +1,33 @@
 #include "bench/reference/judge/moment_pictures.h"
 
 #include "bench/reference/camera_rays.h"
+#include "bench/reference/cloud_march.h"
 #include "methods/contract/volume.h"
 #include "methods/kit/octree/cell_kernel.h"
 
 namespace dustbench::bench {
 
-ExactMoment exactMoment(const scene::View& view, const DrawnMoment& drawn, const Puffs& dust, bool withDetail,
-                        const std::optional<Puffs>& continuum) {
+ExactMoment exactMoment(const scene::Scene& scene, const scene::View& view, const DrawnMoment& drawn, const Puffs& dust,
+                        bool withDetail, const std::optional<Puffs>& continuum) {
     const OpaqueDistances distances = distancesFromDepth(view, drawn.sceneDepth);
+    const auto render = [&](const ReferenceOptions& how) {
+        return scene.lights.onDust ? renderLitParticles(dust, view, distances, SunLight::of(scene), how).image
+                                   : renderParticles(dust, view, distances, how).image;
+    };
     ExactMoment exact;
-    exact.layer = renderParticles(dust, view, distances).image;
+    exact.ofOneColour = !scene.lights.onDust && dust.uniformColour;
     ReferenceOptions options;
+    exact.layer = render(options);
     if (withDetail) {
         options.ignoreScene = true;
-        exact.layerWithoutScene = renderParticles(dust, view, distances, options).image;
+        exact.layerWithoutScene = render(options);
     }
     if (continuum) {
         options.ignoreScene = false;
         options.opticalDepthShare = 1.0 / continuumParticles;
-        exact.continuum = renderParticles(*continuum, view, distances, options).image;
+        Puffs grey = *continuum;
+        grey.uniformColour = true;
+        exact.continuum = renderParticles(grey, view, distances, options).image;
     }
     return exact;
 }

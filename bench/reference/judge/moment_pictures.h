@@ -10,6 +10,7 @@
 #include "bench/export/collected_volume.h"
 #include "bench/measure/image/screen_primitive.h"
 #include "bench/reference/particle_image.h"
+#include "methods/contract/scene.h"
 #include "methods/contract/view.h"
 #include "methods/contract/volume.h"
 #include "methods/kit/pictures/image.h"
@@ -29,14 +30,16 @@ struct ExactMoment {
     pictures::Image layer;              ///< of the particles themselves
     pictures::Image layerWithoutScene;  ///< empty if not requested
     pictures::Image continuum;          ///< of 64 times as many particles; empty if not requested
+    bool ofOneColour = true;            ///< false: the layers have light or colours that the continuum lacks
 };
 
 /// Number of continuum particles per particle.
 inline constexpr std::int64_t continuumParticles = 64;
 
-/// `withDetail`: also renders the layers without the scene. `continuum` may be empty.
-[[nodiscard]] ExactMoment exactMoment(const scene::View& view, const DrawnMoment& drawn, const Puffs& dust,
-                                      bool withDetail, const std::optional<Puffs>& continuum);
+/// `dust`: in its colours without light; `scene.lights.onDust` says whether it is lit. `withDetail`: also renders the
+/// layers without the scene. `continuum` may be empty; it is drawn in one colour, without light.
+[[nodiscard]] ExactMoment exactMoment(const scene::Scene& scene, const scene::View& view, const DrawnMoment& drawn,
+                                      const Puffs& dust, bool withDetail, const std::optional<Puffs>& continuum);
 
 /// Screen positions of puffs, or of voxels as puffs of equal optical depth (edge = 1.2533 r). Primitives behind the eye
 /// are omitted.

@@ -24,7 +24,7 @@ class FakeMethod {
         reference.puffs(exactCloud);
         Judgement judgement;
         for (const std::int64_t frame : {0, 1}) {
-            judgement.frames.push_back(judgeMoment(drawn, exactMoment(view_, drawn, exactCloud, true, exactCloud),
+            judgement.frames.push_back(judgeMoment(drawn, exactMoment({}, view_, drawn, exactCloud, true, exactCloud),
                                                    {1, volume, reference, view_, 1})
                                            .metrics);
             judgement.frames.back().frame = frame;

@@ -45,7 +45,8 @@ gpu::Program groundProgram(gpu::Device& device, std::string_view label, const sc
     using namespace draw_shaders;
     return {device,
             label,
-            {opaque_moment_glsl, opaque_shadow_glsl, opaque_lamps_glsl, opaque_ground_vert, opaque_ground_frag},
+            {opaque_moment_glsl, opaque_shadow_glsl, error_function_glsl, opaque_dust_glsl, opaque_lamps_glsl,
+             opaque_ground_vert, opaque_ground_frag},
             definitions(scene, lamps, track, shaded)};
 }
 

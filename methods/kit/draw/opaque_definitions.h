@@ -9,9 +9,10 @@
 
 namespace dustbench::draw {
 
-/// VEHICLE and SOLIDS where the scene has such casters of shadows; LAMPS with lamps.
+/// VEHICLE and SOLIDS where the scene has such casters of shadows; DUST where dust throws one; LAMPS with lamps.
 [[nodiscard]] inline std::map<std::string, std::string> opaqueDefinitions(const scene::Scene& scene, bool lamps) {
     std::map<std::string, std::string> result = shadowCasters(scene);
+    if (scene.lights.onDust) result.emplace("DUST", "1");
     if (lamps) result.insert({{"LAMPS", "1"}, {"MAXIMUM_LAMPS", std::to_string(maximumLamps)}});
     return result;
 }

@@ -46,6 +46,9 @@ void main() {
     facing *= sunShare(fromEye, normal, 0.0);
     sky *= skyShare(fromEye);
 #endif
+#ifdef DUST
+    facing *= dustShare(fromEye);
+#endif
 #ifdef LAMPS
     sky += lampLight(fromEye, normal);
 #endif

@@ -5,6 +5,7 @@ layout(std140, binding = 0) uniform Moment {
     mat4 eyeToVehicleShadow;
     mat4 eyeToSolidShadow;
     mat4 eyeToVehicle;
+    mat4 eyeToDust;
     vec4 toSun;
     vec4 sun;
     vec4 ambient;

@@ -18,6 +18,7 @@ struct OpaqueMoment {
     glm::mat4 eyeToVehicleShadow{1};  ///< to texture coordinates and depth
     glm::mat4 eyeToSolidShadow{1};
     glm::mat4 eyeToVehicle{1};  ///< to the vehicle frame
+    glm::mat4 eyeToDust{1};     ///< DustShadow::eyeToTexture
     glm::vec4 toSun{0, 1, 0, 0};
     glm::vec4 sun{0};
     glm::vec4 ambient{0};

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "draw_shaders.h"
+#include "methods/kit/draw/dust_shadow.h"
 #include "methods/kit/draw/ground_pass.h"
 #include "methods/kit/draw/opaque_definitions.h"
 #include "methods/kit/draw/panel_pass.h"
@@ -42,7 +43,8 @@ gpu::Program solidProgramOf(gpu::Device& device, std::string_view label,
     using namespace draw_shaders;
     return {device,
             label,
-            {opaque_moment_glsl, opaque_shadow_glsl, opaque_lamps_glsl, opaque_solid_vert, opaque_solid_frag},
+            {opaque_moment_glsl, opaque_shadow_glsl, error_function_glsl, opaque_dust_glsl, opaque_lamps_glsl,
+             opaque_solid_vert, opaque_solid_frag},
             definitions};
 }
 
@@ -128,6 +130,7 @@ struct OpaqueScene::State {
     std::optional<SolidMesh> wheel;
     std::optional<ShadowMap> vehicleShadow;
     std::optional<ShadowMap> solidShadow;
+    std::optional<DustShadow> dustShadow;
 
     gpu::Program casterProgram;
     SolidPrograms programs;
@@ -159,6 +162,7 @@ OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& drawnBy, int w
         throw std::invalid_argument("OpaqueScene: every solid needs its pose");
     resize(width, height);
     const glm::vec3 toSun = scene.lights.toSun;
+    if (scene.lights.onDust) dustShadow.emplace(device, toSun);
     if (scene.vehicle) {
         body.emplace(device, scene.vehicle->body);
         wheel.emplace(device, scene.vehicle->wheel);
@@ -268,6 +272,7 @@ void OpaqueScene::State::describe(const scene::View& view, const scene::VehicleS
         now.underside = {body->centre().x, body->centre().z, (body->maximum().x - body->minimum().x) / 2 - 0.3f,
                          (body->maximum().z - body->minimum().z) / 2 - 0.2f};
     }
+    if (dustShadow) now.eyeToDust = dustShadow->eyeToTexture(eye);
     if (solidShadow) {
         now.eyeToSolidShadow = solidShadow->eyeToTexture(eye);
         now.shadowTexels.y = static_cast<float>(solidShadow->texelMetres());
@@ -327,7 +332,7 @@ OpaqueScene::OpaqueScene(const scene::Scene& scene, gpu::Device& device, int wid
 OpaqueScene::~OpaqueScene() = default;
 
 void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view,
-                       std::span<const scene::PointLight> lamps) {
+                       std::span<const scene::PointLight> lamps, const Puffs& dust) {
     if (lamps.size() > maximumLamps)
         throw std::invalid_argument("OpaqueScene: more lamps than " + std::to_string(maximumLamps));
     if (view.width != colour().width() || view.height != colour().height())
@@ -341,6 +346,7 @@ void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view,
         own.aimVehicleShadow(eye, poses, vehicleToEye);
     }
     if (own.solidShadow) own.aimSolidShadow(eye);
+    if (own.dustShadow) own.dustShadow->set(dust);
     own.describe(view, state.vehicle);
     own.light(lamps, eye);
     SolidPrograms& programs = lamps.empty() ? own.programs : *own.programsWithLamps;
@@ -350,6 +356,7 @@ void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view,
     own.target.clearDepth();  // ground and sky cover every pixel: the colour needs no clearing
     if (own.vehicleShadow) own.vehicleShadow->depth().bind(2);
     if (own.solidShadow) own.solidShadow->depth().bind(3);
+    if (own.dustShadow) own.dustShadow->columns().bind(5);
     own.ground.draw(eye, own.now.eyeToClip, own.footprints, !lamps.empty());
     own.drawSolids(programs.solid, eye);
     if (own.body) own.drawVehicle(programs.solid, poses);

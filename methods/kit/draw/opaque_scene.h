@@ -7,6 +7,7 @@
 #include <span>
 
 #include "methods/contract/scene.h"
+#include "methods/contract/volume.h"
 #include "methods/kit/gpu/device.h"
 #include "methods/kit/gpu/texture.h"
 
@@ -28,7 +29,9 @@ class DUSTBENCH_API OpaqueScene {
 
     /// Draws the given state into colour() and depth(). `view` must have the scene's size. `lamps` light
     /// it besides the sun and the sky: Lambert's law, no shadows. Without any the picture is the same, bit for bit.
-    void draw(const scene::SceneState& state, const scene::View& view, std::span<const scene::PointLight> lamps = {});
+    /// `dust` throws a shadow where the scene's lights light it (scene::Lights::onDust).
+    void draw(const scene::SceneState& state, const scene::View& view, std::span<const scene::PointLight> lamps = {},
+              const Puffs& dust = {});
 
     [[nodiscard]] const gpu::Texture& colour() const;  ///< RGBA16F, linear, alpha 1
     [[nodiscard]] const gpu::Texture& depth() const;   ///< Depth32F

@@ -18,6 +18,9 @@ void main() {
     // The sky lights the upper hemisphere of a surface, the ground the lower.
     float facing = max(dot(normal, toSun.xyz), 0.0);
     float lit = facing > 0.0 ? sunShare(fromEye, normal, 2.5) : 0.0;
+#ifdef DUST
+    lit *= dustShare(fromEye);
+#endif
     vec3 around = mix(groundLight.rgb, ambient.rgb, 0.5 + 0.5 * normal.y);
 #ifdef LAMPS
     around += lampLight(fromEye, normal);

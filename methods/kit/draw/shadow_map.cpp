@@ -3,18 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/kit/light/sun_depth.h"
+
 namespace dustbench::draw {
-namespace {
-
-/// Rows: two axes perpendicular to the sun's rays, and the direction to the sun.
-glm::dmat3 lightAxes(const glm::dvec3& toSun) {
-    const glm::dvec3 towards = glm::normalize(toSun);
-    const glm::dvec3 other = std::abs(towards.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 right = glm::normalize(glm::cross(other, towards));
-    return glm::transpose(glm::dmat3(right, glm::cross(towards, right), towards));
-}
-
-}  // namespace
 
 std::map<std::string, std::string> shadowCasters(const scene::Scene& scene) {
     std::map<std::string, std::string> result;
@@ -30,7 +21,7 @@ ShadowMap::ShadowMap(gpu::Device& device, std::string_view label, int texels, do
     // A margin of texels stays empty, so that everything beyond the edge is lit, where sampling clamps to the last
     // texel.
     : radius_(radiusMetres * texels / (texels - 8)),
-      axes_(lightAxes(glm::dvec3(toSun))),
+      axes_(glm::transpose(light::sunFrame(glm::dvec3(toSun)))),
       depth_(gpu::Texture::make2D(device, label, gpu::Format::depth32F, texels, texels, gpu::Filter::linear)),
       target_(device, label, nullptr, &depth_) {
     depth_.setDepthComparison();

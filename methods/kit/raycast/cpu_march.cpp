@@ -101,6 +101,9 @@ class PacketMarch {
           step_(volume.stepCells),
           opaque_(volume.opaqueDepth / volume.extinctionPerCell),
           shift_(jitter * volume.stepCells) {
+        if constexpr (coloured)
+            for (int lane = 0; lane < laneCount; ++lane)
+                phase_[lane] = volume.reflected.phase({rays.along[0][lane], rays.along[1][lane], rays.along[2][lane]});
         const glm::vec3 cells(volume.density.cells.cells());
         const Stretches box = rays.within(glm::vec3(0), cells);
         Stretches filled = box;
@@ -191,7 +194,8 @@ class PacketMarch {
         if constexpr (coloured) {
             if (maximum(step) <= 0) return;
             Floats source[3];
-            const Floats light = volume_.light ? sampleLinear(*volume_.light, reach, volume_.light->perCell) : all(1);
+            const Floats light =
+                volume_.light ? phase_ * sampleLinear(*volume_.light, reach, volume_.light->perCell) : all(1);
             for (int channel = 0; channel < 3; ++channel)
                 source[channel] = volume_.reflected.ambient[channel] + volume_.reflected.sun[channel] * light;
             if (volume_.reaction) {
@@ -230,8 +234,9 @@ class PacketMarch {
     float step_;
     float opaque_;  ///< in the unit of `depth_`: without the extinction of a density of 1
     Floats shift_;
-    Floats from_, end_;   ///< of each ray, within the grid and before the scene
-    float first_, last_;  ///< everything visible lies between them
+    Floats phase_ = all(1);  ///< of each ray: Reflected::phase
+    Floats from_, end_;      ///< of each ray, within the grid and before the scene
+    float first_, last_;     ///< everything visible lies between them
     Floats depth_{};
     Floats transmittance_ = all(1);
     Floats colour_[3]{};

@@ -29,6 +29,7 @@ float jitter() {
 }
 
 float depth = 0.0;
+float phase = 1.0;
 #ifdef COLOURED
 float transmittance = 1.0;
 vec3 shown = vec3(0);
@@ -36,7 +37,7 @@ vec3 shown = vec3(0);
 
 void march(vec3 at, float reach) {
     vec3 source;
-    float next = depth + extinctionAt(at, source) * reach;
+    float next = depth + extinctionAt(at, phase, source) * reach;
 #ifdef COLOURED
     float left = exp(-next);
     shown += (transmittance - left) * source;
@@ -81,6 +82,9 @@ void main() {
     ray /= stretch;
     ray = mix(ray, vec3(1e-12), lessThan(abs(ray), vec3(1e-12)));  // finite quotients
     vec3 perRay = 1.0 / ray;
+#ifdef SHADOW
+    phase = phaseOf(ray);
+#endif
 
     vec2 box = within(vec3(0), cells, perRay);
     float end = min(box.y, nearDistance / max(texelFetch(sceneDepth, ivec2(gl_FragCoord.xy), 0).r, 1e-9) * stretch);

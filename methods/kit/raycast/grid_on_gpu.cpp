@@ -71,6 +71,8 @@ void GridOnGpu::bind(gpu::Program& program, const Reflected& reflected) const {
     if (settings_.shadowCells > 0) {
         program.set("reflectedSky", reflected.ambient);
         program.set("reflectedSun", reflected.sun);
+        program.set("toSun", reflected.toSun);
+        program.set("asymmetry", reflected.asymmetry);
         program.set("lightCells", glm::vec3(lightCells_));
         (takenLight_ ? *takenLight_ : light_).bind(5);
     } else {

@@ -10,6 +10,14 @@ layout(binding = 4) uniform sampler2D fire;  // emission and extinction factor b
 layout(binding = 5) uniform sampler3D light;  // fraction of the sun's light that arrives
 uniform vec3 lightCells;  // range that the light texture covers
 uniform vec3 reflectedSky, reflectedSun;
+uniform vec3 toSun;
+uniform float asymmetry;
+
+// What the sun's light is multiplied by on a ray of this direction from the eye, as scene::phaseFactor.
+float phaseOf(vec3 along) {
+    float square = 1.0 + asymmetry * (asymmetry - 2.0 * dot(along, toSun));
+    return (1.0 - asymmetry * asymmetry) / (square * sqrt(square));
+}
 #else
 uniform vec3 reflected;  // light reflected by a thick cloud
 #endif
@@ -45,10 +53,10 @@ float sampled(sampler3D field, vec3 at) {
 }
 #endif
 
-// Returns the extinction per cell; `source` receives the colour that smoke and fire show.
-float extinctionAt(vec3 at, out vec3 source) {
+// Returns the extinction per cell; `source` receives the colour that smoke and fire show on a ray with this phase.
+float extinctionAt(vec3 at, float phase, out vec3 source) {
 #ifdef SHADOW
-    source = reflectedSky + reflectedSun * texture(light, at / lightCells).r;
+    source = reflectedSky + reflectedSun * (phase * texture(light, at / lightCells).r);
 #else
     source = reflected;
 #endif

@@ -10,9 +10,9 @@
 
 namespace dustbench::raycast {
 
-Reflected cloudColour(const glm::vec3& albedo, const scene::Lights& lights) {
+Reflected cloudColour(const glm::vec3& albedo, const scene::Lights& lights, float asymmetry) {
     const glm::vec3 often = albedo / (1.0f - albedo / 2.0f);
-    return {often * lights.ambient, often * (lights.sun / 4.0f)};
+    return {often * lights.ambient, often * (lights.sun / 4.0f), lights.toSun, asymmetry};
 }
 
 void GridRenderer::take(const ShownTextures&, const BricksOnGpu&, const LightOnGpu*) {
@@ -21,7 +21,7 @@ void GridRenderer::take(const ShownTextures&, const BricksOnGpu&, const LightOnG
 
 std::unique_ptr<GridRenderer> makeGridRenderer(gpu::Device& device, const RaycastSettings& settings,
                                                const scene::Lights& lights, MemoryLedger& ledger) {
-    const Reflected reflected = cloudColour(settings.smokeColour, lights);
+    const Reflected reflected = cloudColour(settings.smokeColour, lights, settings.asymmetry);
     switch (settings.renderer) {
         case Renderer::slices:
             return std::make_unique<GlSlices>(device, settings, reflected);

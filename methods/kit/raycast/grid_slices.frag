@@ -17,7 +17,11 @@ void main() {
     float scene = nearDistance / max(texelFetch(sceneDepth, ivec2(gl_FragCoord.xy), 0).r, 1e-9);
     float reach = min(scene - (distance - 0.5 * stepLength), stepLength) * length(ray);
     if (reach <= 0.0 || any(lessThan(at, vec3(0))) || any(greaterThan(at, cells))) discard;
+    float phase = 1.0;
+#ifdef SHADOW
+    phase = phaseOf(normalize(ray));
+#endif
     vec3 source;
-    float alpha = 1.0 - exp(-extinctionAt(at, source) * reach);
+    float alpha = 1.0 - exp(-extinctionAt(at, phase, source) * reach);
     colour = vec4(source * alpha, alpha);
 }

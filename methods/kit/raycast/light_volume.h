@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "methods/contract/scene.h"
 #include "methods/kit/memory/memory_ledger.h"
 #include "methods/kit/raycast/padded_cells.h"
 #include "methods/kit/raycast/raycast_settings.h"
@@ -18,7 +19,13 @@ namespace dustbench::raycast {
 /// Light reflected by a thick cloud, in linear RGB: from the sky and from the sun.
 struct Reflected {
     glm::vec3 ambient{0}, sun{0};
+    glm::vec3 toSun{0, 1, 0};  ///< unit vector, world
+    float asymmetry = 0;       ///< of scene::phaseFactor; 0: as much to all sides
     [[nodiscard]] glm::vec3 all() const { return ambient + sun; }
+    /// Factor of `sun` for a ray of this direction from the eye, a unit vector.
+    [[nodiscard]] float phase(const glm::vec3& along) const {
+        return asymmetry != 0 ? scene::phaseFactor(asymmetry, glm::dot(along, toSun)) : 1;
+    }
 };
 
 class LightVolume {

@@ -54,6 +54,7 @@ glm::dvec4 plainMarch(const PlainVolume& volume, const PlainRay& ray) {
     const double sigma = settings.extinctionPerMetre * grid.spacingMetres;
     const double opaque = -std::log1p(-settings.stopAlpha), step = settings.stepCells, shift = ray.jitter * step;
     const std::vector<glm::vec4> fire = settings.fire.table();
+    const auto phase = static_cast<double>(reflected.phase(glm::vec3(ray.along)));
     double depth = 0;
     glm::dvec3 colour(0);
     for (double k = std::floor((enter - shift) / step); k * step + shift < leave && depth <= opaque; ++k) {
@@ -64,7 +65,8 @@ glm::dvec4 plainMarch(const PlainVolume& volume, const PlainRay& ray) {
         double lit = 1;
         if (!light.empty()) {
             const int texel = settings.shadowCells;
-            lit = sample(light, (grid.cells + texel - 1) / texel, Filter::linear, middle / static_cast<double>(texel));
+            lit = phase *
+                  sample(light, (grid.cells + texel - 1) / texel, Filter::linear, middle / static_cast<double>(texel));
         }
         glm::dvec3 source = glm::dvec3(reflected.ambient) + lit * glm::dvec3(reflected.sun);
         if (!grid.reaction.empty()) {

@@ -44,6 +44,8 @@ struct RaycastSettings {
     double stopAlpha = 0.99;  ///< a ray ends when its alpha exceeds this; 1: never
     bool skipEmpty = true;    ///< skips bricks of cells without density
     int shadowCells = 0;      ///< block size in cells for self-shadowing of the sun's light; 0: no shadow
+    /// Of scene::phaseFactor, for self-shadowed sunlight drawn by rays or planes; 0: to all sides alike.
+    float asymmetry = 0;
     double extinctionPerMetre = 1;               ///< at a density of 1
     double isoDensity = 0.5;                     ///< of the isosurface
     glm::vec3 smokeColour{0.64f, 0.54f, 0.42f};  ///< albedo

@@ -132,6 +132,7 @@ TEST_P(GridRaycastOn, EqualsThePlainMarch) {
         RaycastSettings settings = settingsOf(GetParam());
         settings.filter = set % 4 < 2 ? Filter::linear : Filter::cubic;
         settings.shadowCells = set % 3;
+        settings.asymmetry = set % 3 == 2 ? 0.6f : set % 3 == 1 ? -0.3f : 0;
         settings.stepCells = 0.3 + 0.1 * set;
         settings.jitter = set != 5;
         settings.extinctionPerMetre = 0.6;
@@ -143,8 +144,8 @@ TEST_P(GridRaycastOn, EqualsThePlainMarch) {
         MemoryLedger ledger;
         LightVolume light(settings, canvas.lights.toSun, ledger);
         if (settings.shadowCells > 0) light.set(grid.shown());
-        const PlainVolume volume{grid.shown(), settings, cloudColour(settings.smokeColour, canvas.lights),
-                                 light.values()};
+        const PlainVolume volume{grid.shown(), settings,
+                                 cloudColour(settings.smokeColour, canvas.lights, settings.asymmetry), light.values()};
         const glm::dvec3 forward = glm::normalize(forwardTo - eye), inCells = (eye - grid.originMetres) / 0.3;
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {

@@ -16,6 +16,7 @@ TEST(Renderers, ShowByFineSlicesWhatTheMarchShows) {
             RaycastSettings settings = settingsOf(Backend::gl);
             settings.extinctionPerMetre = 4;
             settings.shadowCells = 2;
+            settings.asymmetry = 0.5f;
             settings.stepCells = 0.2;
             const pictures::Image march = canvas.picture(lumps(burning), settings);
             settings.renderer = Renderer::slices;

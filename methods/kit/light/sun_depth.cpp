@@ -1,42 +1,60 @@
-#include "bench/reference/sun_depth.h"
+#include "methods/kit/light/sun_depth.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
-#include "bench/reference/fast_functions.h"
 #include "methods/contract/volume.h"
+#include "methods/kit/maths/fast_functions.h"
 #include "methods/kit/maths/transmittance.h"
 
-namespace dustbench::bench {
+namespace dustbench::light {
 namespace {
 
 constexpr double maximumCells = 256;  ///< along each side of the grid
 constexpr std::size_t atOnce = 16;
 constexpr double minimumExponent = -1000;  ///< of 2: below any depth that counts
 
+std::vector<std::uint32_t> allOf(const Puffs& store) {
+    std::vector<std::uint32_t> indices(store.size());
+    std::iota(indices.begin(), indices.end(), 0u);
+    return indices;
+}
+
 }  // namespace
 
-SunDepth::SunDepth(const Puffs& store, const glm::dvec3& toSun, double opticalDepthShare, double neglected) {
+glm::dmat3 sunFrame(const glm::dvec3& toSun) {
     const double length = glm::length(toSun);
-    if (!(length > 0) || !std::isfinite(length)) throw std::invalid_argument("SunDepth: `toSun` has no direction");
-    toSun_ = toSun / length;
-    const glm::dvec3 aside = std::abs(toSun_.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    first_ = glm::normalize(glm::cross(aside, toSun_));
-    second_ = glm::cross(toSun_, first_);
+    if (!(length > 0) || !std::isfinite(length)) throw std::invalid_argument("sunFrame: `toSun` has no direction");
+    const glm::dvec3 along = toSun / length;
+    const glm::dvec3 aside = std::abs(along.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 first = glm::normalize(glm::cross(aside, along));
+    return {first, glm::cross(along, first), along};
+}
 
+SunDepth::SunDepth(const Puffs& store, const glm::dvec3& toSun, double opticalDepthShare, double neglected)
+    : SunDepth(store, toSun, opticalDepthShare, neglected, allOf(store)) {}
+
+SunDepth::SunDepth(const Puffs& store, const glm::dvec3& toSun, double opticalDepthShare, double neglected,
+                   std::span<const std::uint32_t> indices)
+    : frame_(sunFrame(toSun)) {
     std::vector<double> reaches;
     glm::dvec2 high(-std::numeric_limits<double>::infinity());
     low_ = -high;
-    for (std::size_t i = 0; i < store.size(); ++i) {
+    for (const std::uint32_t i : indices) {
         const double s = maths::puffDeviationMetres(static_cast<double>(store.radius[i]));
         const double tau = opticalDepthShare * maths::puffOpticalDepth(static_cast<double>(store.opacity[i]));
-        if (!(s > 0) || !(tau > neglected)) continue;
-        const glm::dvec3 centre(store.position(i));
-        const Entry puff{glm::dot(centre, first_), glm::dot(centre, second_),         glm::dot(centre, toSun_),
-                         std::log2(tau),           std::numbers::log2e / (2 * s * s), 1 / (std::numbers::sqrt2 * s)};
+        const glm::dvec3 centre = glm::dvec3(store.position(i)) * frame_;
+        if (!(s > 0) || !(tau > neglected) || !std::isfinite(s + centre.x + centre.y + centre.z)) continue;
+        const Entry puff{centre.x,
+                         centre.y,
+                         centre.z,
+                         std::log2(tau),
+                         std::numbers::log2e / (2 * s * s),
+                         1 / (std::numbers::sqrt2 * s)};
         puffs_.push_back(puff);
         reaches.push_back(s * std::sqrt(2 * std::log(tau / neglected)));
         low_ = glm::min(low_, glm::dvec2(puff.u, puff.v) - reaches.back());
@@ -70,11 +88,12 @@ int SunDepth::cell(double coordinate, int axis) const {
 
 double SunDepth::at(const glm::dvec3& position) const {
     if (puffs_.empty()) return 0;
-    const double u = glm::dot(position, first_), v = glm::dot(position, second_), w = glm::dot(position, toSun_);
+    const glm::dvec3 place = position * frame_;
+    const double u = place.x, v = place.y, w = place.z;
     // No puff reaches beyond the edge; edge cells contribute only neglected depth.
     const std::size_t k = static_cast<std::size_t>(cell(v, 1)) * static_cast<std::size_t>(cells_.x) +
                           static_cast<std::size_t>(cell(u, 0));
-    const HalfErrorFunction& halfErf = HalfErrorFunction::instance();
+    const maths::HalfErrorFunction& halfErf = maths::HalfErrorFunction::instance();
     const std::uint32_t end = cellStart_[k + 1];
     double sum = 0;
     // Processed in batches, so that the loop vectorises; the last batch is padded with puffs of zero depth.
@@ -89,10 +108,11 @@ double SunDepth::at(const glm::dvec3& position) const {
             exponents[i] = std::max(minimumExponent, puff.logDepth - (du * du + dv * dv) * puff.scale);
             along[i] = (puff.w - w) * puff.inverseWidth;
         }
-        for (std::size_t i = 0; i < atOnce; ++i) depths[i] = powerOfTwo(exponents[i]) * (0.5 + halfErf(along[i]));
+        for (std::size_t i = 0; i < atOnce; ++i)
+            depths[i] = maths::powerOfTwo(exponents[i]) * (0.5 + halfErf(along[i]));
         for (const double depth : depths) sum += depth;
     }
     return sum;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::light

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace dustbench::bench {
+namespace dustbench::maths {
 
 /// Added to a small number, it leaves the nearest integer in the lowest bits of the sum.
 inline constexpr double roundingMagic = 0x1.8p52;
@@ -98,4 +98,4 @@ class HalfErrorFunction {
     std::array<double, degree + 1> c_{};
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::maths

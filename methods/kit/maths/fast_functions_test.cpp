@@ -1,8 +1,8 @@
-#include "bench/reference/fast_functions.h"
+#include "methods/kit/maths/fast_functions.h"
 
 #include <gtest/gtest.h>
 
-namespace dustbench::bench {
+namespace dustbench::maths {
 namespace {
 
 TEST(FastFunctions, PowerOfTwoEqualsTheLibrarysToElevenDigits) {
@@ -29,4 +29,4 @@ TEST(FastFunctions, HalfErrorFunctionEqualsTheLibrarysToTenDigits) {
 }
 
 }  // namespace
-}  // namespace dustbench::bench
+}  // namespace dustbench::maths

@@ -1,4 +1,4 @@
-// The optical depth between a point in a cloud and the sun, by the closed form.
+// The optical depth between a point in a cloud and the sun, by the closed form, and what it does to the light of puffs.
 //
 // Units: metres; depth has none. Frame: world. Owns: a grid over the plane perpendicular to the sun direction; each
 // cell lists the puffs that reach into it. Threads: const access from any.
@@ -6,16 +6,25 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
+
 #include "methods/contract/volume.h"
 
-namespace dustbench::bench {
+namespace dustbench::light {
 
-class SunDepth {
+/// Orthonormal columns: two across the sun's direction, and the direction itself. `toSun` need not be a unit vector.
+/// Throws std::invalid_argument where it has no direction.
+[[nodiscard]] DUSTBENCH_API glm::dmat3 sunFrame(const glm::dvec3& toSun);
+
+class DUSTBENCH_API SunDepth {
  public:
-    /// τ = −ln(1 − α)·`opticalDepthShare`; a puff counts out to where its depth falls to `neglected`.
-    /// `toSun` need not be a unit vector. Throws std::invalid_argument where it has no direction.
+    /// τ = −ln(1 − α)·`opticalDepthShare`; a puff counts out to where its depth falls to `neglected`. One with a
+    /// number that is not finite does not count. Throws as sunFrame() does.
     SunDepth(const Puffs& store, const glm::dvec3& toSun, double opticalDepthShare, double neglected);
+    /// Of the puffs with these indices alone, which ascend.
+    SunDepth(const Puffs& store, const glm::dvec3& toSun, double opticalDepthShare, double neglected,
+             std::span<const std::uint32_t> indices);
 
     /// Σ τ·exp(−b²/2s²)·½[1 + erf(tc/√2s)], the ray starting at `position`, in the order of the store.
     [[nodiscard]] double at(const glm::dvec3& position) const;
@@ -29,7 +38,7 @@ class SunDepth {
 
     [[nodiscard]] int cell(double coordinate, int axis) const;
 
-    glm::dvec3 first_, second_, toSun_;
+    glm::dmat3 frame_;  ///< sunFrame()
     glm::dvec2 low_{0};
     double cellMetres_ = 1;
     glm::ivec2 cells_{0};
@@ -38,4 +47,4 @@ class SunDepth {
         cellPuffs_;  ///< cell k's puffs: cellPuffs_[cellStart_[k]..cellStart_[k + 1])
 };
 
-}  // namespace dustbench::bench
+}  // namespace dustbench::light
