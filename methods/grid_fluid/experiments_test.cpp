@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <numeric>
+
 #include "methods/grid_fluid/demo_memory_experiment.h"
+#include "methods/grid_fluid/fire_experiment.h"
 #include "methods/grid_fluid/large_steps_experiment.h"
 #include "methods/grid_fluid/obstacles_experiment.h"
 #include "methods/grid_fluid/scheme_accuracy_experiment.h"
@@ -60,6 +64,45 @@ TEST(SchemeAccuracyExperiment, MeasuresDistancesThatFallAsTheGridIsRefined) {
     EXPECT_NEAR(half.velocity, 0.5, 1e-6);
     EXPECT_NEAR(half.enstrophy, std::log(4.0), 1e-5);
     EXPECT_NEAR(half.detail, std::log(4.0), 1e-5);
+}
+
+TEST(FireExperiment, ShowsTheSameMassAsParticlesAndAsAVolume) {
+    // Thin pieces, wide enough for the grid: the two pictures of them differ by the grid's interpolation alone.
+    std::vector<fire::Flake> pieces = fire::scatter(5, 0.16, 7);
+    for (fire::Flake& piece : pieces) piece.depth = 0.01;
+    const fire::Picture particles = fire::pictureOf(pieces, {}, 32),
+                        volume = fire::pictureOf(fire::gridOf(pieces, 20), {}, 32);
+    EXPECT_LT(fire::distanceOf(volume, particles), 0.1);
+    const auto sumOf = [](const fire::Picture& picture) {
+        return std::accumulate(picture.alphas.begin(), picture.alphas.end(), 0.0);
+    };
+    EXPECT_NEAR(sumOf(volume) / sumOf(particles), 1, 0.02);
+    EXPECT_EQ(fire::distanceOf(particles, particles), 0);
+    // A fire and its particles: as much smoke in both.
+    fire::Burning burning = fire::burn(16, 0.4, 3000, 3);
+    for (fire::Flake& flake : burning.particles) {
+        flake.deviation = 0.1;
+        flake.depth /= 2 * std::numbers::pi * 0.01 * 1000;
+    }
+    for (float& density : burning.grid.density) density /= 1000;
+    const raycast::TransferFunction smoke({{0, glm::vec3(0), 1}, {1, glm::vec3(0), 1}});
+    EXPECT_NEAR(sumOf(fire::pictureOf(burning.particles, smoke, 32)) / sumOf(fire::pictureOf(burning.grid, smoke, 32)),
+                1, 0.05);
+}
+
+TEST(FireExperiment, CorrelatesWhatBurnsWithWhatIsSeen) {
+    const fire::FireGrid grid = fire::burn(16, 0.6, 0, 3).grid;
+    EXPECT_GT(fire::correlationOf(fire::pictureOf(grid, {}, 32), grid), 0.95);
+    const raycast::TransferFunction backwards({{0, glm::vec3(3), 1}, {1, glm::vec3(0), 1}});
+    EXPECT_LT(fire::correlationOf(fire::pictureOf(grid, backwards, 32), grid), -0.95);
+}
+
+TEST(FireExperiment, CountsThePiecesThatStandOut) {
+    const std::vector<fire::Flake> apart = {{{0.4, 0.5, 0.8}, 0.02, 0.5, 0}, {{0.8, 1.5, 0.2}, 0.02, 0.5, 0}},
+                                   alike = {{{0.4, 0.5, 0.8}, 0.02, 0.5, 0}, {{0.4, 0.5, 0.2}, 0.02, 0.5, 0}};
+    EXPECT_EQ(fire::piecesSeen(fire::pictureOf(apart, {}, 256), apart), 1);
+    EXPECT_EQ(fire::piecesSeen(fire::pictureOf(alike, {}, 256), alike), 0.5);
+    EXPECT_EQ(fire::piecesSeen(fire::pictureOf({apart[0]}, {}, 256), apart), 0.5);
 }
 
 /// The harness's context, but without worlds: this experiment requests none.

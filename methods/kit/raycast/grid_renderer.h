@@ -20,7 +20,8 @@
 namespace dustbench::raycast {
 
 /// Light reflected by a thick cloud of this albedo; the same for all methods (scene::dustColour).
-[[nodiscard]] Reflected cloudColour(const glm::vec3& albedo, const scene::Lights& lights, float asymmetry = 0);
+[[nodiscard]] DUSTBENCH_API Reflected cloudColour(const glm::vec3& albedo, const scene::Lights& lights,
+                                                  float asymmetry = 0);
 
 /// Placement of the grid uploaded last, and the range [minimum, maximum) of cells that contains all of its density.
 struct GridPlace {

@@ -31,7 +31,7 @@ struct PlainRay {
 };
 
 /// Red, green, blue, premultiplied, and alpha.
-[[nodiscard]] glm::dvec4 plainMarch(const PlainVolume& volume, const PlainRay& ray);
+[[nodiscard]] DUSTBENCH_API glm::dvec4 plainMarch(const PlainVolume& volume, const PlainRay& ray);
 
 /// Offset of a pixel's steps as a fraction of a step, counted from the bottom left: the fractional part of x/g + y/g²,
 /// with 1/g and 1/g² in units of 2⁻³², where g is the plastic number.
