@@ -1,6 +1,8 @@
 // End-to-end tests of `compare`.
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "bench/cli/called_program.h"
 #include "bench/results/method_time.h"
 #include "methods/kit/files/csv.h"
@@ -11,6 +13,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class CompareCommand : public Dustbench {
  protected:
@@ -79,6 +82,23 @@ TEST_F(CompareCommand, ShowsAMethodWithASimulationOfItsOwnBesideTheJudged) {
     ASSERT_EQ(summary.rows(), 3u);
     for (std::size_t row = 0; row < 3; ++row)
         EXPECT_TRUE(fs::exists(fs::path(out()) / summary.cell(row, "FILE_image")));
+}
+
+TEST_F(CompareCommand, TurnsTheSheetOfManyMethods) {
+    const Called called = compare(
+        "billboard billboard:soft=true billboard:mode=paper null_method null_method:work=1 --size 96x72 --frames 5 "
+        "--warmup 1 --repetitions 1 -P preroll=0.1 -P particles=50");
+    ASSERT_EQ(called.code, 0) << called.err;
+    const pictures::Image sheet = pictures::readImage(fs::path(out()) / "contact_sheet.png");
+    // Five moments with their differences, of the exact picture and five methods.
+    EXPECT_GT(sheet.width, 10 * 400);
+    EXPECT_LT(sheet.width, 11 * 400 + 160);
+    EXPECT_GT(sheet.height, 6 * 300);
+    std::ifstream file(fs::path(out()) / "contact_sheet.svg");
+    const std::string svg{std::istreambuf_iterator<char>(file), {}};
+    for (const char* heading : {">exact<", ">billboard<", ">null_method<", ">difference<"})
+        EXPECT_THAT(svg, HasSubstr(heading));
+    EXPECT_THAT(svg, Not(HasSubstr("difference of")));
 }
 
 TEST_F(CompareCommand, RefusesInOneLine) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "bench/measure/image/heat_map.h"
@@ -20,7 +21,8 @@ namespace dustbench::bench {
 namespace {
 
 constexpr int tileWidth = 400, gap = 12, margin = 20;
-constexpr int rowHeadingWidth = 160;  // at most
+constexpr int rowHeadingWidth = 160;  // at most, but for words
+constexpr int rowWordWidth = 300;     // of the longest word, at most
 constexpr int barHeight = 22;
 constexpr Lettering plainText{28, false}, boldText{28, true}, titleText{33, true};
 
@@ -108,14 +110,23 @@ int heightOf(const Lines& lines, const Lettering& lettering) {
     return static_cast<int>(lines.size()) * linePitch(lettering);
 }
 
+double widestWord(const std::string& text, const Lettering& lettering) {
+    std::istringstream words(files::printable(text));
+    double widest = 0;
+    for (std::string word; words >> word;) widest = std::max(widest, textWidth(word, lettering));
+    return widest;
+}
+
 /// Fills the sheet from the top.
 class SheetWriter {
  public:
     explicit SheetWriter(const ContactSheet& sheet)
         : sheet_(sheet), columns_(checkedColumns(sheet)), tileHeight_(checkedTileHeight(sheet)) {
-        double widest = 0;
+        double longestWord = 0, widest = 0;
+        for (const std::string& row : sheet.rows) longestWord = std::max(longestWord, widestWord(row, plainText));
+        const int allowed = std::clamp(static_cast<int>(std::ceil(longestWord)), rowHeadingWidth, rowWordWidth);
         for (const std::string& row : sheet.rows) {
-            rowHeadings_.push_back(linesOf(row, rowHeadingWidth, plainText));
+            rowHeadings_.push_back(linesOf(row, allowed, plainText));
             for (const std::string& line : rowHeadings_.back()) widest = std::max(widest, textWidth(line, plainText));
         }
         gridX_ = margin + (widest > 0 ? static_cast<int>(std::ceil(widest)) + gap : 0);

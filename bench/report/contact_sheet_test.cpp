@@ -173,6 +173,15 @@ TEST(ContactSheet, KeepsTextBesidesPicturesAndInItsColumnHoweverLongItIs) {
     }
 }
 
+TEST(ContactSheet, BreaksRowHeadingsBetweenWords) {
+    ContactSheet sheet = fullSheet();
+    sheet.rows[0] = "octree_recursive of 2000 puffs";
+    const std::string svg = contactSheetSvg(sheet);
+    EXPECT_THAT(svg, HasSubstr(">octree_recursive<"));
+    sheet.rows[0] = std::string(200, 'W');
+    EXPECT_LT(picturesOf(contactSheetSvg(sheet))[0].x, 400);
+}
+
 TEST(ContactSheet, WritesEveryLetterOfItsTexts) {
     ContactSheet sheet = fullSheet();
     sheet.title = "a < b & \"c\" > d: λ=0.5 × 10⁻³";

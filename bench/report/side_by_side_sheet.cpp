@@ -19,6 +19,9 @@ namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
+/// A sheet with more is turned if that makes it narrower: methods are its rows then.
+constexpr std::size_t mostColumns = 9;
+
 struct ShownPicture {
     pictures::Image picture;
     std::optional<Plane> difference;  ///< from the exact picture; empty if this run has none
@@ -98,6 +101,52 @@ float scaleOf(const std::vector<Moment>& moments) {
     return std::max(0.1f, std::ceil(maximum * 10) / 10);
 }
 
+std::string headingOf(const Moment& moment) {
+    return fmt::format("frame {}, {} s", moment.frame, moment.timeSeconds);
+}
+
+std::optional<SheetCell> differenceOf(const ShownPicture& picture, const SheetScale& scale) {
+    if (!picture.difference) return std::nullopt;
+    return SheetCell{heatMap(*picture.difference, 0, scale.maximum), ""};
+}
+
+ContactSheet momentsAsRows(std::span<const SheetRun> runs, const std::vector<Moment>& moments) {
+    ContactSheet sheet;
+    sheet.scale = {0, scaleOf(moments), "FLIP"};
+    sheet.columns.emplace_back("exact");
+    for (const SheetRun& run : runs) sheet.columns.push_back(run.label);
+    for (const SheetRun& run : runs)
+        if (run.judged) sheet.columns.push_back("difference of " + run.label);
+    for (const Moment& moment : moments) {
+        sheet.rows.push_back(headingOf(moment));
+        auto& cells = sheet.cells.emplace_back();
+        cells.push_back(SheetCell{moment.reference, ""});
+        for (const ShownPicture& picture : moment.pictures)
+            cells.push_back(SheetCell{picture.picture, picture.caption});
+        for (const ShownPicture& picture : moment.pictures)
+            if (picture.difference) cells.push_back(differenceOf(picture, *sheet.scale));
+    }
+    return sheet;
+}
+
+ContactSheet methodsAsRows(std::span<const SheetRun> runs, const std::vector<Moment>& moments) {
+    ContactSheet sheet;
+    sheet.scale = {0, scaleOf(moments), "FLIP"};
+    sheet.rows.emplace_back("exact");
+    for (const SheetRun& run : runs) sheet.rows.push_back(run.label);
+    sheet.cells.resize(sheet.rows.size());
+    for (const Moment& moment : moments) {
+        sheet.columns.insert(sheet.columns.end(), {headingOf(moment), "difference"});
+        sheet.cells.front().insert(sheet.cells.front().end(), {SheetCell{moment.reference, ""}, std::nullopt});
+        for (std::size_t run = 0; run < runs.size(); ++run) {
+            const ShownPicture& picture = moment.pictures[run];
+            sheet.cells[run + 1].push_back(SheetCell{picture.picture, picture.caption});
+            sheet.cells[run + 1].push_back(differenceOf(picture, *sheet.scale));
+        }
+    }
+    return sheet;
+}
+
 }  // namespace
 
 ContactSheet sideBySideSheet(const ResultsFolder& results, std::span<const SheetRun> runs, const std::string& title) {
@@ -105,23 +154,11 @@ ContactSheet sideBySideSheet(const ResultsFolder& results, std::span<const Sheet
     if (firstJudged == runs.end()) throw std::invalid_argument("contact sheet: no run is judged");
     std::vector<Moment> moments = readReferences(results, *firstJudged);
     for (const SheetRun& run : runs) run.judged ? addJudged(results, run, moments) : addAsItIs(results, run, moments);
-    ContactSheet sheet;
+    const std::size_t columns =
+        1 + runs.size() + static_cast<std::size_t>(std::ranges::count_if(runs, &SheetRun::judged));
+    ContactSheet sheet = columns > mostColumns && 2 * moments.size() < columns ? methodsAsRows(runs, moments)
+                                                                               : momentsAsRows(runs, moments);
     sheet.title = title;
-    sheet.scale = {0, scaleOf(moments), "FLIP"};
-    sheet.columns.emplace_back("exact");
-    for (const SheetRun& run : runs) sheet.columns.push_back(run.label);
-    for (const SheetRun& run : runs)
-        if (run.judged) sheet.columns.push_back("difference of " + run.label);
-    for (const Moment& moment : moments) {
-        sheet.rows.push_back(fmt::format("frame {}, {} s", moment.frame, moment.timeSeconds));
-        auto& cells = sheet.cells.emplace_back();
-        cells.push_back(SheetCell{moment.reference, ""});
-        for (const ShownPicture& picture : moment.pictures)
-            cells.push_back(SheetCell{picture.picture, picture.caption});
-        for (const ShownPicture& picture : moment.pictures)
-            if (picture.difference)
-                cells.push_back(SheetCell{heatMap(*picture.difference, 0, sheet.scale->maximum), ""});
-    }
     return sheet;
 }
 

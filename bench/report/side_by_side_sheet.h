@@ -1,5 +1,5 @@
 // The contact sheet of runs: rows are moments; columns are the exact picture, each method's picture, and its
-// difference.
+// difference. With many methods and few moments the methods are the rows instead.
 //
 // A method with its own simulation has no exact picture: only its picture is shown.
 #pragma once
@@ -16,7 +16,7 @@ namespace dustbench::bench {
 
 struct SheetRun {
     std::string runId;
-    std::string label;   ///< heading of its column
+    std::string label;   ///< heading of its pictures
     bool judged = true;  ///< against the exact pictures
 };
 
