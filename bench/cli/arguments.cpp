@@ -211,6 +211,9 @@ int dispatch(const std::vector<Command>& commands, const CommonOptions& common, 
         // Caught by type: a subcommand's ExtrasError has the subcommand's name instead of its own.
         if (dynamic_cast<const CLI::ExtrasError*>(&error) || !entry)
             throw unexpected(app, entry ? entry->first : nullptr, argv, error);
+        const std::string_view text = error.what();
+        if (const std::size_t end = text.find(": At Most 1 required"); end != std::string_view::npos)
+            throw InputError(std::string(text.substr(0, end)) + ": is given more than once");
         throw InputError(error.what());
     }
     common.apply();

@@ -49,6 +49,12 @@ TEST_F(Usage, AnUnknownKeyIsAnsweredWithTheNearestAndAllOthers) {
         EXPECT_THAT(called.err, HasSubstr(key));
 }
 
+TEST_F(Usage, AnOptionGivenTwiceIsSaidSo) {
+    const Called called = call("run --method null_method --size 64x48 --size 32x24 --out " + out());
+    EXPECT_EQ(called.code, 3);
+    EXPECT_EQ(called.err, "dustbench: --size: is given more than once\n");
+}
+
 TEST_F(Usage, WhatCannotBePrintedIsAnError) {
     for (const char* command : {"list methods", "help", "list --json"}) {
         EXPECT_EQ(callOntoFullDevice(command), 2) << command;

@@ -4,33 +4,18 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <string>
 
 #include "methods/grid_fluid/flow/fluid_solver.h"
 #include "methods/kit/findings/findings.h"
 #include "methods/kit/maths/philox.h"
 #include "methods/kit/parallel/for_each_block.h"
-#include "methods/kit/raycast/grid_renderer.h"
-#include "methods/kit/raycast/plain_march.h"
 
 namespace dustbench::grid_fluid::fire {
 namespace {
 
-constexpr double widthMetres = 1.6;
 constexpr double stepSeconds = 1.0 / 60;
-constexpr double extinctionPerMetre = 6;
 constexpr double burningPerSecond = 1.1;
-constexpr double minimumAlpha = 1e-4;  ///< of a pixel: below it nothing is there
-
-double spacingOf(int cells) {
-    return widthMetres / cells;
-}
-
-/// The light that smoke reflects: a dark one's, in daylight.
-raycast::Reflected smoke() {
-    return raycast::cloudColour(glm::vec3(0.1f), scene::Lights{});
-}
 
 flow::FluidSource sourceOf(std::uint64_t seed) {
     const auto a = maths::uniform4(seed, 1, 0);
@@ -46,7 +31,7 @@ flow::FluidSource sourceOf(std::uint64_t seed) {
 
 flow::FluidSettings settingsOf(int cells) {
     flow::FluidSettings settings;
-    settings.box = {{cells, 2 * cells, cells}, spacingOf(cells), {0, 0, 0}};
+    settings.box = {{cells, 2 * cells, cells}, widthMetres / cells, {0, 0, 0}};
     settings.sides = flow::closed;
     settings.advection = {flow::AdvectionScheme::macCormack, flow::Limit::revert};
     settings.forces.buoyancyPerKelvin = 0.03f;
@@ -102,84 +87,15 @@ glm::dvec3 birthPlace(const flow::FluidSource& source, std::uint64_t seed, std::
     return source.centreMetres + source.radiusMetres * glm::dvec3(across, along.x);
 }
 
-template <typename Colour>
-Picture pictureByRays(int width, const Colour& colourOf) {
-    Picture picture{width, 2 * width, {}, {}};
-    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(picture.height);
-    picture.colours.resize(pixels);
-    picture.alphas.resize(pixels);
-    const double edge = widthMetres / width;
-    parallel::forEachBlock(pixels, static_cast<std::size_t>(width), [&](std::size_t first, std::size_t count) {
-        for (std::size_t i = first; i < first + count; ++i) {
-            const auto x = static_cast<double>(i % static_cast<std::size_t>(width)),
-                       y = static_cast<double>(i / static_cast<std::size_t>(width));
-            const glm::dvec4 seen = colourOf(glm::dvec2(x + 0.5, y + 0.5) * edge);
-            picture.colours[i] = glm::dvec3(seen);
-            picture.alphas[i] = seen.a;
-        }
-    });
-    return picture;
-}
-
-/// Rank of each value, ties sharing their mean.
-std::vector<double> ranksOf(const std::vector<double>& values) {
-    std::vector<std::size_t> order(values.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
-    std::vector<double> ranks(values.size());
-    for (std::size_t first = 0; first < order.size();) {
-        std::size_t last = first;
-        while (last + 1 < order.size() && values[order[last + 1]] == values[order[first]]) ++last;
-        for (std::size_t k = first; k <= last; ++k) ranks[order[k]] = static_cast<double>(first + last) / 2;
-        first = last + 1;
-    }
-    return ranks;
-}
-
-double correlationOf(const std::vector<double>& a, const std::vector<double>& b) {
-    const auto meanOf = [](const std::vector<double>& values) {
-        return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-    };
-    const double meanA = meanOf(a), meanB = meanOf(b);
-    double ab = 0, aa = 0, bb = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        ab += (a[i] - meanA) * (b[i] - meanB);
-        aa += (a[i] - meanA) * (a[i] - meanA);
-        bb += (b[i] - meanB) * (b[i] - meanB);
-    }
-    return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
-}
-
-/// `emissionOf(reaction)` in place of the flame's, with its extinction at `readAt(reaction)`.
-template <typename Emission, typename Read>
-raycast::TransferFunction changed(const raycast::TransferFunction& flame, const Emission& emissionOf,
-                                  const Read& readAt) {
-    constexpr int rows = 64;
-    std::vector<raycast::TransferFunction::Row> changedRows;
-    for (int row = 0; row <= rows; ++row) {
-        const double reaction = static_cast<double>(row) / rows;
-        changedRows.push_back({reaction, emissionOf(reaction), flame.at(readAt(reaction)).a});
-    }
-    return raycast::TransferFunction(changedRows);
-}
-
+/// What is fresh is shown as what is burnt out, and the other way round.
 raycast::TransferFunction backwards(const raycast::TransferFunction& flame) {
-    const auto other = [](double reaction) { return 1 - reaction; };
-    return changed(
-        flame, [&](double reaction) { return glm::vec3(flame.at(other(reaction))); }, other);
-}
-
-glm::dvec4 marched(const FireGrid& grid, const raycast::TransferFunction& flame, const raycast::Reflected& reflected,
-                   const glm::dvec2& place) {
-    raycast::PlainVolume volume;
-    volume.grid = {
-        {grid.cells, 2 * grid.cells, grid.cells}, spacingOf(grid.cells), {0, 0, 0}, grid.density, grid.reaction};
-    volume.settings.extinctionPerMetre = extinctionPerMetre;
-    volume.settings.stopAlpha = 1;
-    volume.settings.fire = flame;
-    volume.reflected = reflected;
-    const double edge = spacingOf(grid.cells);
-    return raycast::plainMarch(volume, {{place.x / edge, place.y / edge, grid.cells + 1.0}, {0, 0, -1}, 1e9, 0.5});
+    constexpr int rows = 64;
+    std::vector<raycast::TransferFunction::Row> turned;
+    for (int row = 0; row <= rows; ++row) {
+        const glm::vec4 look = flame.at(1 - static_cast<double>(row) / rows);
+        turned.push_back({static_cast<double>(row) / rows, glm::vec3(look), look.a});
+    }
+    return raycast::TransferFunction(turned);
 }
 
 }  // namespace
@@ -221,96 +137,6 @@ Burning burn(int cells, double seconds, int particles, std::uint64_t seed) {
     return burning;
 }
 
-Picture pictureOf(const FireGrid& grid, const raycast::TransferFunction& flame, int width) {
-    const raycast::Reflected reflected = smoke();
-    return pictureByRays(width, [&](const glm::dvec2& place) { return marched(grid, flame, reflected, place); });
-}
-
-Picture pictureOf(std::vector<Flake> flakes, const raycast::TransferFunction& flame, int width) {
-    constexpr double reach = 3;  // deviations, as billboards have
-    std::ranges::stable_sort(flakes, {}, [](const Flake& flake) { return flake.centre.z; });
-    const glm::dvec3 reflected(smoke().all());
-    std::vector<glm::dvec4> looks;  // colour, and depth in the middle
-    for (const Flake& flake : flakes) {
-        const glm::dvec4 burning(flame.at(flake.reaction));
-        looks.emplace_back(glm::dvec3(burning) + reflected, flake.depth * burning.a);
-    }
-    return pictureByRays(width, [&](const glm::dvec2& place) {
-        glm::dvec4 seen(0);
-        for (std::size_t i = 0; i < flakes.size(); ++i) {
-            const double s = flakes[i].deviation;
-            const glm::dvec2 apart = place - glm::dvec2(flakes[i].centre);
-            const double square = glm::dot(apart, apart);
-            if (square > reach * reach * s * s) continue;
-            const double alpha = -std::expm1(-looks[i].a * std::exp(-square / (2 * s * s)));
-            seen = alpha * glm::dvec4(glm::dvec3(looks[i]), 1) + (1 - alpha) * seen;
-        }
-        return seen;
-    });
-}
-
-double distanceOf(const Picture& picture, const Picture& reference) {
-    double apart = 0, whole = 0;
-    for (std::size_t i = 0; i < picture.colours.size(); ++i) {
-        const glm::dvec3 difference = picture.colours[i] - reference.colours[i];
-        apart += glm::dot(difference, difference);
-        whole += glm::dot(reference.colours[i], reference.colours[i]);
-    }
-    return std::sqrt(apart / whole);
-}
-
-double correlationOf(const Picture& picture, const FireGrid& of) {
-    const raycast::TransferFunction freshness = changed(
-        {}, [](double reaction) { return glm::vec3(static_cast<float>(reaction)); },
-        [](double reaction) { return reaction; });
-    const Picture burning =
-        pictureByRays(picture.width, [&](const glm::dvec2& place) { return marched(of, freshness, {}, place); });
-    std::vector<double> fresh, seen;
-    for (std::size_t i = 0; i < picture.alphas.size(); ++i) {
-        if (std::min(picture.alphas[i], burning.alphas[i]) < 1.0 / 255) continue;
-        fresh.push_back(burning.colours[i].r / burning.alphas[i]);
-        seen.push_back(glm::dot(picture.colours[i], glm::dvec3(0.2126, 0.7152, 0.0722)) / picture.alphas[i]);
-    }
-    return correlationOf(ranksOf(fresh), ranksOf(seen));
-}
-
-double piecesSeen(const Picture& picture, const std::vector<Flake>& pieces) {
-    const double edge = widthMetres / picture.width;
-    const auto alphaAt = [&](int x, int y) {
-        return x < 0 || y < 0 || x >= picture.width || y >= picture.height
-                   ? 0.0
-                   : picture.alphas[static_cast<std::size_t>(y * picture.width + x)];
-    };
-    // Of equal neighbours the first counts.
-    const auto isMaximum = [&](int x, int y) {
-        const double alpha = alphaAt(x, y);
-        for (int j = -1; j <= 1; ++j)
-            for (int i = -1; i <= 1; ++i) {
-                const bool before = j < 0 || (j == 0 && i < 0), itself = j == 0 && i == 0;
-                const double beside = alphaAt(x + i, y + j);
-                if (before ? beside >= alpha : !itself && beside > alpha) return false;
-            }
-        return alpha > minimumAlpha;
-    };
-    // A maximum belongs to one piece at most.
-    std::vector<bool> taken(picture.alphas.size());
-    int seen = 0;
-    for (const Flake& piece : pieces) {
-        const glm::dvec2 middle = glm::dvec2(piece.centre) / edge;
-        const int reach = std::max(1, static_cast<int>(std::lround(piece.deviation / edge)));
-        const glm::ivec2 at(middle);
-        bool found = false;
-        for (int y = at.y - reach; y <= at.y + reach && !found; ++y)
-            for (int x = at.x - reach; x <= at.x + reach && !found; ++x) {
-                const auto i = static_cast<std::size_t>(y * picture.width + x);
-                found = isMaximum(x, y) && !taken[i];
-                if (found) taken[i] = true;
-            }
-        seen += found ? 1 : 0;
-    }
-    return static_cast<double>(seen) / static_cast<double>(pieces.size());
-}
-
 std::vector<Flake> scatter(int count, double deviation, std::uint64_t seed) {
     std::vector<Flake> pieces;
     for (int piece = 0; piece < count; ++piece) {
@@ -325,7 +151,7 @@ std::vector<Flake> scatter(int count, double deviation, std::uint64_t seed) {
 
 FireGrid gridOf(const std::vector<Flake>& pieces, int cells) {
     FireGrid grid{cells, std::vector<float>(2 * static_cast<std::size_t>(cells * cells * cells)), {}};
-    const double edge = spacingOf(cells);
+    const double edge = widthMetres / cells;
     const glm::ivec3 box(cells, 2 * cells, cells);
     parallel::forEachBlock(static_cast<std::size_t>(cells), 1, [&](std::size_t first, std::size_t) {
         const int z = static_cast<int>(first);
@@ -375,7 +201,7 @@ void measureFire(Found& found, int cells, std::uint64_t seed) {
     const Picture volume = pictureOf(fire.grid, flame, width), wrong = pictureOf(fire.grid, backwards(flame), width);
     double least = std::numeric_limits<double>::infinity(), correlation = 0;
     for (const double ofCells : {0.5, 1.0, 2.0}) {
-        const Picture shown = pictureOf(widened(fire.particles, ofCells * spacingOf(cells)), flame, width);
+        const Picture shown = pictureOf(widened(fire.particles, ofCells * widthMetres / cells), flame, width);
         const double distance = distanceOf(shown, reference);
         if (distance >= least) continue;
         least = distance;
@@ -400,7 +226,7 @@ void measurePieces(Found& found, int cells, std::uint64_t seed) {
         double lead = 0;
         for (std::uint64_t scattering = 0; scattering < scatterings; ++scattering) {
             const std::vector<Flake> scattered =
-                scatter(pieces.count, pieces.widthCells * spacingOf(cells), scatterings * seed + scattering);
+                scatter(pieces.count, pieces.widthCells * widthMetres / cells, scatterings * seed + scattering);
             lead += piecesSeen(pictureOf(scattered, flame, width), scattered) -
                     piecesSeen(pictureOf(gridOf(scattered, cells), flame, width), scattered);
         }

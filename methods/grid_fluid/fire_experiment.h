@@ -1,35 +1,21 @@
 // Holds a fire shown as a volume against the same fire shown as particles, and single pieces likewise (claim R34).
 //
 // A fire burns in a box. It is shown, in parallel rays, as a volume by its transfer function, and as particles: born in
-// the source, as fresh as it is there, carried by the air, coloured through the same function as they age. Both belong to the same coarse grid;
-// the reference is a volume in a grid of half the spacing, with a march as fine.
-// Pieces are puffs that lie apart in the same box, as particles and as densities of the grid's cells.
+// the source, as fresh as it is there, carried by the air, coloured through the same function as they age. Both belong
+// to the same coarse grid; the reference is a volume in a grid of half the spacing, with a march as fine. Pieces are
+// puffs that lie apart in the same box, as particles and as densities of the grid's cells.
 //
 // Units: metres, seconds; linear RGB. Threads: the current oneTBB arena; the same at any number of them.
 // Source: Senger2009, ch. 5.
 #pragma once
 
 #include <cstdint>
-#include <glm/glm.hpp>
 #include <vector>
 
 #include "methods/contract/experiment.h"
-#include "methods/kit/raycast/transfer_function.h"
+#include "methods/grid_fluid/fire_pictures.h"
 
 namespace dustbench::grid_fluid::fire {
-
-/// A particle of a fire, or a piece: a puff with its own freshness.
-struct Flake {
-    glm::dvec3 centre;
-    double deviation;  ///< s
-    double depth;      ///< τ of smoke
-    double reaction;   ///< 1 fresh … 0 burnt out
-};
-
-struct FireGrid {
-    int cells = 0;  ///< across; twice as many upwards
-    std::vector<float> density, reaction;
-};
 
 struct Burning {
     FireGrid grid;
@@ -38,27 +24,6 @@ struct Burning {
 
 /// A fire after `seconds`, its source placed by `seed`, in a box of `cells` × 2 `cells` × `cells`.
 [[nodiscard]] Burning burn(int cells, double seconds, int particles, std::uint64_t seed);
-
-/// One pixel a ray along −z, rows from the bottom.
-struct Picture {
-    int width = 0, height = 0;
-    std::vector<glm::dvec3> colours;  ///< premultiplied
-    std::vector<double> alphas;
-};
-
-[[nodiscard]] Picture pictureOf(const FireGrid& grid, const raycast::TransferFunction& flame, int width);
-/// Puffs as billboards, from the farthest to the nearest.
-[[nodiscard]] Picture pictureOf(std::vector<Flake> flakes, const raycast::TransferFunction& flame, int width);
-
-/// ‖a − b‖ / ‖b‖ of the colours over black.
-[[nodiscard]] double distanceOf(const Picture& picture, const Picture& reference);
-
-/// Spearman's rank correlation of what burns, the mean freshness along the rays of the fire `of`, with the luminance of
-/// what is seen there, over the pixels that both cover.
-[[nodiscard]] double correlationOf(const Picture& picture, const FireGrid& of);
-
-/// Share of the pieces that are a maximum of the picture's alpha of their own, within a deviation of their centre.
-[[nodiscard]] double piecesSeen(const Picture& picture, const std::vector<Flake>& pieces);
 
 /// `count` pieces of a width, nowhere near the sides, drawn by `seed`; and their mass in the cells of a grid.
 [[nodiscard]] std::vector<Flake> scatter(int count, double deviation, std::uint64_t seed);

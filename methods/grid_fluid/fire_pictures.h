@@ -1,0 +1,52 @@
+// Pictures in parallel rays of a fire, and of single pieces, as volumes and as particles.
+//
+// Units: metres; linear RGB. Frame: a box from the origin on, `widthMetres` × 2 `widthMetres` × `widthMetres`. Threads:
+// the current oneTBB arena; the same at any number of them.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "methods/kit/raycast/transfer_function.h"
+
+namespace dustbench::grid_fluid::fire {
+
+inline constexpr double widthMetres = 1.6;
+inline constexpr double extinctionPerMetre = 6;  ///< of a density of 1
+
+/// A particle of a fire, or a piece: a puff with its own freshness.
+struct Flake {
+    glm::dvec3 centre;
+    double deviation;  ///< s
+    double depth;      ///< τ of smoke
+    double reaction;   ///< 1 fresh … 0 burnt out
+};
+
+struct FireGrid {
+    int cells = 0;  ///< across; twice as many upwards
+    std::vector<float> density, reaction;
+    [[nodiscard]] double spacingMetres() const { return widthMetres / cells; }
+};
+
+/// One pixel a ray along −z, rows from the bottom.
+struct Picture {
+    int width = 0, height = 0;
+    std::vector<glm::dvec3> colours;  ///< premultiplied
+    std::vector<double> alphas;
+};
+
+[[nodiscard]] Picture pictureOf(const FireGrid& grid, const raycast::TransferFunction& flame, int width);
+/// Puffs as billboards, from the farthest to the nearest.
+[[nodiscard]] Picture pictureOf(std::vector<Flake> flakes, const raycast::TransferFunction& flame, int width);
+
+/// ‖a − b‖ / ‖b‖ of the colours over black.
+[[nodiscard]] double distanceOf(const Picture& picture, const Picture& reference);
+
+/// Spearman's rank correlation of what burns, the mean freshness along the rays of the fire `of`, with the luminance of
+/// what is seen there, over the pixels that both cover.
+[[nodiscard]] double correlationOf(const Picture& picture, const FireGrid& of);
+
+/// Share of the pieces that are a maximum of the picture's alpha of their own, within a deviation of their centre.
+[[nodiscard]] double piecesSeen(const Picture& picture, const std::vector<Flake>& pieces);
+
+}  // namespace dustbench::grid_fluid::fire
