@@ -1,13 +1,17 @@
-// `dustbench report`: the page of a results folder, its tables for a terminal, or one of its charts as a file.
+// `dustbench report`: the page of a results folder, its tables for a terminal, or one of its charts as a file; or a
+// page of several folders, each of another machine.
 #include <fmt/format.h>
 
 #include <iostream>
 #include <memory>
+#include <set>
 
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
+#include "bench/cli/machines_text.h"
 #include "bench/cli/suite_report.h"
 #include "bench/report/chart_file.h"
+#include "bench/report/machines/machine_comparison.h"
 #include "bench/report/page.h"
 #include "bench/report/report_reader.h"
 #include "methods/contract/errors.h"
@@ -17,10 +21,24 @@ namespace dustbench::cli {
 namespace {
 
 struct ReportOptions {
-    std::string folder, chart, format;
+    std::vector<std::string> folders, labels;
+    std::string chart, format, out;
     double pictureMegabytes = static_cast<double>(bench::defaultPictureBytes) / 1e6;
     bool text = false;
+    std::vector<std::string> given;  ///< names of options
 };
+
+/// Throws if an option was given that applies only to one folder, or only to several.
+void refuseOthers(const ReportOptions& options) {
+    static const std::set<std::string> ofOne{"--chart", "--format", "--pictures"}, ofSeveral{"--out", "--label"};
+    const bool several = options.folders.size() > 1;
+    for (const std::string& name : options.given)
+        if ((several ? ofOne : ofSeveral).contains(name))
+            throw InputError(fmt::format("{}: got it for {}, allowed: for {}", name,
+                                         several ? "several folders" : "one folder",
+                                         several ? "one folder" : "several folders, one for each machine"));
+    if (options.text && !options.out.empty()) throw InputError("--text and --out: got both, allowed: one of them");
+}
 
 /// The tables printed by `suite` and `reproduce`, for all existing runs.
 void printTables(const bench::ReportData& data) {
@@ -34,26 +52,54 @@ void printTables(const bench::ReportData& data) {
     std::cout << claimsReport(data.claims);
 }
 
+int reportMachines(const ReportOptions& options) {
+    const bench::MachineComparison comparison =
+        bench::comparisonOf(bench::readMachines({options.folders.begin(), options.folders.end()}, options.labels));
+    const bench::MachineRemarks& remarks = comparison.remarks;
+    if (!comparison.isComparable()) {
+        for (const auto* sentences : {&remarks.apart, &remarks.notes})
+            for (const std::string& sentence : *sentences)
+                std::cerr << "not comparable: " << files::printable(sentence) << "\n";
+        return exitNotComparable;
+    }
+    if (options.text) {
+        std::cout << machinesText(comparison);
+        return exitOk;
+    }
+    for (const auto* sentences : {&remarks.apart, &remarks.programs, &remarks.notes})
+        for (const std::string& sentence : *sentences) std::cerr << "note: " << files::printable(sentence) << "\n";
+    if (!remarks.missing.empty())
+        std::cerr << fmt::format("note: {} not done on every machine: see 'Missing cells' of the page\n",
+                                 remarks.missing.size() == 1 ? std::string("1 cell is")
+                                                             : fmt::format("{} cells are", remarks.missing.size()));
+    std::cout << bench::writeMachinesPage(options.out.empty() ? "out/machines" : options.out, comparison).string()
+              << "\n";
+    return exitOk;
+}
+
 int report(const ReportOptions& options) {
+    refuseOthers(options);
+    if (options.folders.size() > 1) return reportMachines(options);
+    const std::string& folder = options.folders.front();
     if (!options.format.empty() && options.chart.empty())
         throw InputError("--format: got '" + options.format + "' without --chart, which it belongs to");
     if (options.text && !options.chart.empty()) throw InputError("--text and --chart: got both, allowed: one of them");
     const bool needsPictures = !options.text && options.chart.empty();
-    const bench::ReportData data = bench::readReport(
-        options.folder, needsPictures ? static_cast<std::int64_t>(options.pictureMegabytes * 1e6) : 0);
+    const bench::ReportData data =
+        bench::readReport(folder, needsPictures ? static_cast<std::int64_t>(options.pictureMegabytes * 1e6) : 0);
     for (const std::string& problem : data.problems) std::cerr << "note: " << files::printable(problem) << "\n";
     if (data.runs.empty())
         throw InputError(
             fmt::format("'{}': holds no run that can be read, expected a folder that `suite`, `run`, "
                         "`compare` or `reproduce` wrote",
-                        options.folder));
+                        folder));
     if (options.text) {
         printTables(data);
     } else if (!options.chart.empty()) {
         const std::string format = options.format.empty() ? "svg" : options.format;
-        std::cout << bench::writeChart(options.folder, data, options.chart, format).string() << "\n";
+        std::cout << bench::writeChart(folder, data, options.chart, format).string() << "\n";
     } else {
-        std::cout << bench::writePage(options.folder, data).string() << "\n";
+        std::cout << bench::writePage(folder, data).string() << "\n";
     }
     return exitOk;
 }
@@ -62,13 +108,25 @@ int report(const ReportOptions& options) {
 
 Command reportCommand() {
     auto options = std::make_shared<ReportOptions>();
-    return {"report", "Write the report of a result folder: charts, pictures, claims, machine",
+    return {"report", "Write the report of a result folder, or of several machines' side by side",
             "The report is DIR/index.html, one file; a chart is DIR/charts/ID.svg. Without a run in DIR nothing is "
-            "written.",
+            "written.\n"
+            "Several folders: one page of ratios within each machine, hardware, claims, and what cannot be compared.\n"
+            "Exit code 6: no cell is the same on two machines; nothing is written.",
             [options](Arguments& arguments) {
-                arguments.required("dir", "DIR", "a folder that `suite`, `run`, `compare` or `reproduce` wrote",
-                                   options->folder);
+                arguments.requiredTexts("dir", "DIR",
+                                        "a folder that `suite`, `run`, `compare` or `reproduce` wrote; or several, "
+                                        "one for each machine",
+                                        options->folders);
                 arguments.flag("--text", "print the tables instead of writing the report", options->text);
+                arguments.text("--out", "FILE|DIR",
+                               "of several folders' page: a file that ends in .html, or a folder for index.html; "
+                               "default: out/machines",
+                               options->out);
+                arguments.texts("--label", "NAME",
+                                "of several folders: a name for each, in their order; default: the "
+                                "folders' names",
+                                options->labels);
                 arguments.text("--chart", "ID",
                                "one chart alone: a suite's id or its end (fig7), -stages or -quality "
                                "behind it, or frames",
@@ -76,6 +134,7 @@ Command reportCommand() {
                 arguments.text("--format", "svg|png|pdf", "of the chart; default: svg", options->format);
                 arguments.number("--pictures", "megabytes of pictures in the report; further ones are linked",
                                  options->pictureMegabytes, 0, 1000);
+                arguments.givenOptions(options->given);
             },
             [options] { return report(*options); }};
 }

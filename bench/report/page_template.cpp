@@ -41,8 +41,8 @@ std::string filled(std::string_view text, const std::map<std::string, std::strin
     }
 }
 
-void requireOwnPage(const std::filesystem::path& folder) {
-    const std::filesystem::path file = folder / "index.html";
+void requireOwnPage(const std::filesystem::path& folder, std::string_view name) {
+    const std::filesystem::path file = folder / name;
     std::error_code none;
     if (!std::filesystem::exists(std::filesystem::symlink_status(file, none))) return;
     const std::string there =

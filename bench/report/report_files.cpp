@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
+#include <initializer_list>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/shipped_folder.h"
@@ -44,6 +44,12 @@ fs::path reportsFolder() {
     return files::shippedFolder("reports", "share/dustbench/reports");
 }
 
+std::string joined(std::initializer_list<std::string_view> names) {
+    std::string script;
+    for (const std::string_view name : names) script += reportFile(name);
+    return script;
+}
+
 }  // namespace
 
 std::string fileText(const fs::path& file) {
@@ -65,10 +71,11 @@ std::string vegaLicence() {
                             : "Vega: copyright 2015-2021 UW Interactive Data Lab, BSD-3-Clause licence.";
 }
 
-std::string chartSpecifications() {
+std::string chartSpecifications(const std::vector<std::string>& folders) {
     std::vector<fs::path> specifications;
-    for (const auto& entry : fs::directory_iterator(reportsFolder() / "report" / "charts"))
-        if (entry.path().extension() == ".json") specifications.push_back(entry.path());
+    for (const std::string& folder : folders)
+        for (const auto& entry : fs::directory_iterator(reportsFolder() / "report" / folder))
+            if (entry.path().extension() == ".json") specifications.push_back(entry.path());
     std::ranges::sort(specifications);
     std::string all;
     for (const fs::path& file : specifications)
@@ -77,19 +84,18 @@ std::string chartSpecifications() {
 }
 
 std::string chartScript() {
-    std::string script;
-    for (const std::string_view name : {"chart_style.js", "chart_data.js", "chart_parts.js", "cost_chart.js",
-                                        "stage_chart.js", "quality_chart.js", "charts.js", "words.js"})
-        script += reportFile(name);
-    return script;
+    return joined({"chart_style.js", "chart_data.js", "chart_parts.js", "cost_chart.js", "stage_chart.js",
+                   "quality_chart.js", "charts.js", "words.js"});
 }
 
 std::string pageScript() {
-    std::string script;
-    for (const std::string_view name : {"elements.js", "markdown.js", "pictures.js", "claims.js", "overview.js",
-                                        "page_state.js", "chart_card.js", "head.js", "page.js"})
-        script += reportFile(name);
-    return script;
+    return joined({"elements.js", "markdown.js", "pictures.js", "claims.js", "overview.js", "page_state.js",
+                   "chart_card.js", "head.js", "page.js"});
+}
+
+std::string machinesScript() {
+    return joined({"chart_style.js", "chart_data.js", "chart_parts.js", "words.js", "machines/machine_charts.js",
+                   "elements.js", "page_state.js", "chart_card.js", "machines/tables.js", "machines/page.js"});
 }
 
 std::string vegaScript() {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dustbench::bench {
 
@@ -19,14 +20,17 @@ namespace dustbench::bench {
 /// The licence under which Vega may be redistributed with a page, from the package.
 [[nodiscard]] std::string vegaLicence();
 
-/// `{"cost": {…}, …}`: every specification of `reports/report/charts`, by its name without extension.
-[[nodiscard]] std::string chartSpecifications();
+/// `{"cost": {…}, …}`: every specification of these folders of `reports/report`, by its name without extension.
+[[nodiscard]] std::string chartSpecifications(const std::vector<std::string>& folders = {"charts"});
 
 /// Converts the data to chart specifications; for browsers and for node.
 [[nodiscard]] std::string chartScript();
 
 /// Builds the page; runs after chartScript().
 [[nodiscard]] std::string pageScript();
+
+/// Draws the charts and builds the page of several machines.
+[[nodiscard]] std::string machinesScript();
 
 /// Vega as one script, which defines `vega`; for browsers and for node. Throws InputError if the package libjs-vega is
 /// not installed.

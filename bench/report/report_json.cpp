@@ -7,22 +7,16 @@
 
 #include "bench/measure/image/heat_map.h"
 #include "bench/measure/provenance.h"
+#include "bench/report/json_parts.h"
 #include "bench/report/run_groups.h"
 #include "bench/results/method_facts.h"
 #include "bench/suite/catalogue.h"
-#include "methods/kit/files/csv.h"
 #include "methods/kit/maths/srgb.h"
 
 namespace dustbench::bench {
 namespace {
 
 using nlohmann::json;
-
-/// Six digits are more than any chart shows, and keep the page small; null if not finite.
-json number(double value) {
-    const std::optional<double> rounded = files::numberOf(fmt::format("{:.6g}", value));
-    return rounded ? json(*rounded) : json(nullptr);
-}
 
 using RunIndex = std::map<std::string, std::size_t, std::less<>>;
 
@@ -36,13 +30,6 @@ json indices(const RunIndex& index, const std::vector<std::string>& ids) {
 json axisJson(const ReportAxis& axis) {
     return {{"name", axis.name},   {"unit", axis.unit},       {"help", axis.help},
             {"world", axis.world}, {"numeric", axis.numeric}, {"values", axis.values}};
-}
-
-template <typename List, typename ToJson>
-json each(const List& list, const ToJson& toJson) {
-    json result = json::array();
-    for (const auto& item : list) result.push_back(toJson(item));
-    return result;
 }
 
 json cellJson(const RunGroup& group, const ReportCell& cell, const RunIndex& index) {
@@ -123,52 +110,6 @@ json groupJson(const RunGroup& group, const RunIndex& index) {
             {"comparisons", each(group.comparisons, comparisonJson)}};
 }
 
-json claimCellJson(const ClaimCell& cell) {
-    return {{"text", textOf(cell.cell)}, {"measured", number(cell.measured)},
-            {"low", number(cell.low)},   {"high", number(cell.high)},
-            {"turns", cell.turns},       {"verdict", verdictName(cell.verdict)}};
-}
-
-/// The rule in parts, from which the page makes sentences with names and units.
-json ruleJson(const Rule& rule) {
-    return {{"quantity", quantityWords.wordOf(rule.quantity)},
-            {"experiment", rule.experiment},
-            {"column", rule.column},
-            {"per", rule.per},
-            {"parts", rule.parts},
-            {"match", rule.match},
-            {"of", textOf(rule.of)},
-            {"with", textOf(rule.with)},
-            {"against", nameOf(rule.against)}};
-}
-
-json claimJson(const JudgedClaim& judged, const RunIndex& index) {
-    const auto& [paper, claim, result] = judged;
-    const Rule& rule = claim.rule;
-    return {{"id", claim.id},
-            {"paper", paper},
-            {"text", claim.text},
-            {"suite", rule.suite},
-            {"rule", ruleJson(rule)},
-            {"over", rule.over == Chance::seeds  ? "seeds"
-                     : rule.over == Chance::none ? ""
-                                                 : "repetitions"},
-            {"verdict", verdictName(result.verdict)},
-            {"control", controlName(result.control)},
-            {"controls", result.controlNote},
-            {"measured", number(result.measured)},
-            {"low", number(result.low)},
-            {"high", number(result.high)},
-            {"min", rule.minimum ? number(*rule.minimum) : json()},
-            {"max", rule.maximum ? number(*rule.maximum) : json()},
-            {"expected", rule.expected()},
-            {"reason", claim.reason},
-            {"condition", result.condition},
-            {"cells", each(result.cells, claimCellJson)},
-            {"note", result.note},
-            {"runs", indices(index, result.runs)}};
-}
-
 json frameTimesJson(const FrameTimes& times, const RunIndex& index) {
     json trace = json::array();
     for (const auto& [frame, ms] : times.trace) trace.push_back({frame, number(ms)});
@@ -241,7 +182,11 @@ std::string reportJson(const ReportData& data) {
             {"venue", paper.venue}, {"summary", paper.summary}, {"controls", paper.controls}};
     });
     root["experiments"] = each(data.groups, [&](const RunGroup& item) { return groupJson(item, index); });
-    root["claims"] = each(data.claims, [&](const JudgedClaim& item) { return claimJson(item, index); });
+    root["claims"] = each(data.claims, [&](const JudgedClaim& item) {
+        json claim = claimJson(item);
+        claim["runs"] = indices(index, item.result.runs);
+        return claim;
+    });
     root["frames"] = each(data.frameTimes, [&](const FrameTimes& item) { return frameTimesJson(item, index); });
     root["pictures"] = each(data.pictureSets, pictureSetJson);
     root["notDone"] = each(data.notDone, [](const NotDone& item) {
@@ -250,17 +195,7 @@ std::string reportJson(const ReportData& data) {
     root["warnings"] = each(data.warnings, [&](const RunWarnings& item) {
         return json{{"warning", item.warning}, {"runs", indices(index, item.runs)}};
     });
-
-    const std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace);
-    std::string safe;
-    safe.reserve(text.size());
-    for (const char letter : text) {
-        if (letter == '<')
-            safe += "\\u003c";  // occurs only within JSON strings
-        else
-            safe += letter;
-    }
-    return safe;
+    return scriptSafe(root);
 }
 
 }  // namespace dustbench::bench

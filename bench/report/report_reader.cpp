@@ -60,8 +60,7 @@ MachineOfRun findMachines(ReportData& data) {
     MachineOfRun machineOf;
     std::vector<std::vector<std::string>> keys;
     for (const auto& [id, run] : data.runs) {
-        std::vector<std::string> key;
-        for (const std::string_view field : machineFields()) key.push_back(provenanceOf(run, field));
+        const std::vector<std::string> key = valuesOf(run, machineFields());
         auto found = std::ranges::find(keys, key);
         if (found == keys.end()) {
             found = keys.insert(keys.end(), key);

@@ -1,6 +1,7 @@
 #include "bench/results/measured_on.h"
 
 #include <array>
+#include <map>
 
 namespace dustbench::bench {
 namespace {
@@ -20,16 +21,33 @@ std::span<const std::string_view> circumstanceFields() {
     return circumstances;
 }
 
+std::vector<std::string> valuesOf(const StoredRun& run, std::span<const std::string_view> fields) {
+    std::vector<std::string> values;
+    values.reserve(fields.size());
+    for (const std::string_view field : fields) {
+        const auto found = run.provenance.find(field);
+        values.push_back(found == run.provenance.end() ? std::string() : found->second);
+    }
+    return values;
+}
+
+std::string differingInput(const StoredRun& first, const StoredRun& second) {
+    std::map<std::string, std::string> hashes;
+    for (const InputHash& input : first.inputs) hashes[input.file] = input.sha256;
+    for (const InputHash& input : second.inputs) {
+        const auto found = hashes.find(input.file);
+        if (found == hashes.end() || found->second != input.sha256) return input.file;
+        hashes.erase(found);
+    }
+    return hashes.empty() ? std::string() : hashes.begin()->first;
+}
+
 std::vector<FieldDifference> differences(const StoredRun& first, const StoredRun& second,
                                          std::span<const std::string_view> fields) {
-    const auto textOf = [](const StoredRun& run, std::string_view field) {
-        const auto found = run.provenance.find(field);
-        return found == run.provenance.end() ? std::string() : found->second;
-    };
+    const std::vector<std::string> a = valuesOf(first, fields), b = valuesOf(second, fields);
     std::vector<FieldDifference> list;
-    for (const std::string_view field : fields)
-        if (std::string a = textOf(first, field), b = textOf(second, field); a != b)
-            list.push_back({std::string(field), std::move(a), std::move(b)});
+    for (std::size_t i = 0; i < fields.size(); ++i)
+        if (a[i] != b[i]) list.push_back({std::string(fields[i]), a[i], b[i]});
     return list;
 }
 

@@ -15,6 +15,12 @@ namespace dustbench::bench {
 /// Fields that may differ on purpose but should be reported: `compiler`, `gl_version` …
 [[nodiscard]] std::span<const std::string_view> circumstanceFields();
 
+/// The run's values of these fields; empty where it has none.
+[[nodiscard]] std::vector<std::string> valuesOf(const StoredRun& run, std::span<const std::string_view> fields);
+
+/// The first input file that is not the same in both; empty if all are.
+[[nodiscard]] std::string differingInput(const StoredRun& first, const StoredRun& second);
+
 struct FieldDifference {
     std::string field, first, second;
 };

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <optional>
 #include <set>
 
-#include "bench/results/key_fields.h"
 #include "bench/results/measured_on.h"
 #include "bench/scene/world.h"
 #include "methods/contract/errors.h"
@@ -28,22 +26,6 @@ std::optional<double> frameMs(const StoredRun& run) {
     return ms;
 }
 
-/// What a run shares with the null method that it is paired with: of its key all but the method, the method's own
-/// parameters, and what is done outside of timed frames.
-/// Empty for a run without a readable key: it has no pair.
-std::optional<KeyFields> pairKey(const StoredRun& run) try {
-    static const std::set<std::string> leftOut{"method", "images",        "volumes", "formats",         "resolution",
-                                               "region", "vdb_precision", "metrics", "metric_reference"};
-    KeyFields fields = keyFields(run);
-    std::erase_if(fields, [](const auto& field) {
-        const auto& [name, value] = field;
-        return leftOut.contains(name) || (name.starts_with("p.") && !worldParameters().find(name.substr(2)));
-    });
-    return fields;
-} catch (const InputError&) {
-    return std::nullopt;
-}
-
 bool isBaseline(const StoredRun& run, const MethodInfo& info) {
     const auto method = run.cells.find("method");
     return method != run.cells.end() && method->second == baselineMethod &&
@@ -58,6 +40,19 @@ bool isBaseline(const StoredRun& run, const MethodInfo& info) {
 const MethodInfo* findBaseline() {
     const auto found = std::ranges::find(methods(), baselineMethod, &MethodInfo::id);
     return found == methods().end() ? nullptr : &*found;
+}
+
+std::optional<KeyFields> pairKey(const StoredRun& run) try {
+    static const std::set<std::string> leftOut{"method", "images",        "volumes", "formats",         "resolution",
+                                               "region", "vdb_precision", "metrics", "metric_reference"};
+    KeyFields fields = keyFields(run);
+    std::erase_if(fields, [](const auto& field) {
+        const auto& [name, value] = field;
+        return leftOut.contains(name) || (name.starts_with("p.") && !worldParameters().find(name.substr(2)));
+    });
+    return fields;
+} catch (const InputError&) {
+    return std::nullopt;
 }
 
 void addMethodTimes(StoredRuns& runs) {

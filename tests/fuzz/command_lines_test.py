@@ -38,6 +38,8 @@ BASES = [
     ["report", "res", "--pictures", "1"],
     ["report", "res", "--text"],
     ["report", "res", "--chart", "frames", "--format", "svg"],
+    ["report", "res", "other", "--out", "out/page.html"],
+    ["report", "./res", "./other", "--label", "a", "--label", "b", "--text"],
     ["diff", "a.png", "b.png", "--json"],
     ["diff", "a.png", "b.png", "--out", "d.png", "--pixels-per-degree", "67"],
     ["export", "--method", "billboard", "--frames", "0:2:1", "--format", "vti", "--resolution", "8", "-P", "particles=50",

@@ -15,6 +15,7 @@ import unittest
 import made_folder
 import page_case
 from report_charts_test import ReportCharts  # noqa: F401, found by unittest
+from report_machines_test import PageOfSeveralMachines, ReportOfSeveralMachines  # noqa: F401
 from report_names_test import ReportNames  # noqa: F401
 
 # Contrast of text against its background, by WCAG 2: each text element with its own colour and the nearest background.

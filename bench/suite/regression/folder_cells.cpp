@@ -27,6 +27,8 @@ bool valueLess(const std::string& a, const std::string& b) {
     return a < b;
 }
 
+}  // namespace
+
 bool identityLess(const CellIdentity& a, const CellIdentity& b) {
     return std::ranges::lexicographical_compare(a, b, [](const auto& x, const auto& y) {
         return x.first != y.first ? x.first < y.first : valueLess(x.second, y.second);
@@ -48,9 +50,7 @@ void add(CellRuns& runs, const StoredRun& run) {
     }
 }
 
-}  // namespace
-
-std::string FolderCell::valueOf(const std::string& name) const {
+std::string valueOf(const CellIdentity& identity, const std::string& name) {
     const auto found = std::ranges::find(identity, name, &CellIdentity::value_type::first);
     return found == identity.end() ? std::string() : found->second;
 }
@@ -78,14 +78,21 @@ std::vector<FolderCell> cellsOf(const ResultsSide& a, const ResultsSide& b) {
 }
 
 std::vector<std::string> tellingNames(const std::vector<FolderCell>& cells) {
+    std::vector<CellIdentity> identities;
+    identities.reserve(cells.size());
+    for (const FolderCell& cell : cells) identities.push_back(cell.identity);
+    return tellingNames(identities);
+}
+
+std::vector<std::string> tellingNames(const std::vector<CellIdentity>& cells) {
     std::vector<std::string> order;
     std::map<std::string, std::map<std::string, std::set<std::string>>> valuesByMethod;  // of each name
     std::map<std::string, std::size_t> cellsByMethod;
     std::map<std::string, std::map<std::string, std::size_t>> holders;
-    for (const FolderCell& cell : cells) {
-        const std::string method = cell.valueOf("method");
+    for (const CellIdentity& identity : cells) {
+        const std::string method = valueOf(identity, "method");
         ++cellsByMethod[method];
-        for (const auto& [name, value] : cell.identity) {
+        for (const auto& [name, value] : identity) {
             if (!valuesByMethod.contains(name)) order.push_back(name);
             valuesByMethod[name][method].insert(value);
             ++holders[name][method];
@@ -100,9 +107,13 @@ std::vector<std::string> tellingNames(const std::vector<FolderCell>& cells) {
 }
 
 std::string labelOf(const FolderCell& cell, const std::vector<std::string>& tellingNames) {
-    std::string label = cell.valueOf("method");
+    return labelOf(cell.identity, tellingNames);
+}
+
+std::string labelOf(const CellIdentity& identity, const std::vector<std::string>& tellingNames) {
+    std::string label = valueOf(identity, "method");
     for (const std::string& name : tellingNames)
-        if (const std::string value = cell.valueOf(name); !value.empty())
+        if (const std::string value = valueOf(identity, name); !value.empty())
             label += fmt::format(" {}={}", name.starts_with("p.") ? name.substr(2) : name, value);
     return label;
 }

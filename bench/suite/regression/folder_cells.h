@@ -25,25 +25,34 @@ struct CellRuns {
 /// The fields that distinguish a cell, in the order of the run's key: `method`, `scene`, `drive`, `p.particles`,
 /// `frames` …
 using CellIdentity = KeyFields;
+/// Empty if there is no such field.
+[[nodiscard]] std::string valueOf(const CellIdentity& identity, const std::string& name);
+/// Field by field; numbers numerically.
+[[nodiscard]] bool identityLess(const CellIdentity& a, const CellIdentity& b);
+
+/// Adds a run to those of its status.
+void add(CellRuns& runs, const StoredRun& run);
 
 struct FolderCell {
     CellIdentity identity;
     CellRuns a, b;
     /// Empty if the cell has no such field.
-    [[nodiscard]] std::string valueOf(const std::string& name) const;
+    [[nodiscard]] std::string valueOf(const std::string& name) const { return bench::valueOf(identity, name); }
 };
 
 /// The frames that get metrics are not part of a cell: metrics are computed after the timed frames, in the first
 /// repetition only. Throws InputError if a run does not contain its key.
 [[nodiscard]] CellIdentity identityOf(const StoredRun& run);
 
-/// Sorted by identity, numbers numerically.
+/// Sorted by identityLess.
 [[nodiscard]] std::vector<FolderCell> cellsOf(const ResultsSide& a, const ResultsSide& b);
 
 /// The fields needed besides the method to distinguish cells: those with several values within one method.
+[[nodiscard]] std::vector<std::string> tellingNames(const std::vector<CellIdentity>& cells);
 [[nodiscard]] std::vector<std::string> tellingNames(const std::vector<FolderCell>& cells);
 
 /// `billboard particles=500 sort=none`
+[[nodiscard]] std::string labelOf(const CellIdentity& identity, const std::vector<std::string>& tellingNames);
 [[nodiscard]] std::string labelOf(const FolderCell& cell, const std::vector<std::string>& tellingNames);
 
 }  // namespace dustbench::bench

@@ -53,18 +53,6 @@ std::vector<std::string> withCounts(const std::map<std::string, std::size_t>& ce
     return sentences;
 }
 
-/// The first file that differs between both; empty if all are equal.
-std::string differingInput(const StoredRun& first, const StoredRun& second) {
-    std::map<std::string, std::string> hashes;
-    for (const InputHash& input : first.inputs) hashes[input.file] = input.sha256;
-    for (const InputHash& input : second.inputs) {
-        const auto found = hashes.find(input.file);
-        if (found == hashes.end() || found->second != input.sha256) return input.file;
-        hashes.erase(found);
-    }
-    return hashes.empty() ? std::string() : hashes.begin()->first;
-}
-
 void addBuildsAndWarnings(const ResultsSide& side, char letter, std::vector<std::string>& list) {
     std::map<std::string, std::size_t> builds;
     std::size_t done = 0, warned = 0;

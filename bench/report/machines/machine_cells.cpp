@@ -1,0 +1,69 @@
+#include "bench/report/machines/machine_cells.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/results/measured_on.h"
+#include "methods/contract/errors.h"
+
+namespace dustbench::bench {
+namespace {
+
+/// The first input that differs from those of the cell's first run, or `state_hash`; else empty.
+std::string otherWorkIn(const MachineCell& cell) {
+    const StoredRun* first = nullptr;
+    for (const CellRuns& runs : cell.sides)
+        for (const StoredRun* run : runs.done) {
+            if (!first) first = run;
+            if (std::string file = differingInput(*first, *run); !file.empty()) return file;
+            if (run->stateHash != first->stateHash) return "state_hash";
+        }
+    return {};
+}
+
+}  // namespace
+
+std::size_t MachineCell::sidesDone() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(sides, [](const CellRuns& runs) { return !runs.done.empty(); }));
+}
+
+bool MachineCells::haveSomethingInCommon() const {
+    return std::ranges::any_of(cells,
+                               [](const MachineCell& cell) { return cell.otherWork.empty() && cell.sidesDone() > 1; });
+}
+
+MachineCells cellsOf(const MachineSet& set) {
+    std::map<CellIdentity, MachineCell, decltype(&identityLess)> found(&identityLess);
+    MachineCells result;
+    for (std::size_t side = 0; side < set.sides.size(); ++side) {
+        std::size_t unplaced = 0;
+        for (const StoredRun* run : set.sides[side].runs) {
+            CellIdentity identity;
+            try {
+                identity = identityOf(*run);
+            } catch (const InputError&) {
+                ++unplaced;
+                continue;
+            }
+            MachineCell& cell = found[identity];
+            cell.identity = std::move(identity);
+            cell.sides.resize(set.sides.size());
+            add(cell.sides[side], *run);
+        }
+        if (unplaced > 0)
+            result.unplaced.push_back(fmt::format("{}: {} of {} runs do not say what was measured (provenance.key)",
+                                                  set.sides[side].label, unplaced, set.sides[side].runs.size()));
+    }
+    std::vector<CellIdentity> identities;
+    for (auto& [identity, cell] : found) {
+        cell.otherWork = otherWorkIn(cell);
+        identities.push_back(identity);
+        result.cells.push_back(std::move(cell));
+    }
+    result.names = tellingNames(identities);
+    return result;
+}
+
+}  // namespace dustbench::bench

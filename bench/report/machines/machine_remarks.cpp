@@ -1,0 +1,245 @@
+#include "bench/report/machines/machine_remarks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "bench/report/machines/hardware_table.h"
+#include "bench/results/measured_on.h"
+
+namespace dustbench::bench {
+namespace {
+
+using Names = std::vector<std::string>;
+/// Values of one field by machine; none for a machine without it.
+using SideValues = std::vector<std::set<std::string>>;
+
+constexpr std::size_t namedValues = 6;
+
+/// `a, b and c`
+std::string listOf(const Names& names) {
+    if (names.size() < 2) return fmt::format("{}", fmt::join(names, ""));
+    return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+}
+
+std::string valuesText(const std::set<std::string>& values) {
+    Names named;
+    for (const std::string& value : values) {
+        if (named.size() == namedValues) return fmt::format("{} … ({} values)", fmt::join(named, ", "), values.size());
+        named.push_back(value.empty() ? "none" : value);
+    }
+    return fmt::format("{}", fmt::join(named, ", "));
+}
+
+std::string withoutPrefix(const std::string& name) {
+    return name.starts_with("p.") ? name.substr(2) : name;
+}
+
+bool haveCommon(const std::set<std::string>& a, const std::set<std::string>& b) {
+    return std::ranges::any_of(a, [&b](const std::string& value) { return b.contains(value); });
+}
+
+class Remarks {
+ public:
+    Remarks(const MachineSet& set, const MachineCells& cells) : set_(set), cells_(cells) {}
+
+    MachineRemarks make() {
+        sayMethods();
+        saySettings();
+        saySuites();
+        sayOtherWork();
+        sayPrograms();
+        sayKinds();
+        for (std::size_t folder = 0; folder < set_.folders.size(); ++folder)
+            for (const std::string& problem : set_.folders[folder].problems)
+                result_.notes.push_back(fmt::format("{}: {}", set_.labels[folder], problem));
+        for (const std::string& sentence : cells_.unplaced) result_.notes.push_back(sentence);
+        listMissing();
+        return std::move(result_);
+    }
+
+ private:
+    [[nodiscard]] std::size_t sides() const { return set_.sides.size(); }
+
+    /// `320x240 on A and C; 640x480 on B`: machines with equal texts together.
+    [[nodiscard]] std::string bySide(const std::vector<std::string>& texts) const {
+        std::map<std::string, Names> labels;
+        for (std::size_t side = 0; side < sides(); ++side)
+            if (!texts[side].empty()) labels[texts[side]].push_back(set_.sides[side].label);
+        Names parts;
+        for (auto& [text, names] : labels) {
+            std::ranges::sort(names);
+            parts.push_back(fmt::format("{} on {}", text, listOf(names)));
+        }
+        return fmt::format("{}", fmt::join(parts, "; "));
+    }
+
+    [[nodiscard]] Names labelsOf(const std::vector<std::size_t>& chosen) const {
+        Names labels;
+        for (const std::size_t side : chosen) labels.push_back(set_.sides[side].label);
+        std::ranges::sort(labels);
+        return labels;
+    }
+
+    /// The sentence `THING: only on A`, and that its cells need no other.
+    void sayOnlyOn(const std::string& thing, const std::set<std::size_t>& on) {
+        result_.apart.push_back(
+            fmt::format("{}: only on {}", thing, listOf(labelsOf(std::vector<std::size_t>(on.begin(), on.end())))));
+    }
+
+    void sayMethods() {
+        std::map<std::string, std::set<std::size_t>> machines;  // by method
+        for (const MachineCell& cell : cells_.cells)
+            for (std::size_t side = 0; side < sides(); ++side)
+                if (cell.sides[side].count() > 0) machines[valueOf(cell.identity, "method")].insert(side);
+        for (const auto& [method, on] : machines)
+            if (on.size() < sides()) sayOnlyOn(fmt::format("method {}", method), on);
+        methods_ = std::move(machines);
+    }
+
+    [[nodiscard]] SideValues valuesByside(const std::string& name) const {
+        SideValues values(sides());
+        for (const MachineCell& cell : cells_.cells) {
+            const bool has =
+                std::ranges::find(cell.identity, name, &CellIdentity::value_type::first) != cell.identity.end();
+            // A parameter belongs to some methods; everything else is there or is none.
+            if (!has && name.starts_with("p.")) continue;
+            for (std::size_t side = 0; side < sides(); ++side)
+                if (cell.isDoneOn(side)) values[side].insert(valueOf(cell.identity, name));
+        }
+        return values;
+    }
+
+    void saySettings() {
+        for (const std::string& name : cells_.names) {
+            SideValues values = valuesByside(name);
+            bool isApart = false;
+            for (const auto& a : values)
+                for (const auto& b : values) isApart = isApart || (!a.empty() && !b.empty() && !haveCommon(a, b));
+            if (!isApart) continue;
+            std::vector<std::string> texts;
+            for (const auto& some : values) texts.push_back(some.empty() ? std::string() : valuesText(some));
+            result_.apart.push_back(fmt::format("{}: {}", withoutPrefix(name), bySide(texts)));
+            settings_.emplace_back(name, std::move(values));
+        }
+    }
+
+    void saySuites() {
+        std::map<std::string, std::set<std::size_t>> machines;  // by experiment
+        for (std::size_t side = 0; side < sides(); ++side)
+            for (const RunGroup& group : set_.folders[set_.sides[side].folder].groups)
+                for (const ReportCell& cell : group.cells)
+                    for (const StoredRun* run : cell.done)
+                        if (!group.suite.empty() &&
+                            std::ranges::binary_search(set_.sides[side].runs, run->runId, {}, &StoredRun::runId)) {
+                            machines[group.id].insert(side);
+                            groupsOf_[run->runId].insert(group.id);
+                        }
+        for (const auto& [id, on] : machines)
+            if (on.size() < sides()) sayOnlyOn(fmt::format("suite {}", id), on);
+        suites_ = std::move(machines);
+    }
+
+    void sayOtherWork() {
+        std::map<std::string, std::size_t> counts;
+        for (const MachineCell& cell : cells_.cells)
+            if (!cell.otherWork.empty()) ++counts[cell.otherWork];
+        for (const auto& [what, count] : counts)
+            result_.apart.push_back(
+                fmt::format("{} is not the same everywhere: different work was measured in {} {}, "
+                            "whose times are left out",
+                            what, count, count == 1 ? "cell" : "cells"));
+    }
+
+    void sayPrograms() {
+        static const std::set<std::string> asked{"dustbench", "commit", "compiler", "flags", "build"};
+        for (const HardwareRow& row : hardwareTable(set_)) {
+            if (!asked.contains(row.name) || !row.differs()) continue;
+            std::vector<std::string> texts;
+            for (const std::string& value : row.values) texts.push_back(value.empty() ? "unknown" : value);
+            result_.programs.push_back(fmt::format("{}: {}", row.name, bySide(texts)));
+        }
+    }
+
+    void sayKinds() {
+        for (std::size_t a = 0; a < sides(); ++a)
+            for (std::size_t b = a + 1; b < sides(); ++b)
+                if (areAlike(set_.sides[a], set_.sides[b]))
+                    result_.notes.push_back(fmt::format(
+                        "{} are the same machine, or two that are alike: CPU, cores, memory and graphics are equal",
+                        listOf(labelsOf({a, b}))));
+        std::vector<std::string> kinds, threads;
+        for (const MachineSide& side : set_.sides) {
+            kinds.emplace_back(isSoftware(side) ? "a software renderer" : "a GPU");
+            std::set<std::string> counts;
+            for (const StoredRun* run : side.runs)
+                if (const auto found = run->cells.find("threads");
+                    run->status == RunStatus::done && found != run->cells.end() && !found->second.empty())
+                    counts.insert(found->second);
+            threads.push_back(counts.empty() ? "" : valuesText(counts));
+        }
+        if (std::ranges::any_of(kinds, [&](const std::string& kind) { return kind != kinds.front(); }))
+            result_.notes.push_back(
+                fmt::format("drawn by {}: what is drawn, and how, weighs differently in a frame", bySide(kinds)));
+        if (std::ranges::any_of(threads, [&](const std::string& count) { return count != threads.front(); }))
+            result_.notes.push_back(fmt::format("CPU threads of a run: {}", bySide(threads)));
+        for (std::size_t side = 0; side < sides(); ++side) {
+            const bool isShared = std::ranges::any_of(
+                cells_.cells, [side](const MachineCell& cell) { return cell.isDoneOn(side) && cell.sidesDone() > 1; });
+            if (!isShared)
+                result_.notes.push_back(
+                    fmt::format("{}: none of its cells is done on another machine", set_.sides[side].label));
+        }
+    }
+
+    /// True if a sentence says already why a machine lacks the cell.
+    [[nodiscard]] bool isExplained(const MachineCell& cell, std::size_t side) const {
+        if (!methods_.at(valueOf(cell.identity, "method")).contains(side)) return true;
+        for (const auto& [name, values] : settings_)
+            if (!values[side].empty() && !values[side].contains(valueOf(cell.identity, name))) return true;
+        std::set<std::string> suites;
+        for (const CellRuns& runs : cell.sides)
+            for (const StoredRun* run : runs.done)
+                if (const auto found = groupsOf_.find(run->runId); found != groupsOf_.end())
+                    suites.insert(found->second.begin(), found->second.end());
+        return !suites.empty() &&
+               std::ranges::none_of(suites, [&](const std::string& suite) { return suites_.at(suite).contains(side); });
+    }
+
+    void listMissing() {
+        for (const MachineCell& cell : cells_.cells) {
+            MissingCell missing{cells_.labelOf(cell), {}, {}};
+            for (std::size_t side = 0; side < sides(); ++side) {
+                const CellRuns& runs = cell.sides[side];
+                if (!runs.done.empty())
+                    missing.on.push_back(side);
+                else if (!runs.failed.empty())
+                    missing.lacking.emplace_back(side, "failed: " + runs.failed.front()->reason);
+                else if (!runs.skipped.empty())
+                    missing.lacking.emplace_back(side, "skipped: " + runs.skipped.front()->reason);
+                else if (!isExplained(cell, side))
+                    missing.lacking.emplace_back(side, "not measured");
+            }
+            if (!missing.on.empty() && !missing.lacking.empty()) result_.missing.push_back(std::move(missing));
+        }
+    }
+
+    const MachineSet& set_;
+    const MachineCells& cells_;
+    MachineRemarks result_;
+    std::map<std::string, std::set<std::size_t>> methods_, suites_;  ///< the machines that have any of it
+    std::map<std::string, std::set<std::string>> groupsOf_;          ///< by run id
+    std::vector<std::pair<std::string, SideValues>> settings_;       ///< those that keep machines apart
+};
+
+}  // namespace
+
+MachineRemarks remarksOn(const MachineSet& set, const MachineCells& cells) {
+    return Remarks(set, cells).make();
+}
+
+}  // namespace dustbench::bench
