@@ -294,3 +294,19 @@ class PageOfSeveralMachines(MachinesCase):
                 self.browser.prefer(scheme)
                 self.browser.open(self.page)
                 self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+
+    def test_a_long_name_needs_no_sideways_scrolling(self):
+        page = os.path.join(self.place, "long.html")
+        called = report(os.path.join(self.place, "lab"), os.path.join(self.place, "attic"), "--label", "x" * 60, "--label", "y" * 60, "--out", page)
+        self.assertEqual(called.returncode, 0, called.stderr)
+        self.browser.resize(420, 1000, mobile=True)
+        self.browser.open(page)
+        self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 420)
+
+    def test_dark_and_light_can_be_read(self):
+        for scheme in ("light", "dark"):
+            self.browser.prefer(scheme)
+            self.browser.wait_for(f"document.documentElement.dataset.theme === '{scheme}'")
+            self.browser.wait_for("document.querySelector('#chart-other-times svg') !== null", 5)
+            worst = self.browser.evaluate(page_case.CONTRAST)
+            self.assertGreaterEqual(worst[0][0], 4.5, f"{scheme}: {worst}")

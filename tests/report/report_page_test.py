@@ -18,29 +18,6 @@ from report_charts_test import ReportCharts  # noqa: F401, found by unittest
 from report_machines_test import PageOfSeveralMachines, ReportOfSeveralMachines  # noqa: F401
 from report_names_test import ReportNames  # noqa: F401
 
-# Contrast of text against its background, by WCAG 2: each text element with its own colour and the nearest background.
-CONTRAST = """(() => {
-    const parts = text => (text.match(/[\\d.]+/g) || []).map(Number);
-    const light = ([r, g, b]) => [r, g, b].map(v => v / 255).map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
-        .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
-    const background = element => {
-        for (let at = element; at; at = at.parentElement) {
-            const colour = parts(getComputedStyle(at).backgroundColor);
-            if (colour.length === 3 || colour[3] > 0.5) return colour;
-        }
-        return [255, 255, 255];
-    };
-    const found = [];
-    for (const element of document.querySelectorAll('h1, h2, h3, p, td, th, dt, dd, li, a, button, select, .verdict, .claim-range text, .chart text, summary')) {
-        if (!element.textContent.trim() || !element.getClientRects().length) continue;
-        const style = getComputedStyle(element);
-        const svg = element.tagName === 'text';
-        const [a, b] = [light(parts(svg ? style.fill : style.color)), light(background(element))].sort((x, y) => y - x);
-        found.push([(a + 0.05) / (b + 0.05), element.textContent.trim().slice(0, 40)]);
-    }
-    return found.sort((x, y) => x[0] - y[0]).slice(0, 3);
-})()"""
-
 
 class ReportPage(page_case.PageCase):
     def test_opens_quickly_without_a_word_in_the_console(self):
@@ -178,7 +155,7 @@ class ReportPage(page_case.PageCase):
             self.browser.prefer(scheme)
             self.browser.wait_for(f"document.documentElement.dataset.theme === '{scheme}'")
             self.settled()
-            worst = self.browser.evaluate(CONTRAST)
+            worst = self.browser.evaluate(page_case.CONTRAST)
             self.assertGreaterEqual(worst[0][0], 4.5, f"{scheme}: {worst}")
         self.browser.evaluate("document.getElementById('theme').click()")
         self.assertEqual(self.browser.evaluate("document.documentElement.dataset.theme"), "light")

@@ -56,9 +56,10 @@ TEST(MachineRatios, AreThoseOfPairedRunsWithinOneMachine) {
 }
 
 TEST(MachineRatios, DoNotDependOnTheOrderOfTheMachines) {
-    const std::vector<LabelledRuns> machines{{"a", storedRuns(session(1, 0.5), "A")},
-                                             {"b", storedRuns(session(3, 0.7, {200}), "B")},
-                                             {"c", storedRuns(session(9, 1.5, {200, 1000, 5000}), "C")}};
+    std::vector<LabelledRuns> machines{{"a", storedRuns(session(1, 0.5), "A")},
+                                       {"b", storedRuns(session(3, 0.7, {200}), "B")},
+                                       {"c", storedRuns(session(9, 1.5, {200, 1000, 5000}), "C")}};
+    for (auto& [id, run] : machines[2].second) run.provenance["git_commit"] = "fedcba9876543210";
     const auto resultsOf = [&](const std::vector<std::size_t>& order) {
         std::vector<LabelledRuns> ordered;
         for (const std::size_t index : order) ordered.push_back(machines[index]);
@@ -107,13 +108,17 @@ TEST(MachineRatios, OfSeveralSeedsAreOverThoseThatAllMachinesHave) {
         first.merge(storedRuns(session(1, seed == 3 ? 9 : seed == 1 ? 0.4 : 0.6, {200}, scatter, seed), "A"));
         if (seed < 3) second.merge(storedRuns(session(1, 0.5, {200}, scatter, seed), "B"));
     }
-    const auto comparison = compared({{"a", first}, {"b", second}});
-    const std::vector<SideRatio>& sides = ratioOfHaze(comparison).worlds.at(0).sides;
-    // Six repetitions of a seed are one turn.
-    EXPECT_EQ(sides[0].result.pairs, 2u);
-    EXPECT_NEAR(inverted(sides[0].result).ratio, std::sqrt(0.4 * 0.6), 1e-9);
-    EXPECT_NEAR(inverted(sides[1].result).ratio, 0.5, 1e-9);
-    EXPECT_EQ(sides[0].reason, "2 paired seeds, 6 are needed");
+    for (const bool isTurned : {false, true}) {
+        const LabelledRuns a{"a", first}, b{"b", second};
+        const auto comparison = isTurned ? compared({b, a}) : compared({a, b});
+        const std::vector<SideRatio>& sides = ratioOfHaze(comparison).worlds.at(0).sides;
+        const SideRatio &ofFirst = sides[isTurned ? 1 : 0], &ofSecond = sides[isTurned ? 0 : 1];
+        // Six repetitions of a seed are one turn.
+        EXPECT_EQ(ofFirst.result.pairs, 2u);
+        EXPECT_NEAR(inverted(ofFirst.result).ratio, std::sqrt(0.4 * 0.6), 1e-9);
+        EXPECT_NEAR(inverted(ofSecond.result).ratio, 0.5, 1e-9);
+        EXPECT_EQ(ofFirst.reason, "2 paired seeds, 6 are needed");
+    }
 }
 
 TEST(MachineRatios, AreNotFormedAcrossTheMachinesOfOneFolder) {
