@@ -29,8 +29,11 @@ void main() {
     for (int axis = 0; axis < 3; ++axis) {
         ivec3 before = c;
         before[axis] -= 1;
-        int own = bodyAt(c), other = bodyAt(before), body = own != 0 ? own : other;
-        if (body != 0) record[axis] = speedOf(body, c, axis);
+        int own = bodyAt(c), other = bodyAt(before);
+        if (own != 0)
+            record[axis] = speedOf(own, c, axis);
+        else if (other != 0)
+            record[axis] = speedOf(other, before, axis);
     }
     if (bodyAt(c) != 0) {
         record.w = 0.0;
