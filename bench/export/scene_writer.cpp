@@ -151,8 +151,8 @@ Box groundAround(const std::optional<Box>& cloud, const scene::Scene& scene, con
     Box box{state.vehicle.position, state.vehicle.position};
     if (cloud) box.include(*cloud);
     for (std::size_t i = 0; scene.terrain.isFlat() && i < scene.solids.size(); ++i)
-        for (const glm::vec3& position : scene.solids[i].mesh->positions) {
-            const glm::dvec3 place(scene.solidPoses[i].toWorld * glm::vec4(position, 1));
+        for (const glm::vec3& position : scene::solidMesh(scene, state, i).positions) {
+            const glm::dvec3 place(scene::solidPose(scene, state, i).toWorld * glm::vec4(position, 1));
             box.include({place, place});
         }
     return {box.minimum - groundMarginMetres, box.maximum + groundMarginMetres};
@@ -170,7 +170,8 @@ void writeScene(const scene::Scene& scene, const scene::SceneState& state, const
             addBlock(*blocks, names[i], placed(*scene.vehicle->wheel.mesh, poses.wheels[i].toWorld));
     }
     for (std::size_t i = 0; i < scene.solids.size(); ++i)
-        addBlock(*blocks, scene.solids[i].name, placed(*scene.solids[i].mesh, scene.solidPoses[i].toWorld));
+        addBlock(*blocks, scene.solids[i].name,
+                 placed(scene::solidMesh(scene, state, i), scene::solidPose(scene, state, i).toWorld));
     stampTime(*blocks, timeSeconds);
 
     // VTK puts the pieces into a folder with the file's name beside the file.

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "bench/scene/car_model.h"
 #include "bench/scene/height_image.h"
 #include "bench/scene/panel_table.h"
+#include "bench/scene/scene_values.h"
+#include "bench/scene/solid_table.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_reader.h"
-#include "methods/kit/meshes/mesh_file.h"
 
 namespace dustbench::bench {
 namespace {
@@ -28,30 +28,8 @@ void readTable(TomlReader& parent, std::string_view key, const Read& read) {
     table.finish();
 }
 
-double angle(TomlReader& table, std::string_view key, double minimum, double maximum, double initial) {
-    return glm::radians(table.number(key, minimum, maximum, glm::degrees(initial)));
-}
-
-glm::dvec3 bounded(TomlReader& table, std::string_view key, glm::dvec3 initial, double minimum, double maximum,
-                   const char* expected) {
-    const glm::dvec3 value = table.vector3(key, initial);
-    for (int i = 0; i < 3; ++i)
-        if (value[i] < minimum || value[i] > maximum)
-            throw InputError(table.where(key) + "key '" + std::string(key) + "': expected " + expected);
-    return value;
-}
-
-glm::vec3 colour(TomlReader& table, std::string_view key, glm::vec3 initial, double maximum) {
-    return bounded(table, key, initial, 0, maximum,
-                   maximum == 1 ? "a linear RGB colour, each 0..1" : "a linear RGB colour, each 0..100");
-}
-
-glm::dvec3 point(TomlReader& table, std::string_view key, glm::dvec3 initial) {
-    return bounded(table, key, initial, -far, far, "three numbers -100000..100000, metres");
-}
-
 double fieldOfView(TomlReader& table, double initial) {
-    return angle(table, "field_of_view_degrees", 5, 150, initial);
+    return readAngle(table, "field_of_view_degrees", 5, 150, initial);
 }
 
 void readTerrain(TomlReader& table, const std::filesystem::path& folder, SceneFile& result) {
@@ -68,64 +46,17 @@ void readTerrain(TomlReader& table, const std::filesystem::path& folder, SceneFi
     }
 }
 
-/// Reads all copies of one `[[solid]]` table: several are merged into one mesh in world coordinates, a single one gets
-/// a pose.
-void readSolid(TomlReader& table, const std::filesystem::path& from, SceneFile& result) {
-    const std::string name = table.text("name");
-    const std::string named = table.text("mesh");
-    const glm::vec3 paint = colour(table, "colour", glm::vec3(0.5f), 1);
-    const glm::dvec3 position = point(table, "position", {});
-    const glm::dvec3 turn = glm::radians(table.vector3("rotation_degrees", {}));
-    const double scale = table.number("scale", 1e-4, 1e4, 1);
-    const bool onGround = table.boolean("on_ground", true);
-    const std::int64_t count = table.integer("repeat", 1, 1000, 1);
-    const glm::dvec3 step = point(table, "repeat_step", {});
-    const double stepTurn = angle(table, "repeat_turn_degrees", -360, 360, 0);
-    table.finish();
-
-    std::filesystem::path file;
-    std::shared_ptr<const scene::Mesh> mesh;
-    try {
-        file = files::fileNamedBy(from, "scenes", named);
-        mesh = std::make_shared<scene::Mesh>(meshes::readMesh(file, paint));
-    } catch (const InputError& error) {
-        throw InputError(table.where("mesh") + error.what());
-    }
-    result.files.push_back(file);
-    const auto pose = [&](std::int64_t copy) {
-        glm::dvec3 place = position + static_cast<double>(copy) * step;
-        if (onGround)
-            place.y += static_cast<double>(
-                result.scene.terrain.heightAt(static_cast<float>(place.x), static_cast<float>(place.z)));
-        glm::dmat4 matrix = glm::translate(glm::dmat4(1), place);
-        matrix = glm::rotate(matrix, turn.y + static_cast<double>(copy) * stepTurn, {0, 1, 0});
-        matrix = glm::rotate(matrix, turn.z, {0, 0, 1});
-        matrix = glm::rotate(matrix, turn.x, {1, 0, 0});
-        return glm::mat4(glm::scale(matrix, glm::dvec3(scale)));
-    };
-    scene::SolidPose where;
-    if (count == 1) {
-        where.toWorld = pose(0);
-    } else {
-        auto all = std::make_shared<scene::Mesh>();
-        for (std::int64_t copy = 0; copy < count; ++copy) all->append(*mesh, pose(copy));
-        mesh = all;
-    }
-    result.scene.solids.push_back({name, mesh});
-    result.scene.solidPoses.push_back(where);
-}
-
 void readLights(TomlReader& root, scene::Lights& lights) {
     readTable(root, "sun", [&](TomlReader& table) {
         const double elevation = table.number("elevation_degrees", 0, 90);
         const double azimuth = table.number("azimuth_degrees", -360, 360);
         lights.toSun = sunDirection(glm::radians(elevation), glm::radians(azimuth));
-        lights.sun = colour(table, "colour", lights.sun, 100);
+        lights.sun = readColour(table, "colour", lights.sun, 100);
     });
     readTable(root, "sky", [&](TomlReader& table) {
-        lights.ambient = colour(table, "ambient", lights.ambient, 100);
-        lights.skyZenith = colour(table, "zenith", lights.skyZenith, 100);
-        lights.skyHorizon = colour(table, "horizon", lights.skyHorizon, 100);
+        lights.ambient = readColour(table, "ambient", lights.ambient, 100);
+        lights.skyZenith = readColour(table, "zenith", lights.skyZenith, 100);
+        lights.skyHorizon = readColour(table, "horizon", lights.skyHorizon, 100);
         lights.hazePerMetre =
             static_cast<float>(table.number("haze_per_metre", 0, 1, static_cast<double>(lights.hazePerMetre)));
     });
@@ -140,8 +71,8 @@ void readVehicle(TomlReader& root, scene::Scene& result) {
         p.wheelRadiusMetres = table.number("wheel_radius_metres", 0.2, 0.6, p.wheelRadiusMetres);
         p.wheelWidthMetres = table.number("wheel_width_metres", 0.1, 0.5, p.wheelWidthMetres);
         p.massKilograms = table.number("mass_kilograms", 100, 50000, p.massKilograms);
-        p.steerLimit = angle(table, "steer_limit_degrees", 1, 45, p.steerLimit);
-        p.steerRateLimit = angle(table, "steer_rate_limit_degrees_per_second", 1, 720, p.steerRateLimit);
+        p.steerLimit = readAngle(table, "steer_limit_degrees", 1, 45, p.steerLimit);
+        p.steerRateLimit = readAngle(table, "steer_rate_limit_degrees_per_second", 1, 720, p.steerRateLimit);
         p.lateralAccelerationLimit = table.number("lateral_acceleration_limit", 0.1, 50, p.lateralAccelerationLimit);
         p.driveAccelerationLimit = table.number("drive_acceleration_limit", 0.1, 50, p.driveAccelerationLimit);
         p.drivePowerWatts = table.number("drive_power_watts", 1e3, 1e7, p.drivePowerWatts);
@@ -149,8 +80,8 @@ void readVehicle(TomlReader& root, scene::Scene& result) {
         p.dragAreaSquareMetres = table.number("drag_area_square_metres", 0, 20, p.dragAreaSquareMetres);
         p.rollingResistance = table.number("rolling_resistance", 0, 1, p.rollingResistance);
         p.topSpeed = table.number("top_speed", 1, 150, p.topSpeed);
-        colours.paint = colour(table, "paint", colours.paint, 1);
-        colours.stripe = colour(table, "stripe", colours.stripe, 1);
+        colours.paint = readColour(table, "paint", colours.paint, 1);
+        colours.stripe = readColour(table, "stripe", colours.stripe, 1);
     });
     result.vehicle = scene::VehicleModel{
         p,
@@ -163,15 +94,15 @@ void readCameras(TomlReader& root, CameraSet& cameras) {
     readTable(root, "camera", [&](TomlReader& kinds) {
         readTable(kinds, "chase", [&](TomlReader& table) {
             ChaseCamera& camera = cameras.chase;
-            camera.offset = point(table, "offset", camera.offset);
-            camera.lookAt = point(table, "look_at", camera.lookAt);
+            camera.offset = readPoint(table, "offset", camera.offset);
+            camera.lookAt = readPoint(table, "look_at", camera.lookAt);
             camera.smoothingSeconds = table.number("smoothing_seconds", 0, 60, camera.smoothingSeconds);
             camera.verticalFieldOfView = fieldOfView(table, camera.verticalFieldOfView);
         });
         readTable(kinds, "fixed", [&](TomlReader& table) {
             FixedCamera& camera = cameras.fixed;
-            camera.eye = point(table, "eye", camera.eye);
-            camera.target = point(table, "target", camera.target);
+            camera.eye = readPoint(table, "eye", camera.eye);
+            camera.target = readPoint(table, "target", camera.target);
             camera.verticalFieldOfView = fieldOfView(table, camera.verticalFieldOfView);
             if (camera.eye == camera.target)
                 throw InputError(table.where("target") +
@@ -181,15 +112,15 @@ void readCameras(TomlReader& root, CameraSet& cameras) {
             OrbitCamera& camera = cameras.orbit;
             camera.radiusMetres = table.number("radius_metres", 0.5, 1e4, camera.radiusMetres);
             camera.heightMetres = table.number("height_metres", 0, 1e4, camera.heightMetres);
-            camera.turnRate = angle(table, "turn_degrees_per_second", -360, 360, camera.turnRate);
-            camera.startAngle = angle(table, "start_degrees", -360, 360, camera.startAngle);
-            camera.lookAt = point(table, "look_at", camera.lookAt);
+            camera.turnRate = readAngle(table, "turn_degrees_per_second", -360, 360, camera.turnRate);
+            camera.startAngle = readAngle(table, "start_degrees", -360, 360, camera.startAngle);
+            camera.lookAt = readPoint(table, "look_at", camera.lookAt);
             camera.verticalFieldOfView = fieldOfView(table, camera.verticalFieldOfView);
         });
         readTable(kinds, "wheel", [&](TomlReader& table) {
             WheelCamera& camera = cameras.wheel;
-            camera.offset = point(table, "offset", camera.offset);
-            camera.lookAt = point(table, "look_at", camera.lookAt);
+            camera.offset = readPoint(table, "offset", camera.offset);
+            camera.lookAt = readPoint(table, "look_at", camera.lookAt);
             camera.verticalFieldOfView = fieldOfView(table, camera.verticalFieldOfView);
         });
     });
@@ -214,16 +145,17 @@ SceneFile readScene(const std::filesystem::path& file) {
     readTable(root, "start", [&](TomlReader& table) {
         result.start.x = table.number("x", -far, far, 0);
         result.start.z = table.number("z", -far, far, 0);
-        result.start.heading = angle(table, "heading_degrees", -360, 360, 0);
+        result.start.heading = readAngle(table, "heading_degrees", -360, 360, 0);
     });
     readLights(root, result.scene.lights);
-    result.scene.wind = bounded(root, "wind", {}, -100, 100, "three numbers -100..100, metres per second");
-    result.scene.dustAlbedo = colour(root, "dust_albedo", result.scene.dustAlbedo, 1);
+    result.scene.wind = readBounded(root, "wind", {}, -100, 100, "three numbers -100..100, metres per second");
+    result.scene.dustAlbedo = readColour(root, "dust_albedo", result.scene.dustAlbedo, 1);
     result.scene.dustAsymmetry =
         static_cast<float>(root.number("dust_asymmetry", -0.95, 0.95, static_cast<double>(result.scene.dustAsymmetry)));
     readVehicle(root, result.scene);
     readCameras(root, result.cameras);
-    for (TomlReader& table : root.tables("solid")) readSolid(table, file, result);
+    for (TomlReader& table : root.tables("solid"))
+        readSolid(table, file, result.scene, result.movingSolids, result.files);
     for (TomlReader& table : root.tables("panel"))
         result.scene.panels.push_back(readPanel(table, file, result.scene, result.files));
     root.finish();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/scene/cameras.h"
+#include "bench/scene/moving_solids.h"
 #include "methods/contract/scene.h"
 
 namespace dustbench::bench {
@@ -22,6 +23,7 @@ struct Start {
 
 struct SceneFile {
     scene::Scene scene;
+    MovingSolids movingSolids;
     CameraSet cameras;
     Start start;
     std::string description;

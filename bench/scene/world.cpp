@@ -134,6 +134,11 @@ struct World::State {
 
     [[nodiscard]] const VehicleParameters& vehicle() const { return file.scene.vehicle->parameters; }
     [[nodiscard]] double time() const { return static_cast<double>(stepIndex) * stepSeconds; }
+    /// What the time alone says.
+    void placeInTime() {
+        now.timeSeconds = time();
+        now.solids = file.movingSolids.at(file.scene, now.timeSeconds);
+    }
 };
 
 World::World(const std::string& sceneId, const std::string& driveId, const ParameterValues& parameters,
@@ -171,7 +176,7 @@ void World::begin(SceneFile file, const std::string& drive, std::unique_ptr<Cont
     s.prerollSteps = std::llround((preroll < 0 ? s.dust.meanLifetimeSeconds() : preroll) / stepSeconds);
     s.stepIndex = -s.prerollSteps;
     s.now.vehicle = placeBefore(s.vehicle(), s.file.scene.terrain, s.file.start, *s.source, s.prerollSteps);
-    s.now.timeSeconds = s.time();
+    s.placeInTime();
     s.lag = CameraLag::at(s.now.vehicle);
 }
 
@@ -272,7 +277,7 @@ void World::simulate() {
     State& s = *state_;
     s.now.vehicle = bench::step(s.vehicle(), s.now.vehicle, s.controls, s.file.scene.terrain, stepSeconds);
     ++s.stepIndex;
-    s.now.timeSeconds = s.time();
+    s.placeInTime();
     s.lag = s.lag.followed(s.now.vehicle, s.file.cameras.chase.smoothingSeconds, stepSeconds);
     if (s.given)
         s.given->showAfter(s.stepIndex + s.prerollSteps);
@@ -290,6 +295,9 @@ MemoryReport World::memory() const {
     const scene::Scene& scene = state_->file.scene;
     std::size_t meshBytes = bytesOf(*scene.vehicle->body.mesh) + bytesOf(*scene.vehicle->wheel.mesh);
     for (const scene::Solid& solid : scene.solids) meshBytes += bytesOf(*solid.mesh);
+    for (const scene::SolidNow& solid : state_->now.solids)
+        if (solid.shape) meshBytes += bytesOf(solid.shape->mesh) + solid.shape->velocities.size() * sizeof(glm::vec3);
+    meshBytes += state_->file.movingSolids.bytes();
     MemoryReport report = state_->given ? state_->given->memory() : state_->dust.memory();
     if (scene.lights.onDust) report.push_back({"light of the dust", state_->litDust.bytes(), 0});
     report.push_back({"terrain", scene.terrain.heights().size() * sizeof(float), 0});

@@ -49,6 +49,36 @@ TEST(World, GivesAnotherStateForAnotherSeedSceneOrMoment) {
     EXPECT_NE(hashAfter("plain", 7, 61), expected);
 }
 
+TEST(World, SolidsGoByTheTimeAloneAndCountAmongItsState) {
+    const TestFolder folder;
+    const std::string head = "description = \"\"\n[[solid]]\nname = \"ball\"\nmesh = \"meshes/sphere.obj\"\n";
+    const std::string key = "[[solid.key]]\ntime_seconds = ";
+    const auto file =
+        folder.write("moving.toml", head + "keys_repeat = true\n" + key + "0\n" + key +
+                                        "0.5\nposition = [3, 1, 2]\nrotation_degrees = [0, 90, 0]\n" + key + "1\n");
+    World world(file.string(), "", with({{"preroll", "0.5"}}), 7);
+    const auto place = [&] { return glm::vec3(world.state().solids.at(0).pose.toWorld[3]); };
+    EXPECT_EQ(place(), glm::vec3(3, 1, 2)) << "at -0.5 s";
+    run(world, 45);  // to 0.25 s
+    EXPECT_LT(glm::distance(place(), glm::vec3(1.5f, 0.5f, 1)), 1e-5f);
+    const glm::vec3 before = place(), velocity = world.state().solids[0].pose.velocity;
+    world.step();
+    EXPECT_LT(glm::distance((place() - before) * 60.0f, velocity), 0.1f);
+    EXPECT_GT(glm::length(velocity), 5);
+    EXPECT_EQ(World("plain", "", with({}), 7).state().solids.size(), 0u);
+
+    for (const std::size_t threads : {1u, 3u}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        World again(file.string(), "", with({{"preroll", "0.5"}}), 7);
+        run(again, 46);
+        EXPECT_EQ(again.stateHash(), world.stateHash()) << threads;
+    }
+    const auto still = folder.write("moving.toml", head);
+    World other(still.string(), "", with({{"preroll", "0.5"}}), 7);
+    run(other, 46);
+    EXPECT_NE(other.stateHash(), world.stateHash());
+}
+
 TEST(World, ARecordingPlayedAgainEndsInTheSameState) {
     for (const char* drive : {"acceleration", "stop_and_go"}) {  // start at rest, as a pedal file does
         World world("plain", drive, with({{"preroll", "0"}}), 5);

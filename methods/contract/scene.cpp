@@ -1,8 +1,22 @@
 #include "methods/contract/scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dustbench::scene {
+
+bool anySolidMoves(const Scene& scene) {
+    return std::ranges::any_of(scene.solids, [](const Solid& solid) { return solid.motion != SolidMotion::still; });
+}
+
+const SolidPose& solidPose(const Scene& scene, const SceneState& state, std::size_t solid) {
+    return solid < state.solids.size() ? state.solids[solid].pose : scene.solidPoses[solid];
+}
+
+const Mesh& solidMesh(const Scene& scene, const SceneState& state, std::size_t solid) {
+    if (solid < state.solids.size() && state.solids[solid].shape) return state.solids[solid].shape->mesh;
+    return *scene.solids[solid].mesh;
+}
 
 glm::dmat4 panelToWorld(const Panel& panel, const SceneState& state) {
     return panel.parent == Panel::Parent::vehicle ? state.vehicle.toWorld() * panel.toParent : panel.toParent;

@@ -70,7 +70,7 @@ struct Scene {
     Lights lights;
     glm::vec3 wind{0};                  ///< m/s, world
     std::vector<Solid> solids;          ///< besides the vehicle
-    std::vector<SolidPose> solidPoses;  ///< of `solids`
+    std::vector<SolidPose> solidPoses;  ///< of `solids`; of those that move, when the drive begins
     std::vector<Panel> panels;
     std::optional<VehicleModel> vehicle;
     glm::vec3 dustAlbedo{0.64f, 0.54f, 0.42f};
@@ -80,7 +80,14 @@ struct Scene {
 struct SceneState {
     double timeSeconds = 0;
     VehicleState vehicle;
+    std::vector<SolidNow> solids{};  ///< in the order of Scene::solids; empty where all of them are still
 };
+
+/// Whether any of the scene's solids moves or deforms.
+[[nodiscard]] DUSTBENCH_API bool anySolidMoves(const Scene& scene);
+/// The solid of this number at this moment.
+[[nodiscard]] DUSTBENCH_API const SolidPose& solidPose(const Scene& scene, const SceneState& state, std::size_t solid);
+[[nodiscard]] DUSTBENCH_API const Mesh& solidMesh(const Scene& scene, const SceneState& state, std::size_t solid);
 
 /// From the panel's frame to the world at this moment.
 [[nodiscard]] DUSTBENCH_API glm::dmat4 panelToWorld(const Panel& panel, const SceneState& state);

@@ -1,4 +1,4 @@
-// A solid object in the scene: a triangle mesh and its current pose.
+// A solid object in the scene: a triangle mesh, its pose and its shape at one moment.
 //
 // Units: m, m/s, rad/s; colours: linear RGB. Frame: meshes in the object's frame, poses in the world.
 #pragma once
@@ -22,10 +22,18 @@ struct DUSTBENCH_API Mesh {
     void append(const Mesh& other, const glm::mat4& transform);
 };
 
+/// What of a solid changes with time.
+enum class SolidMotion {
+    still,    ///< nothing
+    moves,    ///< its pose
+    deforms,  ///< its shape, and perhaps its pose
+};
+
 /// The constant part of a solid: its name and its shape in its own frame.
 struct Solid {
     std::string name;
-    std::shared_ptr<const Mesh> mesh;
+    std::shared_ptr<const Mesh> mesh;  ///< of one that deforms: at rest
+    SolidMotion motion = SolidMotion::still;
 };
 
 /// Where a solid is and how it moves.
@@ -33,6 +41,18 @@ struct SolidPose {
     glm::mat4 toWorld{1};
     glm::vec3 velocity{0};         ///< of the object's origin
     glm::vec3 angularVelocity{0};  ///< about the object's origin
+};
+
+/// The shape of a solid that deforms, at one moment.
+struct DeformedMesh {
+    Mesh mesh;                          ///< as many vertices, and the same triangles, as Solid::mesh
+    std::vector<glm::vec3> velocities;  ///< of the positions, in the object's frame
+};
+
+/// A solid at one moment.
+struct SolidNow {
+    SolidPose pose;
+    std::shared_ptr<const DeformedMesh> shape{};  ///< of one that deforms; null: it is at rest
 };
 
 }  // namespace dustbench::scene

@@ -28,7 +28,7 @@ flow::FluidSource ballOf(const SourceSetup& setup, const glm::dvec3& centre, flo
 }  // namespace
 
 Emitters::Emitters(const std::vector<SourceSetup>& setups, const scene::Scene& scene, std::uint64_t seed)
-    : setups_(setups), seed_(seed) {
+    : setups_(setups), scene_(scene), seed_(seed) {
     for (const SourceSetup& setup : setups_) {
         if (setup.at == SourceAt::point) balls_.push_back({setup.centreMetres, &setup, 0});
         if (setup.at == SourceAt::solid) scatterOver(setup, scene);
@@ -63,10 +63,23 @@ void Emitters::scatterOver(const SourceSetup& setup, const scene::Scene& scene) 
         const auto chosen = std::ranges::upper_bound(areas, whole * static_cast<double>(random[0]));
         const std::size_t t = 3 * static_cast<std::size_t>(std::min(chosen, areas.end() - 1) - areas.begin());
         const double root = std::sqrt(static_cast<double>(random[1])), along = static_cast<double>(random[2]);
-        const glm::dvec3 place =
-            (1 - root) * corner(t) + root * (1 - along) * corner(t + 1) + root * along * corner(t + 2);
-        balls_.push_back({place, &setup, random[3]});
+        const glm::dvec3 weights(1 - root, root * (1 - along), root * along);
+        const glm::dvec3 place = weights.x * corner(t) + weights.y * corner(t + 1) + weights.z * corner(t + 2);
+        Ball& ball = balls_.emplace_back(Ball{place, &setup, random[3]});
+        if (scene.solids[which].motion != scene::SolidMotion::still) ball.place = Place{which, t, weights};
     }
+}
+
+glm::dvec3 Emitters::centreOf(const Ball& ball, const scene::SceneState& state) const {
+    if (!ball.place) return ball.centre;
+    const scene::Mesh& mesh = scene::solidMesh(scene_, state, ball.place->solid);
+    const glm::dmat4 toWorld(scene::solidPose(scene_, state, ball.place->solid).toWorld);
+    glm::dvec3 place(0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::vec3& corner = mesh.positions[mesh.indices[ball.place->first + k]];
+        place += ball.place->weights[static_cast<int>(k)] * glm::dvec3(toWorld * glm::dvec4(corner, 1));
+    }
+    return place;
 }
 
 std::span<const flow::FluidSource> Emitters::at(const scene::SceneState& state, std::int64_t step, double stepSeconds,
@@ -84,7 +97,7 @@ std::span<const flow::FluidSource> Emitters::at(const scene::SceneState& state, 
                 maths::uniform4(seed_, chanceStream, static_cast<std::uint64_t>(step), static_cast<std::uint32_t>(n));
             strength *= 1 + setup.chance * maths::centred(random[0]);
         }
-        sources_.push_back(ballOf(setup, ball.centre, strength));
+        sources_.push_back(ballOf(setup, centreOf(ball, state), strength));
     }
     for (const SourceSetup& setup : setups_)
         if (setup.at == SourceAt::wheels) addWheels(setup, state, stepSeconds, dustM2);

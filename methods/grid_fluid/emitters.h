@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace dustbench::grid_fluid {
 
 class Emitters {
  public:
-    /// Throws InputError if the scene lacks the object that a source is attached to.
+    /// `setups` and `scene` must outlive it. Throws InputError if the scene lacks the object that a source is attached
+    /// to.
     Emitters(const std::vector<SourceSetup>& setups, const scene::Scene& scene, std::uint64_t seed);
 
     /// The sources at this step; `dustM2` is the optical mass that all wheels together raise in `stepSeconds`.
@@ -24,16 +26,24 @@ class Emitters {
                                                         double stepSeconds, double dustM2);
 
  private:
-    /// A stationary ball.
+    /// A point of a solid's surface.
+    struct Place {
+        std::size_t solid;
+        std::size_t first;   ///< of the triangle's three indices
+        glm::dvec3 weights;  ///< of its corners
+    };
     struct Ball {
         glm::dvec3 centre;
         const SourceSetup* setup;
-        float phase;  ///< of its oscillation, in turns
+        float phase;                   ///< of its oscillation, in turns
+        std::optional<Place> place{};  ///< on a solid that moves, with which it goes
     };
+    [[nodiscard]] glm::dvec3 centreOf(const Ball& ball, const scene::SceneState& state) const;
     void scatterOver(const SourceSetup& setup, const scene::Scene& scene);
     void addWheels(const SourceSetup& setup, const scene::SceneState& state, double stepSeconds, double dustM2);
 
     const std::vector<SourceSetup>& setups_;
+    const scene::Scene& scene_;
     std::uint64_t seed_;
     std::vector<Ball> balls_;
     std::vector<flow::FluidSource> sources_;

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <string>
+
+#include "methods/contract/errors.h"
 
 namespace dustbench::grid_fluid {
 namespace {
@@ -13,21 +17,43 @@ glm::dmat4 worldToCells(const flow::FluidBox& box) {
 
 }  // namespace
 
-FluidSolids::FluidSolids(const scene::Scene& scene, glm::ivec3 cells, MemoryAccount& account)
-    : scene_(scene), cells_(cells, account) {}
+FluidSolids::FluidSolids(const scene::Scene& scene, glm::ivec3 cells, MemoryAccount& account, flow_gl::CellsOnRays* gpu)
+    : scene_(scene), cells_(cells, account, gpu) {
+    constexpr std::size_t maximum = std::numeric_limits<std::uint8_t>::max() - firstSolid + std::size_t{1};
+    const auto moving = static_cast<std::size_t>(std::ranges::count_if(
+        scene.solids, [](const scene::Solid& solid) { return solid.motion != scene::SolidMotion::still; }));
+    if (moving > maximum)
+        throw InputError("solids of scene '" + scene.id + "': got " + std::to_string(moving) +
+                         " that move, allowed in a fluid: " + std::to_string(maximum));
+    motions_.resize(firstSolid - still + moving);
+}
 
 flow::SolidMask FluidSolids::voxelise(const flow::FluidBox& box, const scene::SceneState& state) {
     cells_.clear();
     if (!scene_.terrain.isFlat() || box.originMetres.y < 0) addGround(box);
-    for (std::size_t n = 0; n < scene_.solids.size(); ++n)
-        cells_.add(*scene_.solids[n].mesh, worldToCells(box) * glm::dmat4(scene_.solidPoses[n].toWorld), still);
+    addSolids(box, state);
     if (scene_.vehicle) {
         const scene::VehiclePoses poses = scene::vehiclePoses(*scene_.vehicle, state.vehicle);
         addMoving(box, *scene_.vehicle->body.mesh, poses.body, carBody);
         for (std::size_t w = 0; w < poses.wheels.size(); ++w)
             addMoving(box, *scene_.vehicle->wheel.mesh, poses.wheels[w], firstWheel + w);
     }
-    return {cells_.bodies(), motions_};
+    cells_.finish();
+    return {cells_.bodies(), motions_, cells_.velocities()};
+}
+
+void FluidSolids::addSolids(const flow::FluidBox& box, const scene::SceneState& state) {
+    std::size_t body = firstSolid;
+    for (std::size_t n = 0; n < scene_.solids.size(); ++n) {
+        const scene::Mesh& mesh = scene::solidMesh(scene_, state, n);
+        const scene::SolidPose& pose = scene::solidPose(scene_, state, n);
+        if (scene_.solids[n].motion == scene::SolidMotion::still)
+            cells_.add(mesh, worldToCells(box) * glm::dmat4(pose.toWorld), still);
+        else if (n < state.solids.size() && state.solids[n].shape)
+            addMoving(box, mesh, pose, body++, state.solids[n].shape->velocities);
+        else
+            addMoving(box, mesh, pose, body++);
+    }
 }
 
 void FluidSolids::addGround(const flow::FluidBox& box) {
@@ -44,10 +70,17 @@ void FluidSolids::addGround(const flow::FluidBox& box) {
 }
 
 void FluidSolids::addMoving(const flow::FluidBox& box, const scene::Mesh& mesh, const scene::SolidPose& pose,
-                            std::size_t body) {
+                            std::size_t body, std::span<const glm::vec3> deforming) {
     const glm::dmat4 toCells = worldToCells(box) * glm::dmat4(pose.toWorld);
-    cells_.add(mesh, toCells, static_cast<std::uint8_t>(body));
+    // v = v₀ + ω×(p − p₀) + R·v′
+    vertexVelocities_.clear();
+    for (std::size_t v = 0; v < deforming.size(); ++v)
+        vertexVelocities_.push_back(pose.velocity +
+                                    glm::cross(pose.angularVelocity, glm::mat3(pose.toWorld) * mesh.positions[v]) +
+                                    glm::mat3(pose.toWorld) * deforming[v]);
+    cells_.add(mesh, toCells, static_cast<std::uint8_t>(body), vertexVelocities_);
     flow::BodyMotion& motion = motions_[body - 1];
+    motion.byCell = !deforming.empty() && !cells_.velocities().empty();
     motion.velocity = pose.velocity;
     motion.turnPerCell = pose.angularVelocity * static_cast<float>(box.spacingMetres);
     motion.centreCells = glm::vec3(toCells[3]);

@@ -1,9 +1,10 @@
 // The solids that the air flows around: the scene's solids, the vehicle with its wheels, and the ground.
 //
-// Units: SI. Frame: world. Owns: a byte for each cell. Threads: one at a time.
+// What moves as a rigid body has a motion; of a solid that deforms each cell has its own velocity.
+// Units: SI. Frame: world. Owns: a byte for each cell, and a velocity where a solid deforms. Threads: one at a time.
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "methods/contract/scene.h"
 #include "methods/grid_fluid/flow/fluid_box.h"
@@ -14,21 +15,26 @@ namespace dustbench::grid_fluid {
 
 class FluidSolids {
  public:
-    /// `scene` must outlive it.
-    FluidSolids(const scene::Scene& scene, glm::ivec3 cells, MemoryAccount& account);
+    /// `scene` must outlive it, as `gpu` must if given, which then finds the cells. Throws InputError if more of its
+    /// solids move than there are numbers for.
+    FluidSolids(const scene::Scene& scene, glm::ivec3 cells, MemoryAccount& account,
+                flow_gl::CellsOnRays* gpu = nullptr);
 
     /// Voxelises the solids at their current poses into the box at its current position. Valid until the next call.
     [[nodiscard]] flow::SolidMask voxelise(const flow::FluidBox& box, const scene::SceneState& state);
     [[nodiscard]] std::span<const std::uint8_t> bodies() const { return cells_.bodies(); }
 
  private:
-    enum Body : std::uint8_t { still = 1, carBody, firstWheel, last = firstWheel + 3 };
+    enum Body : std::uint8_t { still = 1, carBody, firstWheel, firstSolid = firstWheel + 4 };
     void addGround(const flow::FluidBox& box);
-    void addMoving(const flow::FluidBox& box, const scene::Mesh& mesh, const scene::SolidPose& pose, std::size_t body);
+    void addSolids(const flow::FluidBox& box, const scene::SceneState& state);
+    void addMoving(const flow::FluidBox& box, const scene::Mesh& mesh, const scene::SolidPose& pose, std::size_t body,
+                   std::span<const glm::vec3> deforming = {});
 
     const scene::Scene& scene_;
     MeshCells cells_;
-    std::array<flow::BodyMotion, last> motions_{};
+    std::vector<flow::BodyMotion> motions_;  ///< by Body, from `still` on
+    std::vector<glm::vec3> vertexVelocities_;
 };
 
 }  // namespace dustbench::grid_fluid

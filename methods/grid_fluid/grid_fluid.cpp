@@ -67,7 +67,8 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
         throw InputError("parameter scheme: got demo in scene '" + scene.id +
                          "', which has wind, allowed: ours; the demo has still air");
     solver_ = makeFlowSolver(solver, settings_.scheme, burns, onGpu, device, ledger_);
-    solids_.emplace(scene, solver.box.cells, ledger_.account("solids"));
+    if (onGpu) rays_.emplace(device, solver.box.cells);
+    solids_.emplace(scene, solver.box.cells, ledger_.account("solids"), rays_ ? &*rays_ : nullptr);
     emitters_.emplace(settings_.setup.sources, scene, setup.seed);
     if (!settings_.setup.followsVehicle) requireSourcesInside({});
     if (scene.lights.onDust) lightDust(settings_.picture, scene);
@@ -149,7 +150,7 @@ void GridFluid::simulate(const Frame& frame) {
 }
 
 void GridFluid::placeSolids(const scene::SceneState& state) {
-    const bool moving = scene_->vehicle && vehicleIsNear(solver_->box(), state);
+    const bool moving = scene::anySolidMoves(*scene_) || (scene_->vehicle && vehicleIsNear(solver_->box(), state));
     if (solidsStandStill_ && !moving) return;
     solver_->setSolids(solids_->voxelise(solver_->box(), state));
     solidsStandStill_ = !moving;
@@ -250,6 +251,7 @@ MemoryReport GridFluid::memory() const {
     if (solver_) std::ranges::move(solver_->gpuMemory(), std::back_inserter(report));
     if (const std::size_t bytes = densityTexture_.bytes() + reactionTexture_.bytes(); bytes > 0)
         report.push_back({"grid shown", 0, bytes});
+    if (rays_) report.push_back({"fluid voxelisation", 0, rays_->bytes()});
     if (picture_) report.push_back({"picture", 0, picture_->gpuBytes()});
     return report;
 }

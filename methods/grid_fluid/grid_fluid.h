@@ -73,6 +73,7 @@ class GridFluid final : public Method {
     LedgerVector<float> density_, reaction_;         ///< for the ray caster
     gpu::Texture densityTexture_, reactionTexture_;  ///< the same if they stay on the GPU
     std::unique_ptr<flow::Solver> solver_;
+    std::optional<flow_gl::CellsOnRays> rays_;  ///< if the fluid is solved on the GPU
     std::optional<FluidSolids> solids_;
     std::optional<Emitters> emitters_;
     std::optional<raycast::GridRaycast> picture_;

@@ -14,6 +14,7 @@
 #include "methods/contract/volume.h"
 #include "methods/grid_fluid/dust_mass.h"
 #include "methods/grid_fluid/fluid_place.h"
+#include "methods/grid_fluid/test_bodies.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/testing/test_folder.h"
@@ -22,31 +23,6 @@
 
 namespace dustbench::grid_fluid {
 namespace {
-
-/// Returns a ball of radius 1 with `rings` rings; its poles lie on the y axis.
-scene::Mesh ball(int rings) {
-    scene::Mesh mesh;
-    const int sides = 2 * rings;
-    for (int r = 0; r <= rings; ++r)
-        for (int s = 0; s < sides; ++s) {
-            const double polar = std::numbers::pi * r / rings, turn = 2 * std::numbers::pi * s / sides;
-            mesh.positions.emplace_back(std::sin(polar) * std::cos(turn), std::cos(polar),
-                                        -std::sin(polar) * std::sin(turn));
-        }
-    const auto corner = [&](int r, int s) { return static_cast<std::uint32_t>(r * sides + s % sides); };
-    for (int r = 0; r < rings; ++r)
-        for (int s = 0; s < sides; ++s)
-            for (const std::uint32_t index : {corner(r, s), corner(r + 1, s), corner(r + 1, s + 1), corner(r, s),
-                                              corner(r + 1, s + 1), corner(r, s + 1)})
-                mesh.indices.push_back(index);
-    mesh.normals.assign(mesh.positions.size(), glm::vec3(0, 1, 0));
-    mesh.colours.assign(mesh.positions.size(), glm::vec3(0.5f));
-    return mesh;
-}
-
-glm::dmat4 placed(const glm::dvec3& middle, double scale) {
-    return glm::scale(glm::translate(glm::dmat4(1), middle), glm::dvec3(scale));
-}
 
 std::size_t filled(const MeshCells& cells, std::uint8_t body) {
     return static_cast<std::size_t>(std::ranges::count(cells.bodies(), body));
@@ -98,18 +74,6 @@ TEST(MeshCells, TakeOverlapsAndOpenPanels) {
     cells.add(mesh, glm::dmat4(1), 1);
     for (std::size_t at = 0; at < cells.bodies().size(); ++at)
         EXPECT_EQ(cells.bodies()[at], one.bodies()[at] | other.bodies()[at]) << at;
-}
-
-/// A box with its middle at 0 and edges of these lengths.
-scene::Mesh block(const glm::vec3& edges) {
-    scene::Mesh mesh;
-    for (int n = 0; n < 8; ++n) mesh.positions.push_back(edges * (glm::vec3(n & 1, n >> 1 & 1, n >> 2) - 0.5f));
-    for (const std::array<std::uint32_t, 4>& side : std::array<std::array<std::uint32_t, 4>, 6>{
-             {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}})
-        for (const int n : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(side[static_cast<std::size_t>(n)]);
-    mesh.normals.assign(8, glm::vec3(0, 1, 0));
-    mesh.colours.assign(8, glm::vec3(0.5f));
-    return mesh;
 }
 
 /// Cells that paths through faces lead to from the first cell without entering a body.

@@ -20,13 +20,20 @@ bool isLeftOf(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& point)
 
 }  // namespace
 
-MeshCells::MeshCells(glm::ivec3 cells, MemoryAccount& account) : cells_(cells), bodies_(account) {
+MeshCells::MeshCells(glm::ivec3 cells, MemoryAccount& account, flow_gl::CellsOnRays* gpu)
+    : cells_(cells), gpu_(gpu), bodies_(account), velocities_(account) {
     bodies_.resize(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
                    static_cast<std::size_t>(cells.z));
 }
 
 void MeshCells::clear() {
     std::ranges::fill(bodies_, std::uint8_t{0});
+    areOnGpu_ = false;
+}
+
+void MeshCells::finish() {
+    if (areOnGpu_) gpu_->read(bodies_);
+    areOnGpu_ = false;
 }
 
 MeshCells::Sweep MeshCells::sweepAlong(int axis) const {
@@ -37,7 +44,9 @@ MeshCells::Sweep MeshCells::sweepAlong(int axis) const {
     return {turned(cells_), turned(strides)};
 }
 
-void MeshCells::cross(const Sweep& sweep, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+template <typename Take>
+void MeshCells::cross(const Sweep& sweep, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                      const Take& take) {
     const glm::dvec3 minimum = glm::min(glm::min(a, b), c), maximum = glm::max(glm::max(a, b), c);
     const glm::dvec3 size(sweep.cells);
     // Triangles next to the box cross none of its rows; those in front of it or behind it still count.
@@ -60,11 +69,14 @@ void MeshCells::cross(const Sweep& sweep, const glm::dvec3& a, const glm::dvec3&
             if (left != leaving || isLeftOf(pb, pc, point) != leaving || isLeftOf(pc, pa, point) != leaving) continue;
             const double x = a.x - (normal.y * (point.x - a.y) + normal.z * (point.y - a.z)) / normal.x;
             const int row = j * sweep.strides.y + k * sweep.strides.z;
-            crossings_.push_back({static_cast<std::uint32_t>(row), static_cast<float>(x), leaving ? -1 : 1, unit});
+            crossings_.push_back({static_cast<std::uint32_t>(row), static_cast<float>(x), leaving ? -1 : 1, unit,
+                                  static_cast<std::uint32_t>(crossings_.size())});
+            take(glm::dvec3(x, point.x, point.y), normal);
         }
 }
 
-void MeshCells::add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uint8_t body) {
+void MeshCells::add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uint8_t body,
+                    std::span<const glm::vec3> velocities) {
     places_.clear();
     glm::dvec3 minimum(INFINITY), maximum(-INFINITY);
     for (const glm::vec3& position : mesh.positions) {
@@ -74,28 +86,107 @@ void MeshCells::add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uin
     }
     if (glm::any(glm::lessThan(maximum, glm::dvec3(0))) || glm::any(glm::greaterThan(minimum, glm::dvec3(cells_))))
         return;
-    for (int axis = 0; axis < 3; ++axis) {
-        sweep(mesh.indices, axis, body);
-        for (glm::dvec3& place : places_) place = {place.y, place.z, place.x};
+    const auto alongEachAxis = [&](const auto& take) {
+        for (int axis = 0; axis < 3; ++axis) {
+            take(axis);
+            for (glm::dvec3& place : places_) place = {place.y, place.z, place.x};
+        }
+    };
+    if (gpu_) {
+        if (!areOnGpu_) gpu_->begin(bodies_);
+        areOnGpu_ = true;
+        gpu_->add(places_, mesh.indices, body);
+    } else {
+        alongEachAxis([&](int axis) { sweep(mesh.indices, axis, body); });
+    }
+    if (velocities.empty()) return;
+    finish();
+    // Not before all of its cells are known: the rays along one axis may find a wall whose speed those along another
+    // have.
+    velocities_.resize(bodies_.size());
+    known_.assign(bodies_.size(), 0);
+    alongEachAxis([&](int axis) {
+        const Sweep along = sweepAlong(axis);
+        findCrossings(along, mesh.indices, velocities);
+        forEachRow([&](std::span<const Crossing> row) { setVelocities(along, axis, row, body); });
+    });
+}
+
+/// Sorts them by rows; `velocities`: of the vertices, or none.
+void MeshCells::findCrossings(const Sweep& along, std::span<const std::uint32_t> indices,
+                              std::span<const glm::vec3> velocities) {
+    crossings_.clear();
+    crossingVelocities_.clear();
+    for (std::size_t t = 0; t + 2 < indices.size(); t += 3) {
+        const glm::dvec3 &a = places_[indices[t]], &b = places_[indices[t + 1]], &c = places_[indices[t + 2]];
+        if (velocities.empty()) {
+            cross(along, a, b, c, [](const glm::dvec3&, const glm::dvec3&) {});
+            continue;
+        }
+        cross(along, a, b, c, [&](const glm::dvec3& place, const glm::dvec3& normal) {
+            // Its weights: the areas across from the corners, as shares of the whole.
+            const double whole = glm::dot(normal, normal);
+            const double ofA = glm::dot(glm::cross(c - b, place - b), normal) / whole;
+            const double ofB = glm::dot(glm::cross(a - c, place - c), normal) / whole;
+            crossingVelocities_.emplace_back(ofA * glm::dvec3(velocities[indices[t]]) +
+                                             ofB * glm::dvec3(velocities[indices[t + 1]]) +
+                                             (1 - ofA - ofB) * glm::dvec3(velocities[indices[t + 2]]));
+        });
+    }
+    std::ranges::sort(crossings_, [](const Crossing& a, const Crossing& b) {
+        return std::tie(a.row, a.x, a.inwards, a.number) < std::tie(b.row, b.x, b.inwards, b.number);
+    });
+}
+
+template <typename Take>
+void MeshCells::forEachRow(const Take& take) const {
+    for (std::size_t first = 0; first < crossings_.size();) {
+        std::size_t end = first;
+        while (end < crossings_.size() && crossings_[end].row == crossings_[first].row) ++end;
+        take(std::span<const Crossing>(crossings_.data() + first, end - first));
+        first = end;
     }
 }
 
 void MeshCells::sweep(std::span<const std::uint32_t> indices, int axis, std::uint8_t body) {
     const Sweep along = sweepAlong(axis);
-    crossings_.clear();
-    for (std::size_t t = 0; t + 2 < indices.size(); t += 3)
-        cross(along, places_[indices[t]], places_[indices[t + 1]], places_[indices[t + 2]]);
-    std::ranges::sort(crossings_, [](const Crossing& a, const Crossing& b) {
-        return std::tie(a.row, a.x, a.inwards) < std::tie(b.row, b.x, b.inwards);
-    });
-    for (std::size_t first = 0; first < crossings_.size();) {
-        std::size_t end = first;
-        while (end < crossings_.size() && crossings_[end].row == crossings_[first].row) ++end;
-        const std::span<const Crossing> row(crossings_.data() + first, end - first);
+    findCrossings(along, indices, {});
+    forEachRow([&](std::span<const Crossing> row) {
         if (axis == 0) fillRow(row, body);
         fillThinWalls(along, row, body);
-        first = end;
+    });
+}
+
+/// The speed along the rays is that of the surface; across them, only where no other ray gives it.
+void MeshCells::setVelocities(const Sweep& along, int axis, std::span<const Crossing> crossings, std::uint8_t body) {
+    const auto limit = [&](float x) {
+        return static_cast<int>(std::clamp(x, 0.0f, static_cast<float>(along.cells.x)));
+    };
+    const int first = limit(std::floor(crossings.front().x) - 1), end = limit(std::ceil(crossings.back().x) + 1);
+    for (int i = first; i < end; ++i) {
+        const std::size_t at =
+            crossings[0].row + static_cast<std::size_t>(i) * static_cast<std::size_t>(along.strides.x);
+        if (bodies_[at] != body) continue;
+        const glm::vec3 velocity = velocityAt(static_cast<float>(i) + 0.5f, crossings);
+        for (int each = 0; each < 3; ++each)
+            if (each == axis || (known_[at] >> each & 1) == 0) velocities_[at][each] = velocity[each];
+        known_[at] = static_cast<std::uint8_t>(known_[at] | 1u << axis);
     }
+}
+
+/// At a cell's centre: that of the surface between it and its neighbour; of both if it is so on either side; between
+/// two farther ones in proportion.
+glm::vec3 MeshCells::velocityAt(float x, std::span<const Crossing> crossings) const {
+    const auto right = std::ranges::lower_bound(crossings, x, {}, &Crossing::x);
+    const auto of = [&](auto crossing) { return crossingVelocities_[crossing->number]; };
+    if (right == crossings.begin()) return of(right);
+    const auto left = right - 1;
+    if (right == crossings.end()) return of(left);
+    const float toLeft = x - left->x, toRight = right->x - x;
+    if (toLeft <= 1 && toRight <= 1) return 0.5f * (of(left) + of(right));
+    if (toLeft <= 1) return of(left);
+    if (toRight <= 1) return of(right);
+    return (toRight * of(left) + toLeft * of(right)) / (toLeft + toRight);
 }
 
 void MeshCells::fillThinWalls(const Sweep& sweep, std::span<const Crossing> crossings, std::uint8_t body) {

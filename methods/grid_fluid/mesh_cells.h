@@ -7,8 +7,16 @@
 // where a mesh is entered and left between neighbouring centres, through surfaces that face away from each other. So no
 // path from cell to cell through their faces leads through a wall, however thin. A smooth rim, whose surfaces face the
 // same way there, takes none.
-// Units: cells. Owns: a byte for each cell, booked. Threads: one writer.
-// Source: Crane2007, 30.2.4. Departs: rays by row instead of slices by the GPU's stencil.
+//
+// Where a mesh deforms, the same rays give its cells the velocity that its surface has where they cross it,
+// interpolated from its vertices: along an axis each cell beside the surface has the speed of the surface between it
+// and its neighbour, or the mean of both sides where the mesh is but a cell thick. So what flows out of the cells'
+// faces is what the surface displaces, summed over the rays.
+//
+// Units: cells; velocities m/s. Owns: a byte for each cell, booked, and a velocity once a mesh has some. Threads: one
+// writer.
+// Source: Crane2007, 30.2.4. Departs: rays by row instead of slices by the GPU's stencil; with a flow_gl::CellsOnRays
+// the GPU follows them, and finds the same cells.
 #pragma once
 
 #include <cstdint>
@@ -17,23 +25,31 @@
 #include <vector>
 
 #include "methods/contract/solid.h"
+#include "methods/grid_fluid/flow_gl/cells_on_rays.h"
 #include "methods/kit/memory/memory_ledger.h"
 
 namespace dustbench::grid_fluid {
 
 class MeshCells {
  public:
-    MeshCells(glm::ivec3 cells, MemoryAccount& account);
+    /// With a `gpu`, which must outlive it, that finds the cells inside meshes.
+    MeshCells(glm::ivec3 cells, MemoryAccount& account, flow_gl::CellsOnRays* gpu = nullptr);
 
     void clear();
     /// Sets cells whose centre is inside the mesh, and those of thin walls, to `body`, overwriting previous values.
-    /// `toCells` transforms the mesh's positions to cell units from the minimum corner of the grid.
-    void add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uint8_t body);
-    /// Sets one cell, for shapes that are not meshes.
+    /// `toCells` transforms the mesh's positions to cell units from the minimum corner of the grid; `velocities` are
+    /// those of the positions along the grid's axes, of a mesh that deforms.
+    void add(const scene::Mesh& mesh, const glm::dmat4& toCells, std::uint8_t body,
+             std::span<const glm::vec3> velocities = {});
+    /// Ends a series of meshes: only then are the cells those that were added.
+    void finish();
+    /// Sets one cell, for shapes that are not meshes; before the first mesh.
     void set(int i, int j, int k, std::uint8_t body) { bodies_[index(i, j, k)] = body; }
 
     /// A number for each cell, x fastest; 0: no body.
     [[nodiscard]] std::span<const std::uint8_t> bodies() const { return bodies_; }
+    /// Of the cells of meshes that deform; undefined elsewhere, and empty before the first such mesh.
+    [[nodiscard]] std::span<const glm::vec3> velocities() const { return velocities_; }
     [[nodiscard]] glm::ivec3 cells() const { return cells_; }
 
  private:
@@ -48,6 +64,7 @@ class MeshCells {
         float x;
         int inwards;  ///< 1 entering, −1 leaving
         glm::vec3 normal;
+        std::uint32_t number;  ///< in the order in which they were found
     };
     [[nodiscard]] std::size_t index(int i, int j, int k) const {
         return (static_cast<std::size_t>(k) * static_cast<std::size_t>(cells_.y) + static_cast<std::size_t>(j)) *
@@ -55,15 +72,27 @@ class MeshCells {
                static_cast<std::size_t>(i);
     }
     [[nodiscard]] Sweep sweepAlong(int axis) const;
+    void findCrossings(const Sweep& sweep, std::span<const std::uint32_t> indices,
+                       std::span<const glm::vec3> velocities);
+    template <typename Take>
+    void forEachRow(const Take& take) const;
     void sweep(std::span<const std::uint32_t> indices, int axis, std::uint8_t body);
-    void cross(const Sweep& sweep, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+    template <typename Take>
+    void cross(const Sweep& sweep, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const Take& take);
     void fillRow(std::span<const Crossing> crossings, std::uint8_t body);
     void fillThinWalls(const Sweep& sweep, std::span<const Crossing> crossings, std::uint8_t body);
+    void setVelocities(const Sweep& sweep, int axis, std::span<const Crossing> crossings, std::uint8_t body);
+    [[nodiscard]] glm::vec3 velocityAt(float x, std::span<const Crossing> crossings) const;
 
     glm::ivec3 cells_;
+    flow_gl::CellsOnRays* gpu_;
+    bool areOnGpu_ = false;  ///< and newer there than in `bodies_`
     LedgerVector<std::uint8_t> bodies_;
+    LedgerVector<glm::vec3> velocities_;
     std::vector<glm::dvec3> places_;
     std::vector<Crossing> crossings_;
+    std::vector<glm::vec3> crossingVelocities_;  ///< by Crossing::number
+    std::vector<std::uint8_t> known_;  ///< of each cell: bit `axis` if the rays along that axis gave its speed
     std::vector<int> depths_;
 };
 

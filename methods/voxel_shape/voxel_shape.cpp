@@ -216,8 +216,9 @@ MethodInfo describe() {
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<VoxelShape>(shapeOf(values));
     };
-    info.cannotTake = [](const scene::Scene& scene) {
-        return scene.vehicle ? std::string() : std::string("needs a vehicle, whose mesh or motion shapes use");
+    info.cannotTake = [](const scene::Scene& scene) -> std::string {
+        if (!scene.vehicle) return "needs a vehicle, whose mesh or motion shapes use";
+        return scene::anySolidMoves(scene) ? "its particles meet only solids that are still" : "";
     };
     return info;
 }

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Writes the solids of this folder, one in each format that is read. Python 3, standard library only: `python3 make_meshes.py`.
 
-rock.obj and sphere.obj (no normals: they are computed), crate.ply and wall.ply (vertex colours), marker_post.stl (binary). Metres, +Y
-up, on y = 0.
+rock.obj, sphere.obj, bellows.obj and bellows_full.obj (no normals: they are computed), crate.ply, wall.ply, paddle.ply and
+paddle_stand.ply (vertex colours), marker_post.stl (binary). Metres, +Y up, on y = 0 but for sphere and paddle, which have their
+middle at the origin.
 """
 import math
 import os
@@ -98,6 +99,15 @@ def sphere():
     write_obj("sphere.obj", "a sphere of radius 1 m", 5, points, faces)
 
 
+def bellows():
+    """A ball that stands on its flattened underside, at rest and full: the same faces, for a solid that deforms."""
+    points, faces = icosphere(3)
+    rest = [(x, max(y, -0.8) + 0.8, z) for x, y, z in points]
+    full = [(1.45 * x, 1.6 * y, 1.45 * z) for x, y, z in rest]
+    write_obj("bellows.obj", "a ball of radius 1 m on the ground", 4, rest, faces)
+    write_obj("bellows_full.obj", "bellows.obj, 1.45 times as wide and 1.6 times as high", 4, full, faces)
+
+
 def write_quads(name, comment, vertices, faces):
     """Vertices: a point and a colour in bytes; faces: four numbers of vertices each."""
     with open(path(name), "w", newline="") as file:
@@ -179,6 +189,49 @@ def wall():
     write_quads("wall.ply", "a wall of bricks", vertices, faces)
 
 
+def prism(vertices, faces, low, high, radius, colour):
+    """Along z with twelve sides; its ends are five quads each."""
+    sides, first = 12, len(vertices)
+    for z in (low, high):
+        for i in range(sides):
+            angle = 2 * math.pi * i / sides
+            vertices.append(((radius * math.cos(angle), radius * math.sin(angle), z), colour))
+    for i in range(sides):
+        j = (i + 1) % sides
+        faces.append((first + i, first + j, first + sides + j, first + sides + i))
+    for i in range(1, sides - 1, 2):
+        faces.append((first, first + i + 2, first + i + 1, first + i))
+        faces.append(tuple(first + sides + k for k in (0, i, i + 1, i + 2)))
+
+
+def cuboid(vertices, faces, low, high, colour):
+    for axis in range(3):
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        for side in (0, 1):
+            first = len(vertices)
+            for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)) if side else ((0, 0), (0, 1), (1, 1), (1, 0)):
+                corner = [0, 0, 0]
+                corner[axis], corner[u], corner[v] = (low, high)[side][axis], (low, high)[a][u], (low, high)[b][v]
+                vertices.append((tuple(corner), colour))
+            faces.append(tuple(range(first, first + 4)))
+
+
+def paddle():
+    """A wheel of four blades that turns about z, and the stand with its two bearings 1.7 m above the ground."""
+    wood, dark, iron = (176, 128, 72), (140, 98, 54), (70, 74, 80)
+    vertices, faces = [], []
+    cuboid(vertices, faces, (-0.7, -0.03, -0.45), (0.7, 0.03, 0.45), wood)
+    cuboid(vertices, faces, (-0.03, -0.7, -0.45), (0.03, 0.7, 0.45), dark)
+    prism(vertices, faces, -0.5, 0.5, 0.11, dark)
+    prism(vertices, faces, -0.7, 0.7, 0.04, iron)
+    write_quads("paddle.ply", "a paddle wheel of 1.4 m", vertices, faces)
+    vertices, faces = [], []
+    for z in (-0.68, 0.58):
+        cuboid(vertices, faces, (-0.05, 0, z), (0.05, 1.76, z + 0.1), iron)
+        cuboid(vertices, faces, (-0.3, 0, z), (0.3, 0.06, z + 0.1), iron)
+    write_quads("paddle_stand.ply", "what the paddle wheel hangs in", vertices, faces)
+
+
 def marker_post():
     """A six-sided post with a slanted cap, 1.2 m high."""
     sides, radius, triangles = 6, 0.07, []
@@ -207,6 +260,8 @@ def marker_post():
 
 rock()
 sphere()
+bellows()
 crate()
 wall()
+paddle()
 marker_post()

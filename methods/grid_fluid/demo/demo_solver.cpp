@@ -57,7 +57,7 @@ void DemoSolver::setSolids(const flow::SolidMask& mask) {
     forCells([&](const glm::ivec3& c) {
         const std::uint8_t body = mask.body.empty() ? std::uint8_t{0} : mask.body[solid_.index(c)];
         glm::vec3 velocity(0);
-        if (body > 0 && body <= mask.motions.size()) velocity = mask.motions[body - 1u].velocityAt(glm::vec3(c) + 0.5f);
+        if (body > 0) velocity = mask.velocityOf(body, solid_.index(c), c);
         solid_.set(c, glm::vec4(velocity, body != 0 ? 1 : 0));
     });
 }

@@ -35,7 +35,7 @@ struct Smoke {
         motion.velocity = {0.5f, 0, 0};
     }
     void run(flow::Solver& solver, int steps) {
-        solver.setSolids({body, {&motion, 1}});
+        solver.setSolids({body, {&motion, 1}, velocities});
         for (int step = 0; step < steps; ++step) report = solver.step(1.0 / 60, {&source, 1}, StageClock());
     }
     [[nodiscard]] static std::vector<float> valuesOf(const flow::Solver& solver, flow::Lane lane) {
@@ -48,6 +48,7 @@ struct Smoke {
     flow::StepReport report;
     std::vector<std::uint8_t> body;
     flow::BodyMotion motion;
+    std::vector<glm::vec3> velocities;
     MemoryLedger ledger;
 };
 
@@ -105,6 +106,25 @@ TEST(DemoSolver, LeavesDivergenceThatSixSweepsDoNotRemove) {
             EXPECT_EQ(speed[c], 0.5f);
             EXPECT_EQ(density[c], 0);
         }
+}
+
+TEST(DemoSolver, HoldsTheVelocitiesOfASolidThatDeforms) {
+    Smoke smoke;
+    smoke.motion.byCell = true;
+    for (std::size_t c = 0; c < smoke.body.size(); ++c)
+        smoke.velocities.emplace_back(0.25f * static_cast<float>(c % 7), -0.5f, 0.125f * static_cast<float>(c % 5));
+    DemoSolver cpu(smoke.settings, smoke.ledger);
+    GlDemoSolver gl(smoke.settings, device());
+    for (flow::Solver* solver : {static_cast<flow::Solver*>(&cpu), static_cast<flow::Solver*>(&gl)}) {
+        smoke.run(*solver, 2);
+        const std::vector<float> x = Smoke::valuesOf(*solver, flow::velocityX);
+        const std::vector<float> z = Smoke::valuesOf(*solver, flow::velocityZ);
+        for (std::size_t c = 0; c < smoke.body.size(); ++c)
+            if (smoke.body[c] != 0) {
+                EXPECT_EQ(x[c], smoke.velocities[c].x);
+                EXPECT_EQ(z[c], smoke.velocities[c].z);
+            }
+    }
 }
 
 TEST(DemoSolver, DensityFadesByItsShareAStepWhereNothingFlows) {

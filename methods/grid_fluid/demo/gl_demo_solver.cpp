@@ -94,8 +94,7 @@ void GlDemoSolver::setSolids(const flow::SolidMask& mask) {
                 const std::uint8_t body = mask.body.empty() ? std::uint8_t{0} : mask.body[n];
                 if (body == 0) continue;
                 solids[n] = 255;
-                if (body > mask.motions.size()) continue;
-                const glm::vec3 velocity = mask.motions[body - 1u].velocityAt(glm::vec3(i, j, k) + 0.5f);
+                const glm::vec3 velocity = mask.velocityOf(body, n, {i, j, k});
                 for (int axis = 0; axis < 3; ++axis)
                     velocities[4 * n + static_cast<std::size_t>(axis)] = velocity[axis];
             }

@@ -70,17 +70,17 @@ double SolidCells::cover(const SolidMask& mask, CellField& cells) {
 /// Each face between two cells belongs to the solid ahead of it, else to that behind; the far sides' included.
 void SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
     const glm::ivec3 size(layout_.nx, layout_.ny, layout_.nz);
-    const auto bodyOf = [&](glm::ivec3 cell) {
-        const auto index =
-            (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(cell.y)) *
-                static_cast<std::size_t>(size.x) +
-            static_cast<std::size_t>(cell.x);
-        return mask.body[index];
+    const auto indexOf = [&](glm::ivec3 cell) {
+        return (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(size.y) +
+                static_cast<std::size_t>(cell.y)) *
+                   static_cast<std::size_t>(size.x) +
+               static_cast<std::size_t>(cell.x);
     };
-    // Along its own axis a rigid body has the same speed everywhere, so the cell's centre does for its face.
+    const auto bodyOf = [&](glm::ivec3 cell) { return mask.body[indexOf(cell)]; };
+    // Along its own axis a rigid body has the same speed everywhere, so the cell's centre does for its face. One that
+    // deforms has the speeds of its surface in the cells beside it.
     const auto speedOf = [&](std::uint8_t body, glm::ivec3 cell, int axis) {
-        const std::size_t n = body - std::size_t{1};
-        return n < mask.motions.size() ? mask.motions[n].velocityAt(glm::vec3(cell) + 0.5f)[axis] : 0.0f;
+        return mask.velocityOf(body, indexOf(cell), cell)[axis];
     };
     for (int axis = 0; axis < 3; ++axis) {
         const auto step = std::array<std::size_t, 3>{1, layout_.row, layout_.slab}[static_cast<std::size_t>(axis)];

@@ -29,6 +29,16 @@ void check(const SolidMask& mask, const CellLayout& layout) {
         if (!std::isfinite(all.x + all.y + all.z))
             throw InputError("solids: got a motion of solid " + std::to_string(n + 1) +
                              " that is not finite, allowed: metres per second");
+        if (motion.byCell && mask.velocities.size() != count)
+            throw InputError("solids: got the velocities of " + std::to_string(mask.velocities.size()) +
+                             " cells for solid " + std::to_string(n + 1) +
+                             ", which deforms, allowed: " + std::to_string(count) + ", as many as the grid has");
+    }
+    for (std::size_t cell = 0; cell < mask.velocities.size() && !mask.body.empty(); ++cell) {
+        const glm::vec3& velocity = mask.velocities[cell];
+        if (mask.body[cell] != 0 && !std::isfinite(velocity.x + velocity.y + velocity.z))
+            throw InputError("solids: got a velocity of cell " + std::to_string(cell) +
+                             " that is not finite, allowed: metres per second");
     }
 }
 

@@ -73,13 +73,21 @@ struct Flow {
                 for (int i = 0; i < settings.box.cells.x; ++i)
                     body.push_back(glm::distance(glm::vec3(i, j, k) + 0.5f, centre) < 3.2f ? 2 : 0);
         motions = {{}, {{0.5f, 0, 0}, {0, 0.2f, 0}, centre}};
-        return {body, motions};
+        motions[1].byCell = deforms;
+        velocities.clear();
+        for (std::size_t c = 0; deforms && c < body.size(); ++c) {
+            const auto phase = static_cast<float>(c % 97);
+            velocities.emplace_back(0.3f * std::sin(phase), 0.2f * std::cos(2 * phase), 0.1f * std::sin(3 * phase));
+        }
+        return {body, motions, velocities};
     }
 
     flow::FluidSettings settings;
     std::vector<flow::FluidSource> sources;
     std::vector<std::uint8_t> body;
     std::vector<flow::BodyMotion> motions;
+    bool deforms = false;
+    std::vector<glm::vec3> velocities;
 };
 
 template <typename Cell>
@@ -209,6 +217,15 @@ TEST(GlFluidSolver, StepsAsTheCpuDoesInAClosedBoxOfOddSize) {
     EXPECT_LE(pair.onGpu.divergencePerStep, 2e-5f);
 }
 
+TEST(GlFluidSolver, StepsAsTheCpuDoesAroundABallThatDeforms) {
+    Flow flow;
+    flow.settings.advection.scheme = flow::AdvectionScheme::semiLagrangian;
+    flow.deforms = true;
+    const Pair pair(flow, true);
+    pair.expectTheSame();
+    EXPECT_LE(pair.onGpu.divergencePerStep, 1e-5f);
+}
+
 TEST(GlFluidSolver, SweepsAsTheCpuDoes) {
     Flow flow;
     flow.settings.pressure = flow::PressureMethod::jacobi;
@@ -312,6 +329,16 @@ TEST(GlFluidSolver, RefusesBadInputInOneLine) {
     const std::vector<std::uint8_t> full(512, 1);
     EXPECT_NE(inputError([&] { solver.setSolids({full, {}}); }).find("filled"), std::string::npos);
     EXPECT_NE(inputError([&] { solver.step(-1, {}); }).find("step"), std::string::npos);
+    const std::vector<std::uint8_t> one = [] {
+        std::vector<std::uint8_t> some(512, 0);
+        some[9] = 1;
+        return some;
+    }();
+    const flow::BodyMotion deforming{.byCell = true};
+    EXPECT_NE(inputError([&] {
+                  solver.setSolids({one, {&deforming, 1}});
+              }).find("got the velocities of 0 cells for solid 1, which deforms, allowed: 512"),
+              std::string::npos);
     flow.sources[0].radiusMetres = 0;
     EXPECT_NE(inputError([&] { solver.step(0.1, flow.sources); }).find("radius"), std::string::npos);
 }

@@ -3,9 +3,10 @@
 layout(std430, binding = 1) restrict buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict buffer Carried { vec2 carried[]; };
 struct Motion {
-    vec4 velocity, turnPerCell, centreCells;
+    vec4 velocity, turnPerCell, centreCells;  // velocity.w above 0: the cells have velocities of their own
 };
 layout(std430, binding = 3) restrict readonly buffer Motions { Motion motions[]; };
+layout(std430, binding = 4) restrict readonly buffer Velocities { float velocities[]; };  // three a cell, no ghosts
 uniform int motionCount;
 
 int bodyAt(ivec3 c) {
@@ -15,6 +16,7 @@ int bodyAt(ivec3 c) {
 float speedOf(int body, ivec3 c, int axis) {
     if (body > motionCount) return 0.0;
     Motion motion = motions[body - 1];
+    if (motion.velocity.w > 0.0) return velocities[3 * (c.x + cells.x * (c.y + cells.y * c.z)) + axis];
     // Along its own axis a rigid body has the same speed everywhere, so the cell's centre does for its face.
     return (motion.velocity.xyz + cross(motion.turnPerCell.xyz, vec3(c) + 0.5 - motion.centreCells.xyz))[axis];
 }
@@ -27,8 +29,11 @@ void main() {
     for (int axis = 0; axis < 3; ++axis) {
         ivec3 before = c;
         before[axis] -= 1;
-        int own = bodyAt(c), other = bodyAt(before), body = own != 0 ? own : other;
-        if (body != 0) record[axis] = speedOf(body, c, axis);
+        int own = bodyAt(c), other = bodyAt(before);
+        if (own != 0)
+            record[axis] = speedOf(own, c, axis);
+        else if (other != 0)
+            record[axis] = speedOf(other, before, axis);
     }
     if (bodyAt(c) != 0) {
         record.w = 0.0;

@@ -18,11 +18,13 @@ std::size_t inWords(std::size_t bytes) {
 
 SolidsOnGpu::SolidsOnGpu(gpu::Device& device, const flow::CellLayout& layout, const flow::Sides& sides,
                          MemoryAccount& account)
-    : layout_(layout),
+    : device_(device),
+      layout_(layout),
       conductance_(account),
       kinds_(device, "fluid solids", layout.padded() * sizeof(std::uint32_t)),
       bodies_(device, "fluid solids", inWords(layout.rows() * static_cast<std::size_t>(layout.nx))),
       motions_(device, "fluid solids", maximumMotions * sizeof(Motion)),
+      velocities_(device, "fluid solids", sizeof(glm::vec3)),
       mask_(device, {grid_glsl, mask_comp}),
       fill_(device, {grid_glsl, kinds_glsl, solids_comp}),
       extend_(device, {grid_glsl, kinds_glsl, extend_comp}) {
@@ -50,8 +52,13 @@ bool SolidsOnGpu::set(const flow::SolidMask& mask) {
     std::vector<Motion> motions;
     for (std::size_t n = 0; n < std::min(mask.motions.size(), maximumMotions); ++n) {
         const flow::BodyMotion& motion = mask.motions[n];
-        motions.push_back(
-            {glm::vec4(motion.velocity, 0), glm::vec4(motion.turnPerCell, 0), glm::vec4(motion.centreCells, 0)});
+        motions.push_back({glm::vec4(motion.velocity, motion.byCell ? 1 : 0), glm::vec4(motion.turnPerCell, 0),
+                           glm::vec4(motion.centreCells, 0)});
+    }
+    if (any_ && !mask.velocities.empty()) {
+        if (velocities_.bytes() < mask.velocities.size_bytes())
+            velocities_ = gpu::Buffer(device_, "fluid solids", mask.velocities.size_bytes());
+        velocities_.write(mask.velocities);
     }
     motions_.write(std::span<const Motion>(motions));
     fill_.set("motionCount", static_cast<int>(motions.size()));
@@ -68,6 +75,7 @@ void SolidsOnGpu::fill(const CellsOnGpu& cells) const {
     kinds_.bindStorage(0);
     cells.bind(1);
     motions_.bindStorage(3);
+    velocities_.bindStorage(4);
     fill_.run(glm::ivec3(layout_.nx, layout_.ny, layout_.nz) + 1);
 }
 

@@ -31,16 +31,19 @@ class SolidsOnGpu {
     /// Kinds of cells as in kinds.glsl.
     [[nodiscard]] const gpu::Buffer& kinds() const { return kinds_; }
     [[nodiscard]] std::vector<std::vector<flow::Run>> closedRegions() const;
-    [[nodiscard]] std::size_t bytes() const { return kinds_.bytes() + bodies_.bytes() + motions_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const {
+        return kinds_.bytes() + bodies_.bytes() + motions_.bytes() + velocities_.bytes();
+    }
 
  private:
     struct Motion {
         glm::vec4 velocity, turnPerCell, centreCells;
     };
 
+    gpu::Device& device_;
     flow::CellLayout layout_;
     LedgerVector<std::uint8_t> conductance_;
-    gpu::Buffer kinds_, bodies_, motions_;
+    gpu::Buffer kinds_, bodies_, motions_, velocities_;
     Kernel mask_, fill_, extend_;
     bool any_ = false;
 };

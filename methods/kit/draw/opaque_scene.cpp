@@ -14,8 +14,8 @@
 #include "methods/kit/draw/ground_pass.h"
 #include "methods/kit/draw/opaque_definitions.h"
 #include "methods/kit/draw/panel_pass.h"
+#include "methods/kit/draw/placed_solids.h"
 #include "methods/kit/draw/shadow_footprint.h"
-#include "methods/kit/draw/solid_mesh.h"
 #include "methods/kit/gpu/draw_call.h"
 #include "methods/kit/gpu/framebuffer.h"
 
@@ -23,11 +23,10 @@ namespace dustbench::draw {
 namespace {
 
 constexpr int vehicleShadowTexels = 512;  // 12 mm each; twice as many cost 3 ms more on two cores of llvmpipe
-// Solids are static: their map is redrawn only when the eye has moved a step, and covers the area around it.
+// Their map covers the area around the eye; it is redrawn when the eye has moved a step, or a solid has moved.
 constexpr int solidShadowTexels = 2048;
 constexpr double solidShadowReachMetres = 80;
 constexpr double solidShadowStepMetres = 32;
-constexpr double solidMarginMetres = 0.3;    // a few of the map's texels
 constexpr double vehicleMarginMetres = 0.8;  // the darkening around the vehicle reaches 0.7 m
 constexpr float bodyGloss = 1;
 constexpr float wheelGloss = 0.1f;
@@ -73,18 +72,6 @@ scene::VehicleState relativeTo(scene::VehicleState vehicle, const glm::dvec3& or
     return vehicle;
 }
 
-struct PlacedSolid {
-    std::shared_ptr<const SolidMesh> mesh;  ///< shared by all solids of the same shape
-    glm::mat4 toWorld;
-    glm::dvec3 centre;
-    double radiusMetres;
-    bool castsOnly = false;  ///< drawn elsewhere
-
-    [[nodiscard]] bool touches(const glm::dvec3& place, double reachMetres) const {
-        return glm::distance(place, centre) - radiusMetres < reachMetres;
-    }
-};
-
 /// Whether a sphere may be in view; the inside is −w ≤ x ≤ w, −w ≤ y ≤ w and w ≥ 0.
 bool mayBeSeen(const glm::mat4& eyeToClip, const glm::vec3& centre, float radius) {
     const glm::mat4 rows = glm::transpose(eyeToClip);
@@ -103,9 +90,6 @@ struct OpaqueScene::State {
     State(const scene::Scene& shown, gpu::Device& device, int width, int height, ScenePanels panelsShown);
 
     void resize(int width, int height);
-    void placeSolids();
-    void place(const std::shared_ptr<const SolidMesh>& shape, const scene::Mesh& mesh, const glm::dmat4& toWorld,
-               bool castsOnly);
     void aimVehicleShadow(const glm::dvec3& eye, const scene::VehiclePoses& poses,
                           const scene::VehicleState& vehicleToEye);
     void aimSolidShadow(const glm::dvec3& eye);
@@ -125,7 +109,7 @@ struct OpaqueScene::State {
     GroundPass ground;
     PanelPass panels;
     bool panelsSeen;
-    std::vector<PlacedSolid> solids;
+    PlacedSolids solids;
     std::optional<SolidMesh> body;
     std::optional<SolidMesh> wheel;
     std::optional<ShadowMap> vehicleShadow;
@@ -140,7 +124,6 @@ struct OpaqueScene::State {
     gpu::Buffer momentBlock;
     gpu::Buffer lampBlock;
     OpaqueMoment now;
-    std::vector<GroundRectangle> solidFootprints;
     std::optional<glm::dvec3> solidShadowCentre;
     std::vector<GroundRectangle> footprints;
 };
@@ -152,14 +135,13 @@ OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& drawnBy, int w
       ground(device, shown),
       panels(device, shown),
       panelsSeen(panelsShown == ScenePanels::flat && !panels.empty()),
+      solids(shown, device),
       casterProgram(device, "shadow caster", {draw_shaders::opaque_caster_vert, draw_shaders::opaque_caster_frag}),
       programs(device, shown, panelsSeen, false),
       skyProgram(device, "sky",
                  {draw_shaders::opaque_moment_glsl, draw_shaders::opaque_sky_vert, draw_shaders::opaque_sky_frag}),
       noVertices(device),
       momentBlock(device, "scene moment", sizeof(OpaqueMoment)) {
-    if (scene.solidPoses.size() != scene.solids.size())
-        throw std::invalid_argument("OpaqueScene: every solid needs its pose");
     resize(width, height);
     const glm::vec3 toSun = scene.lights.toSun;
     if (scene.lights.onDust) dustShadow.emplace(device, toSun);
@@ -171,40 +153,14 @@ OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& drawnBy, int w
         const double ofPanels = panels.reachOnVehicleMetres() + static_cast<double>(glm::length(body->centre()));
         vehicleShadow.emplace(device, "vehicle shadow", vehicleShadowTexels, std::max(ofCar, ofPanels), toSun);
     }
-    placeSolids();
-    joinOverlapping(solidFootprints);
-    if (!solids.empty()) solidShadow.emplace(device, "solid shadow", solidShadowTexels, solidShadowReachMetres, toSun);
+    if (!solids.all().empty())
+        solidShadow.emplace(device, "solid shadow", solidShadowTexels, solidShadowReachMetres, toSun);
 }
 
 void OpaqueScene::State::resize(int width, int height) {
     colour = gpu::Texture::make2D(device, "scene colour", gpu::Format::rgba16F, width, height);
     depth = gpu::Texture::make2D(device, "scene depth", gpu::Format::depth32F, width, height);
     target = gpu::Framebuffer(device, "scene", &colour, &depth);
-}
-
-void OpaqueScene::State::placeSolids() {
-    std::map<const scene::Mesh*, std::shared_ptr<const SolidMesh>> shapes;
-    for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-        std::shared_ptr<const SolidMesh>& shape = shapes[scene.solids[i].mesh.get()];
-        if (!shape) shape = std::make_shared<const SolidMesh>(device, scene.solids[i]);
-        place(shape, *scene.solids[i].mesh, scene.solidPoses[i].toWorld, false);
-    }
-    for (const scene::Panel& panel : scene.panels) {
-        if (panel.parent != scene::Panel::Parent::world) continue;
-        const auto plate = std::make_shared<const scene::Mesh>(panelPlate(panel));
-        place(std::make_shared<const SolidMesh>(device, scene::Solid{panel.name, plate}), *plate, panel.toParent, true);
-    }
-}
-
-void OpaqueScene::State::place(const std::shared_ptr<const SolidMesh>& shape, const scene::Mesh& mesh,
-                               const glm::dmat4& toWorld, bool castsOnly) {
-    const glm::mat4 pose(toWorld);
-    const glm::dvec3 centre(pose * glm::vec4(shape->centre(), 1));
-    const double radius = static_cast<double>(shape->radiusMetres() * glm::length(glm::vec3(pose[0])));
-    const std::vector<GroundRectangle> pieces =
-        shadowFootprints(mesh, pose, scene.lights.toSun, scene.terrain, solidMarginMetres);
-    solidFootprints.insert(solidFootprints.end(), pieces.begin(), pieces.end());
-    solids.push_back({shape, pose, centre, radius, castsOnly});
 }
 
 void OpaqueScene::State::aimSolidShadow(const glm::dvec3& eye) {
@@ -215,7 +171,7 @@ void OpaqueScene::State::aimSolidShadow(const glm::dvec3& eye) {
     solidShadow->aim(centre);
     solidShadow->bindAndClear();
     const glm::mat4 toLight = solidShadow->eyeToLight(centre);
-    for (const PlacedSolid& solid : solids) {
+    for (const PlacedSolid& solid : solids.all()) {
         if (!solid.touches(centre, solidShadowReachMetres)) continue;
         casterProgram.set("toLight", toLight * moved(solid.toWorld, -centre));
         solid.mesh->draw(casterProgram, {.depthTest = true, .depthWrite = true});
@@ -240,7 +196,7 @@ void OpaqueScene::State::aimVehicleShadow(const glm::dvec3& eye, const scene::Ve
 void OpaqueScene::State::findFootprints(const glm::dvec3& eye, const scene::VehiclePoses& poses) {
     footprints.clear();
     const glm::dvec2 below(eye.x, eye.z);
-    for (const GroundRectangle& footprint : solidFootprints) {
+    for (const GroundRectangle& footprint : solids.footprints()) {
         const glm::dvec2 nearest = glm::clamp(below, footprint.minimum, footprint.maximum);
         if (glm::distance(nearest, below) < solidShadowReachMetres) footprints.push_back(footprint);
     }
@@ -300,7 +256,7 @@ void OpaqueScene::State::light(std::span<const scene::PointLight> lamps, const g
 
 void OpaqueScene::State::drawSolids(gpu::Program& program, const glm::dvec3& eye) {
     program.set("gloss", solidGloss);
-    for (const PlacedSolid& solid : solids) {
+    for (const PlacedSolid& solid : solids.all()) {
         if (solid.castsOnly) continue;
         if (!mayBeSeen(now.eyeToClip, glm::vec3(solid.centre - eye), static_cast<float>(solid.radiusMetres))) continue;
         program.set("toEye", moved(solid.toWorld, -eye));
@@ -345,6 +301,7 @@ void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view,
         poses = scene::vehiclePoses(*own.scene.vehicle, vehicleToEye);
         own.aimVehicleShadow(eye, poses, vehicleToEye);
     }
+    if (own.solids.moveTo(state)) own.solidShadowCentre.reset();
     if (own.solidShadow) own.aimSolidShadow(eye);
     if (own.dustShadow) own.dustShadow->set(dust);
     own.describe(view, state.vehicle);

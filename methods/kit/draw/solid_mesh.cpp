@@ -21,6 +21,25 @@ SolidMesh::SolidMesh(gpu::Device& device, const scene::Solid& solid) : layout_(d
     if (mesh.normals.size() != mesh.positions.size() || mesh.colours.size() != mesh.positions.size())
         throw std::invalid_argument("solid '" + solid.name + "': one normal and one colour a vertex are needed");
 
+    vertexCount_ = mesh.positions.size();
+    vertices_ = gpu::Buffer(device, "solid vertices", vertexCount_ * sizeof(Vertex));
+    write(mesh);
+    indices_ = gpu::Buffer(device, "solid indices", std::span<const std::uint32_t>(mesh.indices));
+    indexCount_ = static_cast<int>(mesh.indices.size());
+    layout_.attribute(0, 3, vertices_, sizeof(Vertex), offsetof(Vertex, position));
+    layout_.attribute(1, 3, vertices_, sizeof(Vertex), offsetof(Vertex, normal));
+    layout_.attribute(2, 3, vertices_, sizeof(Vertex), offsetof(Vertex, colour));
+    layout_.indices(indices_);
+}
+
+void SolidMesh::reshape(const scene::Mesh& mesh) {
+    if (mesh.positions.size() != vertexCount_ || mesh.normals.size() != vertexCount_ ||
+        mesh.colours.size() != vertexCount_)
+        throw std::invalid_argument("SolidMesh: a shape of another number of vertices");
+    write(mesh);
+}
+
+void SolidMesh::write(const scene::Mesh& mesh) {
     minimum_ = glm::vec3(INFINITY);
     maximum_ = glm::vec3(-INFINITY);
     std::vector<Vertex> vertices;
@@ -29,15 +48,9 @@ SolidMesh::SolidMesh(gpu::Device& device, const scene::Solid& solid) : layout_(d
         minimum_ = glm::min(minimum_, mesh.positions[i]);
         maximum_ = glm::max(maximum_, mesh.positions[i]);
     }
+    radius_ = 0;
     for (const glm::vec3& position : mesh.positions) radius_ = std::max(radius_, glm::distance(position, centre()));
-
-    vertices_ = gpu::Buffer(device, "solid vertices", std::span<const Vertex>(vertices));
-    indices_ = gpu::Buffer(device, "solid indices", std::span<const std::uint32_t>(mesh.indices));
-    indexCount_ = static_cast<int>(mesh.indices.size());
-    layout_.attribute(0, 3, vertices_, sizeof(Vertex), offsetof(Vertex, position));
-    layout_.attribute(1, 3, vertices_, sizeof(Vertex), offsetof(Vertex, normal));
-    layout_.attribute(2, 3, vertices_, sizeof(Vertex), offsetof(Vertex, colour));
-    layout_.indices(indices_);
+    vertices_.write(std::span<const Vertex>(vertices));
 }
 
 void SolidMesh::draw(const gpu::Program& program, const gpu::DrawState& state, int instances) const {

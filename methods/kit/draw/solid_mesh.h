@@ -17,6 +17,9 @@ class DUSTBENCH_API SolidMesh {
  public:
     SolidMesh(gpu::Device& device, const scene::Solid& solid);
 
+    /// Another shape of as many vertices, with the same triangles. Throws std::invalid_argument for other numbers.
+    void reshape(const scene::Mesh& mesh);
+
     void draw(const gpu::Program& program, const gpu::DrawState& state, int instances = 1) const;
 
     [[nodiscard]] const glm::vec3& minimum() const { return minimum_; }
@@ -26,9 +29,12 @@ class DUSTBENCH_API SolidMesh {
     [[nodiscard]] float radiusMetres() const { return radius_; }
 
  private:
+    void write(const scene::Mesh& mesh);
+
     gpu::Buffer vertices_;
     gpu::Buffer indices_;
     gpu::VertexArray layout_;
+    std::size_t vertexCount_;
     int indexCount_ = 0;
     glm::vec3 minimum_{0};
     glm::vec3 maximum_{0};

@@ -8,7 +8,7 @@
 namespace dustbench::library {
 
 /// Changes with every change of contract or kit that a library built before does not survive.
-inline constexpr std::uint32_t methodApi = 2;
+inline constexpr std::uint32_t methodApi = 3;
 
 /// `api` stays first in every version.
 struct MethodEntry {

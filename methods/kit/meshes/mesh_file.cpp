@@ -1,10 +1,12 @@
 #include "methods/kit/meshes/mesh_file.h"
 
+#include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFloatArray.h>
 #include <vtkIdList.h>
+#include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -144,8 +146,20 @@ glm::vec3 linearColour(vtkUnsignedCharArray& colours, vtkIdType index) {
     return colour;
 }
 
-scene::Mesh convert(vtkPolyData& surface, const glm::vec3& colour) {
+constexpr const char* pointName = "point";
+
+/// Numbers the points, so that it is known which of them each vertex comes from.
+void numberPoints(vtkPolyData& surface) {
+    vtkNew<vtkIdTypeArray> numbers;
+    numbers->SetName(pointName);
+    for (vtkIdType i = 0; i < surface.GetNumberOfPoints(); ++i) numbers->InsertNextValue(i);
+    surface.GetPointData()->AddArray(numbers);
+}
+
+/// `points`: gets the number of each vertex, if the surface's points are numbered.
+scene::Mesh convert(vtkPolyData& surface, const glm::vec3& colour, std::vector<std::size_t>* points = nullptr) {
     scene::Mesh mesh;
+    auto* numbers = vtkIdTypeArray::SafeDownCast(surface.GetPointData()->GetArray(pointName));
     vtkDataArray* normals = surface.GetPointData()->GetNormals();
     vtkUnsignedCharArray* colours = coloursOf(*surface.GetPointData());
     vtkUnsignedCharArray* faceColours = colours ? nullptr : coloursOf(*surface.GetCellData());
@@ -154,6 +168,7 @@ scene::Mesh convert(vtkPolyData& surface, const glm::vec3& colour) {
         const glm::vec3 normal = tuple(*normals, i);
         mesh.normals.push_back(glm::length(normal) > 0 ? glm::normalize(normal) : glm::vec3(0, 1, 0));
         mesh.colours.push_back(own);
+        if (points && numbers) points->push_back(static_cast<std::size_t>(numbers->GetValue(i)));
     };
     if (!faceColours)
         for (vtkIdType i = 0; i < surface.GetNumberOfPoints(); ++i)
@@ -173,19 +188,51 @@ scene::Mesh convert(vtkPolyData& surface, const glm::vec3& colour) {
     return mesh;
 }
 
+/// With normals, which are computed where the file has none.
+vtkSmartPointer<vtkPolyData> withNormals(vtkSmartPointer<vtkPolyData> surface) {
+    if (surface->GetPointData()->GetNormals()) return surface;
+    vtkNew<vtkPolyDataNormals> normals;
+    normals->SetInputData(surface);
+    normals->SetFeatureAngle(creaseDegrees);
+    normals->ConsistencyOff();  // the winding defines the outside
+    normals->Update();
+    return normals->GetOutput();
+}
+
+/// Throws InputError unless both have the same polygons.
+void requireSamePolygons(const Polygons& rest, const std::filesystem::path& restFile, const Polygons& target,
+                         const std::filesystem::path& targetFile) {
+    if (target.positions.size() != rest.positions.size() || target.size() != rest.size())
+        throw InputError(fmt::format(
+            "{}: got {} points and {} faces, expected {} and {}, as {} has, whose target it is", targetFile.string(),
+            target.positions.size(), target.size(), rest.positions.size(), rest.size(), restFile.string()));
+    for (std::size_t face = 0; face < rest.size(); ++face)
+        if (!std::ranges::equal(rest[face], target[face]))
+            throw InputError(
+                fmt::format("{}: face {} has other corners than in {}, whose target it is, expected the same",
+                            targetFile.string(), face + 1, restFile.string()));
+}
+
 }  // namespace
 
 scene::Mesh readMesh(const std::filesystem::path& file, const glm::vec3& colour) {
-    vtkSmartPointer<vtkPolyData> surface = surfaceOf(readPolygons(file));
-    if (!surface->GetPointData()->GetNormals()) {
-        vtkNew<vtkPolyDataNormals> normals;
-        normals->SetInputData(surface);
-        normals->SetFeatureAngle(creaseDegrees);
-        normals->ConsistencyOff();  // the winding defines the outside
-        normals->Update();
-        surface = normals->GetOutput();
+    return convert(*withNormals(surfaceOf(readPolygons(file))), colour);
+}
+
+MorphMesh readMorphMesh(const std::filesystem::path& file, std::span<const std::filesystem::path> targets,
+                        const glm::vec3& colour) {
+    const Polygons rest = readPolygons(file);
+    const vtkSmartPointer<vtkPolyData> surface = surfaceOf(rest);
+    numberPoints(*surface);
+    std::vector<std::size_t> points;
+    MorphMesh morph{convert(*withNormals(surface), colour, &points), {}};
+    for (const std::filesystem::path& targetFile : targets) {
+        const Polygons target = readPolygons(targetFile);
+        requireSamePolygons(rest, file, target, targetFile);
+        std::vector<glm::vec3>& offsets = morph.offsets.emplace_back();
+        for (const std::size_t point : points) offsets.push_back(target.positions[point] - rest.positions[point]);
     }
-    return convert(*surface, colour);
+    return morph;
 }
 
 }  // namespace dustbench::meshes

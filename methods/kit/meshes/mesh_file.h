@@ -6,8 +6,10 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <span>
 
 #include "methods/contract/solid.h"
+#include "methods/kit/meshes/morph_mesh.h"
 
 namespace dustbench::meshes {
 
@@ -15,5 +17,10 @@ namespace dustbench::meshes {
 /// vertex or face colours of a PLY file (8 bit, sRGB), else `colour`. Limits: kit/files/limits.h. Throws InputError
 /// with the file and the reason.
 [[nodiscard]] DUSTBENCH_API scene::Mesh readMesh(const std::filesystem::path& file, const glm::vec3& colour);
+
+/// The same with morph targets: files with the same polygons whose points lie elsewhere. Throws InputError for others.
+[[nodiscard]] DUSTBENCH_API MorphMesh readMorphMesh(const std::filesystem::path& file,
+                                                    std::span<const std::filesystem::path> targets,
+                                                    const glm::vec3& colour);
 
 }  // namespace dustbench::meshes

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 
 #include "methods/contract/errors.h"
@@ -100,6 +101,80 @@ std::optional<TriangleTree::Hit> TriangleTree::firstHit(const glm::vec3& from, c
     if (height < 0) normal = -normal;
     const double share = towards != 0 ? std::clamp(-height / towards, 0.0, 1.0) : 0.0;
     return Hit{static_cast<float>(share), glm::vec3(normal)};
+}
+
+namespace {
+
+/// Weights of the point of a triangle that is nearest to p: of its plane if that lies within, else of an edge.
+glm::dvec3 nearestOn(const std::array<glm::vec3, 3>& corners, const glm::dvec3& p) {
+    const std::array<glm::dvec3, 3> v{glm::dvec3(corners[0]), glm::dvec3(corners[1]), glm::dvec3(corners[2])};
+    const glm::dvec3 n = glm::cross(v[1] - v[0], v[2] - v[0]);
+    const double area = glm::dot(n, n);
+    if (area > 0) {
+        const auto share = [&](int a, int b) {
+            const auto from = v[static_cast<std::size_t>(a)], to = v[static_cast<std::size_t>(b)];
+            return glm::dot(glm::cross(to - from, p - from), n) / area;
+        };
+        const glm::dvec3 weights(share(1, 2), share(2, 0), share(0, 1));
+        if (glm::all(glm::greaterThanEqual(weights, glm::dvec3(0)))) return weights;
+    }
+    glm::dvec3 best(1, 0, 0);
+    double nearest = INFINITY;
+    for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3;
+        const auto from = v[static_cast<std::size_t>(a)], way = v[static_cast<std::size_t>(b)] - from;
+        const double square = glm::dot(way, way);
+        const double along = square > 0 ? std::clamp(glm::dot(p - from, way) / square, 0.0, 1.0) : 0.0;
+        const double distance = glm::distance(p, from + along * way);
+        if (distance >= nearest) continue;
+        nearest = distance;
+        best = glm::dvec3(0);
+        best[a] = 1 - along;
+        best[b] = along;
+    }
+    return best;
+}
+
+struct NearestQuery {
+    const std::vector<std::array<glm::vec3, 3>>& corners;
+    glm::dvec3 point;
+    std::optional<TriangleTree::Nearest> found{};
+};
+
+bool takeNearer(RTCPointQueryFunctionArguments* arguments) {
+    auto& query = *static_cast<NearestQuery*>(arguments->userPtr);
+    const auto& corners = query.corners[arguments->primID];
+    const glm::dvec3 weights = nearestOn(corners, query.point);
+    const glm::dvec3 place =
+        weights.x * glm::dvec3(corners[0]) + weights.y * glm::dvec3(corners[1]) + weights.z * glm::dvec3(corners[2]);
+    const double distance = glm::distance(place, query.point);
+    const std::size_t triangle = arguments->primID;
+    if (query.found && (distance > query.found->distanceMetres ||
+                        (distance == query.found->distanceMetres && triangle > query.found->triangle)))
+        return false;
+    query.found = {triangle, weights, distance};
+    // A little more, so that no triangle at the same distance is passed over by the rounding of floats.
+    const auto radius = static_cast<float>(1.0001 * distance) + 1e-6f;
+    if (radius >= arguments->query->radius) return false;
+    arguments->query->radius = radius;
+    return true;
+}
+
+}  // namespace
+
+std::optional<TriangleTree::Nearest> TriangleTree::nearest(const glm::vec3& point, float radiusMetres) const {
+    if (corners_.empty()) return std::nullopt;
+    RTCPointQuery query{};
+    query.x = point.x;
+    query.y = point.y;
+    query.z = point.z;
+    query.radius = 1.0001f * radiusMetres + 1e-6f;
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    NearestQuery own{corners_, glm::dvec3(point)};
+    rtcPointQuery(embree_->scene, &query, &context, takeNearer, &own);
+    if (own.found && own.found->distanceMetres > static_cast<double>(radiusMetres)) return std::nullopt;
+    return own.found;
 }
 
 std::size_t TriangleTree::bytes() const {

@@ -1,8 +1,8 @@
-// Triangles in a tree that finds the first one that a segment meets.
+// Triangles in a tree that finds the first one that a segment meets, and the one nearest to a point.
 //
 // Units: metres. Frame: world. Owns: the tree (Embree's) and a copy of the triangles. Threads: const members are safe
-// from any. Embree finds the triangle; where it is met is computed here in double precision, because Embree's own
-// arithmetic differs from processor to processor, and the state must not.
+// from any. Embree finds the triangle; where it is met or nearest is computed here in double precision, because
+// Embree's own arithmetic differs from processor to processor, and the state must not.
 #pragma once
 
 #include <array>
@@ -33,6 +33,15 @@ class DUSTBENCH_API TriangleTree {
         glm::vec3 normal;  ///< unit, towards `from`
     };
     [[nodiscard]] std::optional<Hit> firstHit(const glm::vec3& from, const glm::vec3& to) const;
+
+    /// The point of a triangle, in the order in which they were added: Σ weights·corner.
+    struct Nearest {
+        std::size_t triangle;
+        glm::dvec3 weights;
+        double distanceMetres;
+    };
+    /// The nearest point within the radius; of equal ones that of the first triangle.
+    [[nodiscard]] std::optional<Nearest> nearest(const glm::vec3& point, float radiusMetres) const;
 
     [[nodiscard]] std::size_t triangles() const { return corners_.size(); }
     /// Of the triangles, and of Embree's tree as Embree counts it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "methods/kit/particles/ground_surface.h"
 
@@ -91,28 +92,59 @@ void SceneSurface::Carried::moveTo(const glm::dmat4& toWorld, const glm::dvec3& 
     }
 }
 
+SceneSurface::LocalWay SceneSurface::Carried::toLocal(const Meeting& way) const {
+    LocalWay seen{frame.toLocal(way.from, way.seconds), frame.toLocal(way.to, 0)};
+    if (!deformation) return seen;
+    seen.deforming = deformation->velocityNear(seen.from, way.seconds, glm::distance(seen.from, seen.to));
+    seen.from += way.seconds * seen.deforming;
+    return seen;
+}
+
 void SceneSurface::build(const scene::Scene& scene) {
     scene_ = &scene;
-    solids_ = meshes::TriangleTree();
-    body_ = meshes::TriangleTree();
-    solidsBox_ = Box();
     carried_.clear();
-    if (parts_.solids)
-        for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-            const glm::mat4& toWorld = scene.solidPoses[i].toWorld;
-            solids_.add(*scene.solids[i].mesh, toWorld);
-            for (const glm::vec3& point : scene.solids[i].mesh->positions)
-                solidsBox_.take(glm::vec3(toWorld * glm::vec4(point, 1)));
-        }
+    standing_.reset();
+    if (parts_.solids) addMovingSolids(scene);
+    if (parts_.vehicle && scene.vehicle) addVehicle(*scene.vehicle);
+}
+
+void SceneSurface::buildStill(const scene::SceneState& state) {
+    solids_ = meshes::TriangleTree();
+    solidsBox_ = Box();
+    for (std::size_t i = 0; parts_.solids && i < scene_->solids.size(); ++i) {
+        if (scene_->solids[i].motion != scene::SolidMotion::still && !standing_->contains(i)) continue;
+        const scene::Mesh& mesh = scene::solidMesh(*scene_, state, i);
+        const glm::mat4& toWorld = scene::solidPose(*scene_, state, i).toWorld;
+        solids_.add(mesh, toWorld);
+        for (const glm::vec3& point : mesh.positions) solidsBox_.take(glm::vec3(toWorld * glm::vec4(point, 1)));
+    }
     solids_.build();
-    if (!parts_.vehicle || !scene.vehicle) return;
-    if (const auto& mesh = scene.vehicle->body.mesh) {
-        body_.add(*mesh, glm::mat4(1));
+}
+
+void SceneSurface::addMovingSolids(const scene::Scene& scene) {
+    for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+        if (scene.solids[i].motion == scene::SolidMotion::still) continue;
+        Carried& carried = carried_.emplace_back();
+        carried.solid = i;
+        if (scene.solids[i].motion == scene::SolidMotion::deforms) {
+            carried.deformation.emplace();
+            continue;
+        }
+        const scene::Mesh& mesh = *scene.solids[i].mesh;
+        carried.rigid.add(mesh, glm::mat4(1));
+        carried.rigid.build();
+        for (const glm::vec3& point : mesh.positions) carried.local.take(point);
+    }
+}
+
+void SceneSurface::addVehicle(const scene::VehicleModel& vehicle) {
+    if (const auto& mesh = vehicle.body.mesh) {
         Carried& body = carried_.emplace_back();
+        body.rigid.add(*mesh, glm::mat4(1));
+        body.rigid.build();
         for (const glm::vec3& point : mesh->positions) body.local.take(point);
     }
-    body_.build();
-    const scene::VehicleParameters& numbers = scene.vehicle->parameters;
+    const scene::VehicleParameters& numbers = vehicle.parameters;
     for (std::size_t i = 0; i < 4; ++i) {
         Carried& wheel = carried_.emplace_back();
         wheel.radiusMetres = static_cast<float>(numbers.wheelRadiusMetres);
@@ -122,39 +154,65 @@ void SceneSurface::build(const scene::Scene& scene) {
     }
 }
 
-void SceneSurface::moveVehicle(const Step& step) {
-    vehicleBox_ = Box();
+void SceneSurface::moveSolid(Carried& carried, const Step& step) {
+    const std::size_t number = *carried.solid;
+    const scene::SolidPose& pose = scene::solidPose(step.scene, step.state, number);
+    if (carried.deformation) {
+        if (number >= step.state.solids.size() || !step.state.solids[number].shape)
+            throw std::invalid_argument("SceneSurface: a solid that deforms has no shape at this moment");
+        carried.deformation->moveTo(step.state.solids[number].shape, step.seconds);
+        carried.local = Box();
+        for (const glm::vec3& point : carried.deformation->positionsAtBegin()) carried.local.take(point);
+        for (const glm::vec3& point : carried.deformation->positionsAtEnd()) carried.local.take(point);
+    }
+    carried.moveTo(glm::dmat4(pose.toWorld), glm::dvec3(pose.velocity), step.seconds);
+    carried.stands =
+        carried.frame.atBegin() == carried.frame.atEnd() &&
+        (!carried.deformation || carried.deformation->positionsAtBegin() == carried.deformation->positionsAtEnd());
+}
+
+void SceneSurface::moveCarried(const Step& step) {
+    carriedBox_ = Box();
     const scene::VehicleState& state = step.state.vehicle;
     std::size_t number = 0;
     for (Carried& each : carried_) {
-        if (each.radiusMetres > 0) {
+        if (each.solid) {
+            moveSolid(each, step);
+        } else if (each.radiusMetres > 0) {
             const scene::WheelState& wheel = state.wheels[number++];
             each.moveTo(wheelFrame(wheel, state.up), wheel.velocity, step.seconds);
             each.spin = {0, 0, -static_cast<float>(wheel.spinRate)};
         } else {
             each.moveTo(state.toWorld(), state.forward() * state.speed, step.seconds);
         }
-        vehicleBox_.take(each.swept);
+        if (!each.stands) carriedBox_.take(each.swept);
     }
 }
 
 void SceneSurface::begin(const Step& step) {
     if (scene_ != &step.scene) build(step.scene);
-    moveVehicle(step);
+    moveCarried(step);
+    std::set<std::size_t> standing;
+    for (const Carried& each : carried_)
+        if (each.stands) standing.insert(*each.solid);
+    if (standing_ != standing) {
+        standing_ = std::move(standing);
+        buildStill(step.state);
+    }
     extentMetres_ = 0;
     if (solids_.triangles() > 0)
         extentMetres_ = std::max(sumOfSizes(solidsBox_.minimum), sumOfSizes(solidsBox_.maximum));
-    if (!carried_.empty())
-        extentMetres_ = std::max({extentMetres_, sumOfSizes(vehicleBox_.minimum), sumOfSizes(vehicleBox_.maximum)});
+    if (std::ranges::any_of(carried_, [](const Carried& each) { return !each.stands; }))
+        extentMetres_ = std::max({extentMetres_, sumOfSizes(carriedBox_.minimum), sumOfSizes(carriedBox_.maximum)});
 }
 
 SceneSurface::Found SceneSurface::findOn(const Carried& carried, const Meeting& way) const {
-    const glm::vec3 from = carried.frame.toLocal(way.from, way.seconds), to = carried.frame.toLocal(way.to, 0);
+    const auto [from, to, deforming] = carried.toLocal(way);
     if (carried.radiusMetres > 0) {
         const CylinderHit hit = meetCylinder(from, to, carried.radiusMetres, carried.halfWidthMetres);
         return {hit.share, &carried, hit.normal};
     }
-    const auto hit = body_.firstHit(from, to);
+    const auto hit = carried.tree().firstHit(from, to);
     return hit ? Found{hit->share, &carried, hit->normal} : Found{};
 }
 
@@ -167,9 +225,9 @@ SceneSurface::Found SceneSurface::find(const Meeting& way, float groundShare) co
     if (solids_.triangles() > 0 && solidsBox_.meets(way.from, way.to))
         if (const auto hit = solids_.firstHit(way.from, way.to); hit && hit->share < first.share)
             first = {hit->share, nullptr, hit->normal};
-    if (carried_.empty() || !vehicleBox_.meets(way.from, way.to)) return first;
+    if (carried_.empty() || !carriedBox_.meets(way.from, way.to)) return first;
     for (const Carried& each : carried_) {
-        if (!each.swept.meets(way.from, way.to)) continue;
+        if (each.stands || !each.swept.meets(way.from, way.to)) continue;
         if (const Found found = findOn(each, way); found.share < first.share) first = found;
     }
     return first;
@@ -182,7 +240,7 @@ void SceneSurface::meet(const Ways& ways, float* share) const {
         std::fill_n(share, ways.count, none);
     for (std::size_t i = 0; i < ways.count; ++i) {
         const glm::vec3 from = ways.from(i), to = ways.to(i);
-        if (solidsBox_.meets(from, to) || vehicleBox_.meets(from, to))
+        if (solidsBox_.meets(from, to) || carriedBox_.meets(from, to))
             share[i] = find({from, to, ways.seconds[i], none}, share[i]).share;
     }
 }
@@ -195,13 +253,26 @@ Touch SceneSurface::touchAt(const Meeting& way) const {
     const Found found = find(way, groundShare);
     if (!found.carried) return {way.point(), found.normal};
     const CarriedFrame& frame = found.carried->frame;
-    const glm::vec3 from = frame.toLocal(way.from, way.seconds), to = frame.toLocal(way.to, 0);
-    const glm::vec3 local = from + way.share * (to - from);
+    const LocalWay localWay = found.carried->toLocal(way);
+    const glm::vec3 local = localWay.at(way.share);
     const float left = way.seconds * (1 - way.share);
     const glm::vec3 turning = glm::cross(found.carried->spin, local);
-    return {frame.toWorld(local, left), frame.directionToWorld(found.normal, left),
-            frame.velocityOf(local) +
-                (turning == glm::vec3(0) ? turning : glm::length(turning) * frame.directionToWorld(turning, left))};
+    const glm::vec3 ofFrame =
+        frame.velocityOf(local) +
+        (turning == glm::vec3(0) ? turning : glm::length(turning) * frame.directionToWorld(turning, left));
+    if (!found.carried->deformation)
+        return {frame.toWorld(local, left), frame.directionToWorld(found.normal, left), ofFrame};
+    // The place is that at the step's end. At the contact the surface was where its deformation had brought it by then.
+    const glm::vec3 deforming = found.carried->deformation->velocityOfPointAtEnd(local);
+    return {frame.toWorld(local - left * deforming, left), frame.directionToWorld(found.normal, left),
+            ofFrame + glm::mat3(glm::mat4(frame.atEnd())) * deforming};
+}
+
+std::size_t SceneSurface::bytes() const {
+    std::size_t bytes = solids_.bytes();
+    for (const Carried& each : carried_)
+        if (each.radiusMetres == 0) bytes += each.deformation ? each.deformation->bytes() : each.rigid.bytes();
+    return bytes;
 }
 
 }  // namespace dustbench::particles

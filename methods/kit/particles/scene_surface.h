@@ -1,15 +1,18 @@
 // What a scene holds as one surface: its ground, its solids, and the moving vehicle.
 //
-// Ground and wheels are met from outside; the triangles of solids and of the vehicle's body from both sides. A wheel is
-// the cylinder of its outline, whatever its spokes, and turns: its surface moves with its spin. Panels are not met.
+// Ground and wheels are met from outside; the triangles of solids and of the vehicle's body from both sides. Solids
+// that move or deform do so during the step, as the vehicle does. A wheel is the cylinder of its outline, whatever its
+// spokes, and turns: its surface moves with its spin. Panels are not met.
 //
 // Units: m, m/s, s. Frame: world. Owns: the triangles' trees. Threads: `meet` and `touchAt` are safe from any.
 #pragma once
 
 #include <optional>
+#include <set>
 
 #include "methods/kit/meshes/triangle_tree.h"
 #include "methods/kit/particles/carried_frame.h"
+#include "methods/kit/particles/deformation.h"
 #include "methods/kit/particles/surface.h"
 
 namespace dustbench::particles {
@@ -27,7 +30,7 @@ class SceneSurface final : public Surface {
     void meet(const Ways& ways, float* share) const override;
     [[nodiscard]] Touch touchAt(const Meeting& meeting) const override;
     [[nodiscard]] float extentMetres() const override { return extentMetres_; }
-    [[nodiscard]] std::size_t bytes() const override { return solids_.bytes() + body_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const override;
 
  private:
     struct Box {
@@ -36,31 +39,51 @@ class SceneSurface final : public Surface {
         void take(const Box& other);
         [[nodiscard]] bool meets(const glm::vec3& from, const glm::vec3& to) const;
     };
-    /// The vehicle's body or a wheel.
+    /// A way as something that moves sees it at the step's end.
+    struct LocalWay {
+        glm::vec3 from, to;
+        glm::vec3 deforming{0};  ///< velocity of the surface by its deformation, in the frame
+
+        [[nodiscard]] glm::vec3 at(float share) const { return from + share * (to - from); }
+    };
+    /// The vehicle's body, a wheel, or a solid that moves.
     struct Carried {
-        CarriedFrame frame;
-        Box local, swept;        ///< `swept`: on its way through the step
+        std::optional<std::size_t> solid{};  ///< its number
+        bool stands = false;                 ///< a solid that does not move in this step: one of `solids_`
+        CarriedFrame frame{};
+        Box local{}, swept{};    ///< `swept`: on its way through the step
         glm::vec3 spin{0};       ///< rad/s about the origin, in the frame that does not spin
-        float radiusMetres = 0;  ///< of a wheel; 0: the body
+        float radiusMetres = 0;  ///< of a wheel; 0: another
         float halfWidthMetres = 0;
+        meshes::TriangleTree rigid{};
+        std::optional<Deformation> deformation{};
 
         void moveTo(const glm::dmat4& toWorld, const glm::dvec3& velocity, double stepSeconds);
+        [[nodiscard]] const meshes::TriangleTree& tree() const {
+            return deformation ? deformation->treeAtEnd() : rigid;
+        }
+        [[nodiscard]] LocalWay toLocal(const Meeting& way) const;
     };
     struct Found {
         float share = none;
-        const Carried* carried = nullptr;  ///< null: ground or solids
+        const Carried* carried = nullptr;  ///< null: ground or a still solid
         glm::vec3 normal{0, 1, 0};         ///< in the frame of what was met
     };
 
     void build(const scene::Scene& scene);
-    void moveVehicle(const Step& step);
+    void buildStill(const scene::SceneState& state);
+    void addMovingSolids(const scene::Scene& scene);
+    void addVehicle(const scene::VehicleModel& vehicle);
+    void moveCarried(const Step& step);
+    void moveSolid(Carried& carried, const Step& step);
     [[nodiscard]] Found find(const Meeting& way, float groundShare) const;
     [[nodiscard]] Found findOn(const Carried& carried, const Meeting& way) const;
 
     SceneParts parts_;
-    const scene::Scene* scene_ = nullptr;  ///< what was built
-    meshes::TriangleTree solids_, body_;
-    Box solidsBox_, vehicleBox_;
+    const scene::Scene* scene_ = nullptr;            ///< what was built
+    meshes::TriangleTree solids_;                    ///< those that are still, or stand in this step
+    std::optional<std::set<std::size_t>> standing_;  ///< of those that can move, the ones in `solids_`
+    Box solidsBox_, carriedBox_;
     std::vector<Carried> carried_;
     float extentMetres_ = 0;
 };

@@ -1,0 +1,56 @@
+// The solids of a scene and the plates of its panels, as they stand at one moment, with the ground that their shadows
+// reach.
+//
+// Units: metres. Frame: world. Owns: their meshes on the GPU.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "methods/contract/scene.h"
+#include "methods/kit/draw/ground_lattice.h"
+#include "methods/kit/draw/solid_mesh.h"
+#include "methods/kit/gpu/device.h"
+
+namespace dustbench::draw {
+
+struct PlacedSolid {
+    std::shared_ptr<SolidMesh> mesh;  ///< shared by all solids of the same shape
+    bool castsOnly = false;           ///< drawn elsewhere
+    glm::mat4 toWorld{1};
+    glm::dvec3 centre{0};
+    double radiusMetres = 0;
+    std::vector<GroundRectangle> footprints{};              ///< the ground that its shadow can reach
+    std::optional<std::size_t> moving{};                    ///< its number in the scene, if it moves
+    std::shared_ptr<const scene::DeformedMesh> deformed{};  ///< the shape that it has, if it deforms
+
+    [[nodiscard]] bool touches(const glm::dvec3& place, double reachMetres) const {
+        return glm::distance(place, centre) - radiusMetres < reachMetres;
+    }
+};
+
+class PlacedSolids {
+ public:
+    /// `scene` must outlive it. Throws std::invalid_argument if a solid lacks its pose.
+    PlacedSolids(const scene::Scene& scene, gpu::Device& device);
+
+    /// False if nothing has moved since the last moment.
+    bool moveTo(const scene::SceneState& state);
+
+    [[nodiscard]] const std::vector<PlacedSolid>& all() const { return all_; }
+    /// Of all of them; none overlaps another.
+    [[nodiscard]] const std::vector<GroundRectangle>& footprints() const { return footprints_; }
+
+ private:
+    void add(const scene::Mesh& shape, const glm::mat4& pose, PlacedSolid solid);
+    void place(PlacedSolid& solid, const scene::Mesh& shape, const glm::mat4& pose);
+    void joinFootprints();
+
+    const scene::Scene& scene_;
+    std::vector<PlacedSolid> all_;
+    std::vector<GroundRectangle> footprints_;
+};
+
+}  // namespace dustbench::draw
