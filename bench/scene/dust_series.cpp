@@ -49,7 +49,7 @@ void requireSeries(const std::vector<DustMoment>& moments) {
 
 DustSeries DustSeries::read(const std::filesystem::path& path, const std::string& columns) {
     try {
-        DustFiles read = readDustFiles(path, DustColumns::parse(columns));
+        DustFiles read = readDustFiles(path, DustColumns::parse(columns), !columns.empty());
         DustSeries series(std::move(read.moments));
         series.files_ = std::move(read.files);
         return series;
