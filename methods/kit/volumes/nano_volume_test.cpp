@@ -1,5 +1,6 @@
 // Volumes that NanoVDB's own functions made and wrote. Apart from volume_file_test.cpp, for its headers are slow.
 #define NANOVDB_USE_ZIP
+#define NANOVDB_USE_BLOSC
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nanovdb/util/IO.h>
@@ -57,6 +58,7 @@ TEST(NanoVolume, ReadsTheFogThatNanoVdbMadeInAllItsFormsOfFloats) {
     const TestFolder folder;
     expectRead<float>(folder, Codec::NONE);
     expectRead<float>(folder, Codec::ZIP);
+    expectRead<float>(folder, Codec::BLOSC);
     expectRead<nanovdb::Fp8>(folder, Codec::NONE);
     expectRead<nanovdb::FpN>(folder, Codec::ZIP);
 }
