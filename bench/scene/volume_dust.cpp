@@ -158,6 +158,7 @@ std::vector<DustMoment> dustOfVolume(const volumes::VolumeSeries& series, const 
         moment.timeSeconds = grids[m].timeSeconds;
         moment.hasIds = true;
         moment.hasVelocity = hasVelocity;
+        moment.depthsChange = true;
         requireFew(shown.size(), moment.file, setup.blockCells);
         particles += static_cast<double>(shown.size());
         requireDustFits(particles, moment.file);

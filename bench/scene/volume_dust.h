@@ -4,8 +4,8 @@
 //     τ·2π·s² = σ·h³,   s = 0.7·h        h: edge of the cell, σ: its extinction
 //
 // Puffs so wide sum up to an even cloud within 2e-4 where the density is even; the picture differs from that of the
-// volume by O(h²). The cell's place is the particle's id: between two moments its opacity changes evenly, so each
-// moment has also the cells that are filled in the moments beside it, with an opacity of 0.
+// volume by O(h²). The cell's place is the particle's id: between two moments its depth changes evenly, as the cell's
+// density does; so each moment has also the cells that are filled in the moments beside it, with an opacity of 0.
 // Units: m, s. Frame: world. Threads: pure.
 #pragma once
 
