@@ -38,9 +38,9 @@ struct GridPlace {
 }
 
 /// The first cell of `grid` on the lattice of `lead`. Both must lie on one lattice.
-[[nodiscard]] glm::ivec3 firstCell(const GridPlace& lead, const GridPlace& grid);
+[[nodiscard]] DUSTBENCH_API glm::ivec3 firstCell(const GridPlace& lead, const GridPlace& grid);
 /// The cells that both cover together, on one lattice.
-[[nodiscard]] GridPlace together(const GridPlace& a, const GridPlace& b);
+[[nodiscard]] DUSTBENCH_API GridPlace together(const GridPlace& a, const GridPlace& b);
 
 /// Throws InputError unless `grid`, of the file `name`, goes on a series after `before`: later in time, and on the
 /// lattice of `first`, whose file is `firstName`; unless `anyCells` with just its cells.
