@@ -155,7 +155,11 @@ std::vector<std::pair<std::string, Parameter>> fileParameters() {
     std::vector<std::pair<std::string, Parameter>> found;
     for (const MethodInfo& info : methods())
         for (const Parameter& parameter : info.parameters.all())
-            if (!parameter.fileExtension.empty()) found.emplace_back(info.id, parameter);
+            if (!parameter.fileExtension.empty()) {
+                found.emplace_back(info.id, parameter);
+                std::string& extension = found.back().second.fileExtension;
+                extension = extension.substr(0, extension.find('|'));
+            }
     return found;
 }
 

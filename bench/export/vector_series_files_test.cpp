@@ -6,6 +6,7 @@
 
 #include "bench/export/vdb_writer.h"
 #include "bench/export/vti_writer.h"
+#include "methods/kit/files/matching_files.h"
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/testing/test_input_error.h"
 #include "methods/kit/volumes/vector_series.h"
@@ -65,7 +66,7 @@ TEST(VectorSeriesFiles, AreReadAsTheyWereExported) {
         writeGridVdb(gridAt(time), 1, time, folder.path() / (name + ".vdb"));
     }
     for (const char* pattern : {"f*.vti", "f*.vdb"}) {
-        const auto files = volumes::matchingFiles(folder.path() / pattern);
+        const auto files = files::matchingFiles(folder.path() / pattern);
         ASSERT_EQ(files.size(), 2u);
         const volumes::VectorSeries series(files, "velocity");
         EXPECT_EQ(series.firstSeconds(), 2);

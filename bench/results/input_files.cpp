@@ -1,6 +1,7 @@
 #include "bench/results/input_files.h"
 
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/matching_files.h"
 
 namespace dustbench::bench {
 
@@ -8,8 +9,9 @@ std::vector<std::filesystem::path> dataFilesOf(const ParameterValues& parameters
     std::vector<std::filesystem::path> files;
     for (const Parameter& each : parameters.declared().all())
         if (!each.fileExtension.empty())
-            files.push_back(
-                files::findData(each.name, each.dataFolder, parameters.choice(each.name), each.fileExtension));
+            for (std::filesystem::path& file : files::matchingFiles(
+                     files::findData(each.name, each.dataFolder, parameters.choice(each.name), each.fileExtension)))
+                files.push_back(std::move(file));
     return files;
 }
 

@@ -2,88 +2,26 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <iterator>
 
+#include "bench/scene/volume_dust.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
-#include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/input_log.h"
-#include "methods/kit/files/printable.h"
-#include "methods/kit/files/whole_text.h"
+#include "methods/kit/files/limits.h"
+#include "methods/kit/files/matching_files.h"
+#include "methods/kit/volumes/file_series.h"
 #include "methods/kit/volumes/vdb_process.h"
-#include "methods/kit/volumes/vector_series.h"
+#include "methods/kit/volumes/volume_series.h"
 #include "methods/kit/volumes/vtp_file.h"
-#include "methods/kit/volumes/xml_scan.h"
 
 namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* endings = ".vtp, .vdb, .csv, .pvd or .series";
+constexpr const char* endings = ".vtp, .vdb, .nvdb, .vti, .csv, .toml, .pvd or .series";
 constexpr std::size_t bytesPerParticle = 2 * sizeof(std::uint64_t) + 13 * sizeof(float);
-
-struct Entry {
-    fs::path file;
-    std::optional<double> timeSeconds;
-};
-
-/// The files that an index names are relative to it.
-Entry entryOf(const fs::path& index, const std::string& name, std::optional<double> time) {
-    if (name.empty() || !time)
-        throw InputError(index.string() + ": an entry has no file or no time that is a number, expected both");
-    return {index.parent_path() / name, time};
-}
-
-void requireFew(const std::vector<Entry>& entries, const fs::path& path) {
-    if (entries.empty()) throw InputError(path.string() + ": names no files, expected one or more");
-    if (entries.size() > static_cast<std::size_t>(files::limits::dustMoments))
-        throw InputError(fmt::format("{}: names {} files, allowed: {} (limit of dust)", path.string(), entries.size(),
-                                     files::limits::dustMoments));
-}
-
-std::vector<Entry> readPvd(const fs::path& file) {
-    const std::string text = files::wholeText(file, "a .pvd file");
-    std::vector<Entry> entries;
-    try {
-        volumes::XmlScan scan(text);
-        std::optional<volumes::Tag> tag;
-        std::vector<std::string_view> path;
-        bool isCollection = false;
-        for ((void)scan.next(tag); tag; (void)scan.next(tag)) {
-            if (tag->kind == volumes::Tag::Kind::close) {
-                if (path.empty() || path.back() != tag->name) throw volumes::VolumeFault{"its XML is damaged"};
-                path.pop_back();
-                continue;
-            }
-            if (path.empty()) isCollection = tag->name == "VTKFile" && (*tag)["type"] == "Collection";
-            if (!isCollection) throw volumes::VolumeFault{"it is no collection"};
-            if (tag->name == "DataSet")
-                entries.push_back(entryOf(file, std::string((*tag)["file"]), files::numberOf((*tag)["timestep"])));
-            if (tag->kind == volumes::Tag::Kind::open) path.push_back(tag->name);
-        }
-        if (!path.empty() || !isCollection) throw volumes::VolumeFault{"it ends within its XML"};
-    } catch (const volumes::VolumeFault& fault) {
-        throw InputError(fmt::format("{}: not a complete ParaView collection (.pvd): {}", file.string(),
-                                     files::printable(fault.reason)));
-    }
-    return entries;
-}
-
-std::vector<Entry> readSeries(const fs::path& file) {
-    const std::string text = files::wholeText(file, "a .series file");
-    std::vector<Entry> entries;
-    const auto json = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
-    const auto list = json.is_object() ? json.find("files") : json.end();
-    if (!json.is_object() || list == json.end() || !list->is_array())
-        throw InputError(file.string() + ": not a file series (.series): expected an object with an array 'files'");
-    for (const auto& each : *list) {
-        const bool isWhole = each.is_object() && each.contains("name") && each["name"].is_string() &&
-                             each.contains("time") && each["time"].is_number();
-        entries.push_back(isWhole ? entryOf(file, each["name"].get<std::string>(), each["time"].get<double>())
-                                  : entryOf(file, "", {}));
-    }
-    return entries;
-}
 
 InputError tooMany(const fs::path& file, double count) {
     return InputError(fmt::format("{}: has {:.0f} particles, allowed: {} (limit of dust)", file.string(), count,
@@ -124,7 +62,8 @@ void readCsv(const fs::path& file, const DustColumns& columns, std::vector<DustM
     }
 }
 
-void readOne(const Entry& entry, const DustColumns& columns, std::vector<DustMoment>& moments) {
+/// False for a `.vdb` without points.
+bool readOne(const volumes::SeriesEntry& entry, const DustColumns& columns, std::vector<DustMoment>& moments) {
     files::noteInput(entry.file);
     const std::string extension = entry.file.extension();
     const auto wants = [&columns](std::string_view name) { return columns.wants(name); };
@@ -132,7 +71,9 @@ void readOne(const Entry& entry, const DustColumns& columns, std::vector<DustMom
     if (extension == ".vtp") {
         moments.push_back(dustMoment(volumes::readVtp(entry.file, wants), columns, entry.file.string()));
     } else if (extension == ".vdb") {
-        moments.push_back(dustMoment(volumes::readVdbPoints(entry.file, wants), columns, entry.file.string()));
+        const auto points = volumes::findVdbPoints(entry.file, wants);
+        if (!points) return false;
+        moments.push_back(dustMoment(*points, columns, entry.file.string()));
     } else if (extension == ".csv") {
         readCsv(entry.file, columns, moments);
         if (entry.timeSeconds && moments.size() != before + 1)
@@ -141,16 +82,28 @@ void readOne(const Entry& entry, const DustColumns& columns, std::vector<DustMom
         throw InputError(fmt::format("dust: got '{}', expected a file that ends in {}", entry.file.string(), endings));
     }
     if (entry.timeSeconds) moments.back().timeSeconds = entry.timeSeconds;
+    return true;
 }
 
-std::vector<Entry> entriesOf(const fs::path& path) {
-    const std::string extension = path.extension();
-    if (extension == ".pvd") return readPvd(path);
-    if (extension == ".series") return readSeries(path);
-    std::vector<Entry> entries;
-    if (path.filename().string().find('*') == std::string::npos) return {{path, {}}};
-    for (const fs::path& file : volumes::matchingFiles(path)) entries.push_back({file, {}});
-    return entries;
+/// A `.vdb` is one too if it has no points.
+bool isVolume(const fs::path& file) {
+    const std::string extension = file.extension();
+    return extension == ".nvdb" || extension == ".vti" || extension == ".toml";
+}
+
+DustFiles readVolumes(const fs::path& path, bool hasColumns) {
+    if (hasColumns)
+        throw InputError(
+            fmt::format("--dust-columns: got it with the volume {}, allowed: with particles; a .toml says what a "
+                        "volume's fields are",
+                        path.string()));
+    const volumes::VolumeSetup setup = volumes::readVolumeSetup(path);
+    const volumes::VolumeSeries series = volumes::VolumeSeries::read(setup);
+    DustFiles dust{dustOfVolume(series, setup), {}};
+    if (volumes::isIndex(setup.files) && !files::isPattern(setup.files)) dust.files.push_back(setup.files);
+    if (path.extension() == ".toml") dust.files.push_back(path);
+    std::ranges::copy(series.files(), std::back_inserter(dust.files));
+    return dust;
 }
 
 }  // namespace
@@ -164,20 +117,20 @@ void requireDustFits(double particles, const fs::path& path) {
                         path.string(), particles, bytes / 1e9, static_cast<double>(files::limits::dustBytes) / 1e9));
 }
 
-DustFiles readDustFiles(const fs::path& path, const DustColumns& columns) {
-    const std::vector<Entry> entries = entriesOf(path);
-    requireFew(entries, path);
+DustFiles readDustFiles(const fs::path& path, const DustColumns& columns, bool hasColumns) {
+    const bool isIndex = volumes::isIndex(path);
+    const std::vector<volumes::SeriesEntry> entries = volumes::seriesEntries(path, "dust");
     DustFiles dust;
-    if (entries.size() != 1 || entries.front().file != path) {
-        if (path.filename().string().find('*') == std::string::npos) {
-            files::noteInput(path);
-            dust.files.push_back(path);
-        }
-    }
+    if (isVolume(entries.front().file)) return readVolumes(path, hasColumns);
+    if (isIndex && !files::isPattern(path)) dust.files.push_back(path);
     double particles = 0;
-    for (const Entry& entry : entries) {
+    for (const volumes::SeriesEntry& entry : entries) {
         const std::size_t before = dust.moments.size();
-        readOne(entry, columns, dust.moments);
+        if (!readOne(entry, columns, dust.moments)) {
+            if (dust.moments.empty()) return readVolumes(path, hasColumns);
+            throw InputError(fmt::format("{}: has no points, expected some as in {}", entry.file.string(),
+                                         dust.moments.front().file));
+        }
         for (std::size_t i = before; i < dust.moments.size(); ++i)
             particles += static_cast<double>(dust.moments[i].size());
         requireDustFits(particles, path);

@@ -15,9 +15,9 @@ struct DustFiles {
     std::vector<std::filesystem::path> files;  ///< all that were read, the series first
 };
 
-/// `.vtp`, `.vdb`, `.csv`, `.pvd`, `.series`; or several of the first three by a `*` in the file's name. Throws
-/// InputError, one line with the file.
-[[nodiscard]] DustFiles readDustFiles(const std::filesystem::path& path, const DustColumns& columns);
+/// `.vtp`, `.vdb`, `.csv`, `.pvd`, `.series`; or several of the first three by a `*` in the file's name; or a volume,
+/// of which particles are made (volume_dust.h), which has no columns. Throws InputError, one line with the file.
+[[nodiscard]] DustFiles readDustFiles(const std::filesystem::path& path, const DustColumns& columns, bool hasColumns);
 
 /// What the moments take in memory. Throws InputError if it is more than files::limits::dustBytes.
 void requireDustFits(double particles, const std::filesystem::path& path);

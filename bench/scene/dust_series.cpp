@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include "bench/scene/dust_files.h"
@@ -49,7 +50,7 @@ void requireSeries(const std::vector<DustMoment>& moments) {
 
 DustSeries DustSeries::read(const std::filesystem::path& path, const std::string& columns) {
     try {
-        DustFiles read = readDustFiles(path, DustColumns::parse(columns));
+        DustFiles read = readDustFiles(path, DustColumns::parse(columns), !columns.empty());
         DustSeries series(std::move(read.moments));
         series.files_ = std::move(read.files);
         return series;
@@ -177,6 +178,11 @@ void DustSeries::show(double seconds, Store& store) const {
     blend(from.lifetime, &DustMoment::lifetime, stays(from.lifetime), store.lifetime);
     blend(from.radius, &DustMoment::radius, stays(from.radius), store.radius);
     blend(from.opacity, &DustMoment::opacity, stays(from.opacity), store.opacity);
+    if (from.depthsChange && between)
+        for (std::size_t i = 0; i < from.size(); ++i)
+            if (from.next[i] != DustMoment::none)
+                store.opacity[i] = -std::expm1((1 - share) * std::log1p(-from.opacity[i]) +
+                                               share * std::log1p(-to->opacity[from.next[i]]));
     if (!from.hasColour) return;
     blend(from.red, &DustMoment::red, stays(from.red), store.red);
     blend(from.green, &DustMoment::green, stays(from.green), store.green);

@@ -71,9 +71,19 @@ std::optional<std::vector<Change>> parseChanges(std::string_view text) {
     return changes;
 }
 
+/// Of extensions separated by `|`.
+bool endsInOneOf(std::string_view extensions, std::string_view text) {
+    for (;;) {
+        const std::size_t end = extensions.find('|');
+        if (text.ends_with(extensions.substr(0, end))) return true;
+        if (end == std::string_view::npos) return false;
+        extensions.remove_prefix(end + 1);
+    }
+}
+
 bool isFile(const Parameter& parameter, std::string_view text) {
-    const std::string& extension = parameter.fileExtension;
-    return !extension.empty() && (text.find('/') != std::string_view::npos || text.ends_with(extension));
+    const std::string& extensions = parameter.fileExtension;
+    return !extensions.empty() && (text.find('/') != std::string_view::npos || endsInOneOf(extensions, text));
 }
 
 /// The canonical text of a value; empty if the declaration does not allow it.

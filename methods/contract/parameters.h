@@ -39,7 +39,7 @@ struct DUSTBENCH_API Parameter {
     std::vector<std::string> choices;
     std::string unit;
     std::string help;
-    /// For a choice among data files, which also takes a path: their folder in data, and their extension.
+    /// For a choice among data files, or their paths: the folder in data, and the extension, or several: `.vdb|.vti`.
     std::string dataFolder{}, fileExtension{};
 
     /// The allowed values as text: `integer 0..1000000`, `quicksort|radix|none`.
@@ -67,7 +67,7 @@ class DUSTBENCH_API ParameterSet {
                          const Choices<Enumeration>& choices, std::string help) {
         return choice(std::move(name), std::string(choices.wordOf(initial)), choices.words(), std::move(help));
     }
-    /// A name, for `data/<folder>/<name><extension>`, or a file's path, recognised by a '/' or the extension.
+    /// A name, for `data/<folder>/<name><extension>`, or a file's path, known by a '/' or its extension.
     ParameterSet& dataFile(std::string name, std::string initial, std::string folder, std::string extension,
                            std::vector<std::string> names, std::string help);
     /// The number of cells of a grid, `128x64x64`.

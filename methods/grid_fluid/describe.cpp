@@ -4,6 +4,7 @@
 #include "methods/contract/errors.h"
 #include "methods/grid_fluid/grid_fluid.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/raycast/raycast_parameters.h"
 
 namespace dustbench::grid_fluid {
 namespace {
@@ -75,16 +76,7 @@ GridFluidSettings settingsOf(const ParameterValues& values) {
     settings.framesPerStep = static_cast<int>(values.integer("frames_per_step"));
 
     raycast::RaycastSettings& picture = settings.picture;
-    picture.backend = values.choice("backend", raycast::backends);
-    picture.renderer = values.choice("renderer", raycast::renderers);
-    picture.isoDensity = values.real("iso_density");
-    picture.filter = values.choice("filter", raycast::filters);
-    picture.stepCells = values.real("step_cells");
-    picture.jitter = values.boolean("jitter");
-    picture.stopAlpha = values.real("stop_alpha");
-    picture.skipEmpty = values.boolean("skip_empty");
-    const auto shadow = static_cast<int>(values.integer("shadow_cells"));
-    picture.shadowCells = shadow >= 0 ? shadow : setup.look.shadowCells;
+    picture = raycast::raycastSettings(values, setup.look.shadowCells);
     picture.extinctionPerMetre = setup.look.extinctionPerMetre;
     if (!setup.look.fire.empty()) picture.fire = raycast::loadTransferFunction(setup.look.fire);
     return settings;
@@ -122,23 +114,8 @@ MethodInfo describe() {
         .real("cooling", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the heat lost; -1: as the file says")
         .real("decay", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the density lost; -1: as the file says")
         .real("diffusion", asTheFileSays, asTheFileSays, 1000, "m2/s", "viscosity; -1: as the file says")
-        .integer("frames_per_step", 1, 1, 600, "frames", "the fluid takes one long step in so many frames")
-        .choice("backend", raycast::Backend::automatic, raycast::backends,
-                "who casts the rays; auto: the CPU where OpenGL is software")
-        .choice(
-            "renderer", raycast::Renderer::raycast, raycast::renderers,
-            "a march along each pixel's ray; planes across the view; a Gaussian for each cell; or an opaque surface of "
-            "one density")
-        .real("iso_density", 0.5, 1e-6, 1e6, "", "of renderer=isosurface")
-        .choice("filter", raycast::Filter::linear, raycast::filters, "how cells are interpolated")
-        .real("step_cells", 0.5, 0.01, 8, "cells", "length of a ray's steps")
-        .boolean("jitter", true, "shift each pixel's steps by a share of one: noise instead of bands")
-        .real("stop_alpha", 0.99, 0, 1, "", "a ray ends where more than this is covered; 1: never")
-        .boolean("skip_empty", true, "leave out blocks of cells without density")
-        .integer(
-            "shadow_cells", -1, -1, 16, "cells",
-            "the sun's light falls off within the cloud, found in blocks of so many cells; 0: not; -1: as the file "
-            "says");
+        .integer("frames_per_step", 1, 1, 600, "frames", "the fluid takes one long step in so many frames");
+    raycast::declareRaycast(info.parameters);
     info.facts = {
         {"mass_kept", "share", FactOver::lastFrame,
          "share of the particles' optical mass that the method's volume holds after the last frame; dust outside of "

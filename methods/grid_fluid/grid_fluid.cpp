@@ -12,6 +12,7 @@
 #include "methods/grid_fluid/flow/grid_noise.h"
 #include "methods/grid_fluid/fluid_place.h"
 #include "methods/kit/maths/transmittance.h"
+#include "methods/kit/raycast/raycast_parameters.h"
 
 namespace dustbench::grid_fluid {
 namespace {
@@ -41,19 +42,6 @@ GridFluid::GridFluid(GridFluidSettings settings)
       density_(ledger_.account("grid shown")),
       reaction_(ledger_.account("grid shown")) {}
 
-namespace {
-
-/// Throws InputError for a renderer that has no ray of which the phase function could be taken.
-void lightDust(raycast::RaycastSettings& picture, const scene::Scene& scene) {
-    constexpr int blockCells = 2;  // where the fluid's file has no shadows
-    if (picture.renderer == raycast::Renderer::splat)
-        throw InputError("parameter renderer: got splat with light=sun, allowed: raycast, slices, isosurface");
-    if (picture.shadowCells == 0) picture.shadowCells = blockCells;
-    picture.asymmetry = scene.dustAsymmetry;
-}
-
-}  // namespace
-
 void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) {
     scene_ = &scene;
     flow::FluidSettings& solver = settings_.solver;
@@ -71,7 +59,7 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     solids_.emplace(scene, solver.box.cells, ledger_.account("solids"), rays_ ? &*rays_ : nullptr);
     emitters_.emplace(settings_.setup.sources, scene, setup.seed);
     if (!settings_.setup.followsVehicle) requireSourcesInside({});
-    if (scene.lights.onDust) lightDust(settings_.picture, scene);
+    if (scene.lights.onDust) raycast::lightDust(settings_.picture, scene);
     settings_.picture.smokeColour = settings_.setup.look.albedo.value_or(scene.dustAlbedo);
     picture_.emplace(device, settings_.picture, scene.lights, ledger_);
     if (solver_->onGpu() && picture_->takesTextures()) {

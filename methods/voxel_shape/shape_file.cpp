@@ -5,9 +5,9 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/matching_files.h"
 #include "methods/kit/meshes/mesh_file.h"
 #include "methods/kit/meshes/open_edges.h"
-#include "methods/kit/volumes/vector_series.h"
 #include "methods/voxel_shape/voxels/solid_fill.h"
 
 namespace dustbench::voxel_shape {
@@ -210,7 +210,7 @@ void readFlow(TomlReader& file, const std::filesystem::path& folder, Shape& shap
     if (!file.has("flow")) return;
     TomlReader table = file.table("flow");
     for (const std::string& name : table.texts("files")) {
-        const auto found = volumes::matchingFiles(folder / name);
+        const auto found = files::matchingFiles(folder / name);
         shape.flow.files.insert(shape.flow.files.end(), found.begin(), found.end());
     }
     if (shape.flow.files.empty()) throw InputError(table.where("files") + "key 'files': expected at least one file");

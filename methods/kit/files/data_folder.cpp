@@ -10,6 +10,7 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/input_log.h"
+#include "methods/kit/files/matching_files.h"
 #include "methods/kit/files/shipped_folder.h"
 
 namespace dustbench::files {
@@ -19,7 +20,8 @@ namespace {
 constexpr const char* variable = "DUSTBENCH_DATA";
 constexpr char separator = ':';
 /// What a folder of data may hold.
-constexpr std::array<const char*, 7> parts{"scenes", "drives", "particles", "textures", "shapes", "fluids", "suites"};
+constexpr std::array<const char*, 8> parts{"scenes", "drives", "particles", "textures",
+                                           "shapes", "fluids", "volumes",   "suites"};
 
 /// Absolute, so that processes in other folders find it as well.
 fs::path checkedFolder(std::string_view option, const std::string& named) {
@@ -35,6 +37,16 @@ fs::path checkedFolder(std::string_view option, const std::string& named) {
         throw InputError(fmt::format("{}: '{}': holds no data, expected one or more of the folders {}, papers", option,
                                      named, fmt::join(parts, ", ")));
     return folder;
+}
+
+std::vector<std::string_view> eachOf(std::string_view extensions) {
+    std::vector<std::string_view> all;
+    for (;;) {
+        const std::size_t end = extensions.find('|');
+        all.push_back(extensions.substr(0, end));
+        if (end == std::string_view::npos) return all;
+        extensions.remove_prefix(end + 1);
+    }
 }
 
 /// Calls `take` for every entry of `<folder>` in all folders of data.
@@ -96,7 +108,9 @@ std::vector<std::string> listData(std::string_view folder, std::string_view exte
     std::set<std::string> ids;
     forEachEntry(folder, [&](const fs::directory_entry& entry) {
         std::error_code loop;
-        if (entry.is_regular_file(loop) && entry.path().extension() == extension) ids.insert(entry.path().stem());
+        const auto hasIt = [&](std::string_view each) { return entry.path().extension() == each; };
+        if (entry.is_regular_file(loop) && std::ranges::any_of(eachOf(extension), hasIt))
+            ids.insert(entry.path().stem());
     });
     return {ids.begin(), ids.end()};
 }
@@ -111,7 +125,8 @@ std::vector<std::string> listDataFolders(std::string_view folder) {
 }
 
 bool isDataFile(std::string_view nameOrFile, std::string_view extension) {
-    return nameOrFile.find('/') != std::string_view::npos || nameOrFile.ends_with(extension);
+    return nameOrFile.find('/') != std::string_view::npos ||
+           std::ranges::any_of(eachOf(extension), [&](std::string_view each) { return nameOrFile.ends_with(each); });
 }
 
 std::string fromFile(const fs::path& from, const std::string& nameOrFile, std::string_view extension) {
@@ -143,12 +158,18 @@ fs::path findData(std::string_view kind, std::string_view folder, std::string_vi
                   std::string_view extension) {
     if (isDataFile(nameOrFile, extension)) {
         const fs::path file(nameOrFile);
+        if (isPattern(file)) {
+            (void)matchingFiles(file);
+            return file;
+        }
         if (!fs::is_regular_file(file))
             throw InputError(fmt::format("{} file '{}': no such file{}", kind, nameOrFile, nearestBeside(file)));
         noteInput(file);
         return file;
     }
-    const fs::path file = dataPath(fs::path(folder) / fmt::format("{}{}", nameOrFile, extension));
+    fs::path file;
+    for (const std::string_view each : eachOf(extension))
+        if (file.empty()) file = dataPath(fs::path(folder) / fmt::format("{}{}", nameOrFile, each));
     if (file.empty()) throw unknownName(kind, nameOrFile, listData(folder, extension));
     noteInput(file);
     return file;

@@ -28,7 +28,7 @@ DUSTBENCH_API void useDataFolders(std::string_view option, const std::vector<std
 /// `<folder>/<relative>` in the first of dataFolders() that has it; empty where none has.
 [[nodiscard]] DUSTBENCH_API std::filesystem::path dataPath(const std::filesystem::path& relative);
 
-/// Names, without extension, of the files `<folder>/*<extension>` in all dataFolders(), sorted, each once.
+/// Names of the files `<folder>/*<extension>` in all dataFolders(), sorted, each once. `.vdb|.vti` are two extensions.
 [[nodiscard]] DUSTBENCH_API std::vector<std::string> listData(std::string_view folder, std::string_view extension);
 
 /// Names of the folders `<folder>/*/` in all dataFolders(), sorted, each once.
@@ -47,7 +47,7 @@ DUSTBENCH_API void useDataFolders(std::string_view option, const std::vector<std
 [[nodiscard]] DUSTBENCH_API std::filesystem::path fileNamedBy(const std::filesystem::path& from,
                                                               std::string_view folder, const std::string& named);
 
-/// The file that a name of `<folder>` stands for, or the file itself. Throws InputError with the nearest name or file;
+/// The file that a name of `<folder>` stands for, or a path itself. Throws InputError with the nearest name or file;
 /// `kind` is the word for messages: `scene`, `drive`.
 [[nodiscard]] DUSTBENCH_API std::filesystem::path findData(std::string_view kind, std::string_view folder,
                                                            std::string_view nameOrFile, std::string_view extension);

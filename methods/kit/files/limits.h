@@ -24,7 +24,7 @@ inline constexpr std::uintmax_t imageBytes = std::uintmax_t{1} << 30;
 inline constexpr std::int64_t volumeCells = 256'000'000;
 /// Cells of the box around the vectors of a `.vdb`, whose file need not hold them: 1 GB of vectors.
 inline constexpr std::int64_t sparseCells = 89'000'000;
-/// Particles of one moment of dust from a file, and bytes of all its moments in memory: 4 GB.
+/// Particles of one moment of dust from a file, and bytes of all its moments, or a volume's, in memory: 4 GB.
 inline constexpr std::int64_t dustParticles = 10'000'000;
 inline constexpr std::uintmax_t dustBytes = 4'000'000'000;
 /// Moments of dust from files.

@@ -1,13 +1,24 @@
 // What the program that reads a `.vdb` writes to its standard output: this header, then the reason why it reads
 // nothing, or the vectors, three floats a cell, x fastest. Of points, each column is a header and its numbers, as
-// doubles, point by point.
+// doubles, point by point. Of a volume, each field is a header and its floats, cell by cell.
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace dustbench::volumes {
 
 inline constexpr const char* vdbReaderName = "dustbench_vdb_reader";
+/// What its first argument is, or begins with: then names of fields follow (field_request.h).
+inline constexpr const char* pointsMode = "--points";
+inline constexpr const char* volumeMode = "--volume=";
+/// A reason that says what a file of OpenVDB is not.
+inline constexpr const char* noPoints = "it has no grid of points";
+
+/// The reason where what reads ends in any other way than it should.
+[[nodiscard]] inline const char* notWholeOf(std::string_view file) {
+    return file.ends_with(".nvdb") ? "not a whole file of NanoVDB" : "not a whole file of OpenVDB";
+}
 
 struct VdbMessage {
     std::uint64_t reasonBytes = 0;  ///< 0: vectors or columns follow

@@ -6,6 +6,7 @@
 #include "methods/kit/files/limits.h"
 #include "methods/kit/files/printable.h"
 #include "methods/kit/files/whole_text.h"
+#include "methods/kit/volumes/field_request.h"
 #include "methods/kit/volumes/vdb_message.h"
 #include "methods/kit/volumes/vdb_pipe.h"
 
@@ -15,7 +16,6 @@ namespace {
 constexpr const char* notWhole = "not a whole file of OpenVDB";
 constexpr std::uint64_t maximumReason = 1'000;
 constexpr std::int32_t maximumColumns = 1'000;
-constexpr const char* pointsMode = "--points";
 
 std::string readReason(VdbPipe& pipe, std::uint64_t bytes) {
     std::string reason(std::min(bytes, maximumReason), ' ');
@@ -56,36 +56,71 @@ std::string readTable(VdbPipe& pipe, const WantsColumn& wants, PointTable& table
     return pipe.ended() ? "" : notWhole;
 }
 
+/// The reason why there is no grid, or an empty text.
+std::string readPlace(VdbPipe& pipe, std::int64_t maximumCells, VdbMessage& message, GridPlace& place) {
+    if (!pipe.read(&message, sizeof message)) return notWhole;
+    if (message.reasonBytes > 0) return readReason(pipe, message.reasonBytes);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (message.cells[axis] < 1) return notWhole;
+        place.cells[axis] = message.cells[axis];
+        place.origin[axis] = message.origin[axis];
+    }
+    if (cellsOf(place) > static_cast<double>(maximumCells)) return notWhole;
+    place.spacing = message.spacing;
+    if (message.hasTime) place.timeSeconds = message.timeSeconds;
+    place.sparse = true;
+    return "";
+}
+
+/// The reason why there is no volume, or an empty text.
+std::string readAnswer(const std::filesystem::path& file, const VolumeFields& fields, VolumeGrid& grid) {
+    VdbPipe pipe = startVdbReader(volumeMode + textOf(fields), file);
+    VdbMessage message;
+    if (const std::string why = readPlace(pipe, files::limits::volumeCells, message, grid); !why.empty()) return why;
+    if (message.columns < 1 || message.columns > 3) return notWhole;
+    for (std::int32_t i = 0; i < message.columns; ++i) {
+        VdbColumn header;
+        if (!pipe.read(&header, sizeof header)) return notWhole;
+        header.name[sizeof header.name - 1] = 0;
+        const std::string_view name = header.name;
+        const bool isRead = name == "density"       ? readValues(pipe, grid.cellCount(), grid.density)
+                            : name == "temperature" ? readValues(pipe, grid.cellCount(), grid.temperature)
+                                                    : readValues(pipe, grid.cellCount(), grid.velocity);
+        if (!isRead) return notWhole;
+    }
+    return pipe.ended() && !grid.density.empty() ? "" : notWhole;
+}
+
 }  // namespace
 
 std::string readVdb(const std::filesystem::path& file, const std::string& field, VectorGrid& grid) {
     VdbPipe pipe = startVdbReader(file, field);
     VdbMessage message;
-    if (!pipe.read(&message, sizeof message)) return notWhole;
-    if (message.reasonBytes > 0) return readReason(pipe, message.reasonBytes);
-    double count = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (message.cells[axis] < 1) return notWhole;
-        grid.cells[axis] = message.cells[axis];
-        grid.origin[axis] = message.origin[axis];
-        count *= message.cells[axis];
-    }
-    if (count > static_cast<double>(files::limits::sparseCells)) return notWhole;
-    grid.spacing = message.spacing;
-    if (message.hasTime) grid.timeSeconds = message.timeSeconds;
-    grid.sparse = true;
-    return readValues(pipe, static_cast<std::size_t>(count), grid.values) && pipe.ended() ? "" : notWhole;
+    if (const std::string why = readPlace(pipe, files::limits::sparseCells, message, grid); !why.empty()) return why;
+    return readValues(pipe, grid.cellCount(), grid.values) && pipe.ended() ? "" : notWhole;
 }
 
-PointTable readVdbPoints(const std::filesystem::path& file, const WantsColumn& wants) {
+std::string readVdbVolume(const std::filesystem::path& file, const VolumeFields& fields, VolumeGrid& grid) {
+    const std::string why = readAnswer(file, fields, grid);
+    return why == notWhole ? notWholeOf(file.native()) : why;
+}
+
+std::optional<PointTable> findVdbPoints(const std::filesystem::path& file, const WantsColumn& wants) {
     std::string why = files::refusalOf(file, files::limits::geometryBytes);
     PointTable table;
     if (why.empty()) {
         VdbPipe pipe = startVdbReader(pointsMode, file);
         why = readTable(pipe, wants, table);
     }
+    if (why == noPoints) return std::nullopt;
     if (!why.empty()) throw InputError(file.string() + ": " + files::printable(why));
     return table;
+}
+
+PointTable readVdbPoints(const std::filesystem::path& file, const WantsColumn& wants) {
+    std::optional<PointTable> table = findVdbPoints(file, wants);
+    if (!table) throw InputError(file.string() + ": " + noPoints);
+    return *std::move(table);
 }
 
 }  // namespace dustbench::volumes

@@ -9,6 +9,8 @@
 
 #include "methods/kit/volumes/point_table.h"
 #include "methods/kit/volumes/vector_grid.h"
+#include "methods/kit/volumes/volume_grid.h"
+#include "methods/kit/volumes/volume_setup.h"
 
 namespace dustbench::volumes {
 
@@ -16,8 +18,16 @@ namespace dustbench::volumes {
 /// Throws std::runtime_error if the program cannot be started.
 [[nodiscard]] std::string readVdb(const std::filesystem::path& file, const std::string& field, VectorGrid& grid);
 
+/// The density of a `.vdb` or `.nvdb` within the box of its cells, and the other fields in the same cells. Likewise.
+[[nodiscard]] std::string readVdbVolume(const std::filesystem::path& file, const VolumeFields& fields,
+                                        VolumeGrid& grid);
+
 /// The one grid of points; its positions in the world are the column `Points`. Time as above. Throws InputError with
 /// the file and what is wrong, in one line.
 [[nodiscard]] DUSTBENCH_API PointTable readVdbPoints(const std::filesystem::path& file, const WantsColumn& wants);
+
+/// The same; empty if the file has no grid of points.
+[[nodiscard]] DUSTBENCH_API std::optional<PointTable> findVdbPoints(const std::filesystem::path& file,
+                                                                    const WantsColumn& wants);
 
 }  // namespace dustbench::volumes

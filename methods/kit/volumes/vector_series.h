@@ -46,8 +46,4 @@ class DUSTBENCH_API VectorSeries {
     std::vector<VectorGrid> grids_;  ///< all of one place and size, times increase
 };
 
-/// Returns the files that a path stands for, sorted by name; its last part may contain `*`. Throws InputError if there
-/// is none.
-[[nodiscard]] DUSTBENCH_API std::vector<std::filesystem::path> matchingFiles(const std::filesystem::path& pattern);
-
 }  // namespace dustbench::volumes

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "methods/kit/files/matching_files.h"
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/testing/test_input_error.h"
 
@@ -116,12 +117,12 @@ TEST(VectorSeries, RefusesGridsThatDifferAndTimesThatDoNotGrow) {
 TEST(VectorSeries, FindsFilesByAPattern) {
     const TestFolder folder;
     for (const char* name : {"f2.vti", "f1.vti", "g1.vti", "f1.vdb"}) folder.write(name, "");
-    const auto found = matchingFiles(folder.path() / "f*.vti");
+    const auto found = files::matchingFiles(folder.path() / "f*.vti");
     ASSERT_EQ(found.size(), 2u);
     EXPECT_EQ(found.front().filename(), "f1.vti");
-    EXPECT_NE(inputError([&] { (void)matchingFiles(folder.path() / "x*.vti"); }).find("no such file"),
+    EXPECT_NE(inputError([&] { (void)files::matchingFiles(folder.path() / "x*.vti"); }).find("no such file"),
               std::string::npos);
-    EXPECT_NE(inputError([&] { (void)matchingFiles(folder.path() / "x.vti"); }).find("no such file"),
+    EXPECT_NE(inputError([&] { (void)files::matchingFiles(folder.path() / "x.vti"); }).find("no such file"),
               std::string::npos);
 }
 

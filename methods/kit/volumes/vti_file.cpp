@@ -234,8 +234,10 @@ class VtiParser {
     }
 
     void keep() {
-        if (!array_->stored.type || inside() == "PointData") return;
-        std::vector<VtiArray>& arrays = inside() == "CellData" ? file_.cellArrays_ : file_.fieldArrays_;
+        if (!array_->stored.type) return;
+        std::vector<VtiArray>& arrays = inside() == "CellData"    ? file_.cellArrays_
+                                        : inside() == "PointData" ? file_.pointArrays_
+                                                                  : file_.fieldArrays_;
         if (std::ranges::find(arrays, array_->name, &VtiArray::name) != arrays.end())
             throw VolumeFault{fmt::format("it has two arrays '{}'", array_->name.substr(0, 40))};
         if (offset_) appended_.push_back({&arrays, arrays.size(), *offset_});
@@ -261,7 +263,8 @@ class VtiParser {
 
     void finish(std::string_view appended) {
         if (!seenPiece_) throw VolumeFault{"it has no image with a piece"};
-        if (file_.cellArrays_.empty()) throw VolumeFault{"it has no arrays of cells"};
+        if (file_.cellArrays_.empty() && file_.pointArrays_.empty())
+            throw VolumeFault{"it has no arrays of cells or points"};
         for (const Appended& each : appended_) {
             StoredNumbers& stored = (*each.arrays)[each.index].stored;
             if (each.offset >= appended.size()) throw VolumeFault{"its appended data are missing or cut"};

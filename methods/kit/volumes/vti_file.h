@@ -39,6 +39,8 @@ class DUSTBENCH_API VtiFile {
 
     /// Numbers at the cells; x runs fastest, z slowest.
     [[nodiscard]] const std::vector<VtiArray>& cellArrays() const { return cellArrays_; }
+    /// Likewise at the points, of which there is one more in each direction.
+    [[nodiscard]] const std::vector<VtiArray>& pointArrays() const { return pointArrays_; }
     /// Null if there is none of that name.
     [[nodiscard]] const VtiArray* cellArray(std::string_view name) const;
     /// Of one of the arrays, cell by cell.
@@ -54,7 +56,7 @@ class DUSTBENCH_API VtiFile {
     BinaryForm form_;
     glm::ivec3 cells_{0};
     glm::dvec3 origin_{0}, spacing_{1};
-    std::vector<VtiArray> cellArrays_, fieldArrays_;
+    std::vector<VtiArray> cellArrays_, pointArrays_, fieldArrays_;
 };
 
 }  // namespace dustbench::volumes

@@ -4,7 +4,6 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/points/PointCount.h>
 #include <openvdb/points/PointDataGrid.h>
-#include <openvdb/tools/Dense.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -12,7 +11,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <new>
@@ -21,19 +19,13 @@
 #include <vector>
 
 #include "methods/kit/files/limits.h"
+#include "methods/kit/volumes/openvdb/answer.h"
+#include "methods/kit/volumes/openvdb/dense_answer.h"
+#include "methods/kit/volumes/openvdb/volume_answer.h"
 #include "methods/kit/volumes/vdb_message.h"
 
 namespace dustbench::volumes {
 namespace {
-
-constexpr const char* pointsMode = "--points";
-
-using Dense = openvdb::tools::Dense<openvdb::Vec3s, openvdb::tools::LayoutXYZ>;
-
-/// A reason to refuse the file, as one clause.
-struct Refusal {
-    std::string reason;
-};
 
 openvdb::Vec3SGrid::Ptr readGrid(const std::string& file, const std::string& field) {
     // OpenVDB does not detect a truncated file and continues with what is in memory; the stream detects the end.
@@ -57,49 +49,9 @@ openvdb::CoordBBox boxOf(const openvdb::Vec3SGrid& grid) {
     if (!grid.transform().isLinear() || !grid.hasUniformVoxels() || !(grid.voxelSize()[0] > 0))
         throw Refusal{"its cells are no cubes"};
     if (box.empty()) throw Refusal{"its vectors are zero everywhere"};
-    double cells = 1;  // corners are any 32-bit numbers, whose differences overflow
-    for (int axis = 0; axis < 3; ++axis)
-        cells *= static_cast<double>(box.max()[axis]) - static_cast<double>(box.min()[axis]) + 1;
-    if (cells > static_cast<double>(files::limits::sparseCells))
+    if (countOf(box) > static_cast<double>(files::limits::sparseCells))
         throw Refusal{"the box of its vectors has more than 89 million cells"};
     return box;
-}
-
-VdbMessage messageOf(const openvdb::Vec3SGrid& grid, const openvdb::CoordBBox& box) {
-    VdbMessage message;
-    message.spacing = grid.voxelSize()[0];
-    const openvdb::Vec3d first = grid.indexToWorld(box.min());  // the centre of the first cell
-    for (int axis = 0; axis < 3; ++axis) {
-        message.cells[axis] = box.dim()[axis];
-        message.origin[axis] = first[axis] - message.spacing / 2;
-    }
-    if (const auto time = grid.getMetadata<openvdb::DoubleMetadata>("time_s")) {
-        message.hasTime = 1;
-        message.timeSeconds = time->value();
-    }
-    return message;
-}
-
-void put(const void* data, std::size_t bytes) {
-    if (std::fwrite(data, 1, bytes, stdout) != bytes) _exit(1);
-}
-
-template <typename Header>
-void put(const Header& header) {
-    put(&header, sizeof header);
-}
-
-/// Ends the process: what the file left in memory is not taken apart.
-[[noreturn]] void finish() {
-    _exit(std::fflush(stdout) == 0 ? 0 : 1);
-}
-
-[[noreturn]] void writeReason(const std::string& reason) {
-    VdbMessage message;
-    message.reasonBytes = reason.size();
-    put(message);
-    put(reason.data(), reason.size());
-    finish();
 }
 
 // Points.
@@ -159,7 +111,7 @@ PointDataGrid::Ptr readPointGrid(const std::string& file, double& timeSeconds, b
         if (found && points) throw Refusal{"it has more than one grid of points"};
         if (found) points = found;
     }
-    if (!points) throw Refusal{"it has no grid of points"};
+    if (!points) throw Refusal{noPoints};
     if (const auto time = points->getMetadata<openvdb::DoubleMetadata>("time_s")) {
         timeSeconds = time->value();
         hasTime = true;
@@ -198,17 +150,11 @@ std::vector<Column> columnsOf(const PointDataGrid& grid) {
     return columns;
 }
 
-/// A slab of eight layers at a time.
 [[noreturn]] void runVectors(const std::string& file, const std::string& field) {
     const openvdb::Vec3SGrid::Ptr grid = readGrid(file, field);
     const openvdb::CoordBBox box = boxOf(*grid);
     put(messageOf(*grid, box));
-    for (int z = box.min().z(); z <= box.max().z(); z += 8) {
-        const int last = std::min(z + 7, box.max().z());
-        Dense slab(openvdb::CoordBBox(box.min().x(), box.min().y(), z, box.max().x(), box.max().y(), last));
-        openvdb::tools::copyToDense(*grid, slab);
-        put(slab.data(), slab.valueCount() * sizeof(openvdb::Vec3s));
-    }
+    putDense<openvdb::Vec3s>(*grid, box);
     finish();
 }
 
@@ -251,7 +197,7 @@ std::uintmax_t vdbProcessorSeconds(std::uintmax_t fileBytes) {
 }
 
 const char* vdbFile(const char* first, const char* second) {
-    return std::string_view(first) == pointsMode ? second : first;
+    return std::string_view(first).starts_with("--") ? second : first;
 }
 
 void limitVdbReader(const std::string& file) {
@@ -274,16 +220,17 @@ void runVdbReader(const std::string& first, const std::string& second) {
     const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
     try {
         openvdb::initialize();
-        if (first == pointsMode)
-            runPoints(file);
-        else
-            runVectors(file, second);
+        if (first == pointsMode) runPoints(file);
+        if (!first.starts_with(volumeMode)) runVectors(file, second);
+        const VolumeFields fields = fieldsOf(std::string_view(first).substr(std::string_view(volumeMode).size()));
+        if (file.ends_with(".nvdb")) answerNanoVolume(file, fields);
+        answerVolume(file, fields);
     } catch (const Refusal& refusal) {
         writeReason(refusal.reason);
     } catch (const std::bad_alloc&) {
         writeReason("reading it takes more memory than a file of its size may: 64 MiB and 64 times the file");
     } catch (const std::exception&) {
-        writeReason("not a whole file of OpenVDB");
+        writeReason(notWholeOf(file));
     }
 }
 

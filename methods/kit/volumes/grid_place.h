@@ -1,0 +1,62 @@
+// Where the cubic cells of a file's grid lie, and when: what grids of a series must have in common.
+//
+// Units and frame: the file's own.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dustbench::volumes {
+
+/// Values lie at the centres of the cells; x runs fastest, z slowest.
+struct GridPlace {
+    glm::ivec3 cells{0};
+    glm::dvec3 origin{0};  ///< minimum corner of the first cell
+    double spacing = 0;    ///< edge of a cell
+    std::optional<double> timeSeconds;
+    bool sparse = false;  ///< cells beyond it are zero, not unknown
+
+    [[nodiscard]] std::size_t cellCount() const {
+        return static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
+               static_cast<std::size_t>(cells.z);
+    }
+    [[nodiscard]] std::size_t indexOf(const glm::ivec3& cell) const {
+        return (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(cells.y) +
+                static_cast<std::size_t>(cell.y)) *
+                   static_cast<std::size_t>(cells.x) +
+               static_cast<std::size_t>(cell.x);
+    }
+};
+
+/// More than an index can count, maybe.
+[[nodiscard]] inline double cellsOf(const GridPlace& place) {
+    return static_cast<double>(place.cells.x) * static_cast<double>(place.cells.y) * static_cast<double>(place.cells.z);
+}
+
+/// The first cell of `grid` on the lattice of `lead`. Both must lie on one lattice.
+[[nodiscard]] DUSTBENCH_API glm::ivec3 firstCell(const GridPlace& lead, const GridPlace& grid);
+/// The cells that both cover together, on one lattice.
+[[nodiscard]] DUSTBENCH_API GridPlace together(const GridPlace& a, const GridPlace& b);
+
+/// Throws InputError unless `grid`, of the file `name`, goes on a series after `before`: later in time, and on the
+/// lattice of `first`, whose file is `firstName`; unless `anyCells` with just its cells.
+void requireGoesOn(const GridPlace& grid, const std::filesystem::path& name, const GridPlace* before,
+                   const std::filesystem::path& beforeName, const GridPlace& first,
+                   const std::filesystem::path& firstName, bool anyCells);
+
+/// Calls take(first index within `inner`, first index within `outer`, count) for each row of `inner`, which lies within
+/// `outer`.
+template <typename Take>
+void forEachRow(const GridPlace& inner, const GridPlace& outer, const Take& take) {
+    const glm::ivec3 first = firstCell(outer, inner);
+    for (int z = 0; z < inner.cells.z; ++z)
+        for (int y = 0; y < inner.cells.y; ++y)
+            take(inner.indexOf({0, y, z}), outer.indexOf(first + glm::ivec3(0, y, z)),
+                 static_cast<std::size_t>(inner.cells.x));
+}
+
+}  // namespace dustbench::volumes

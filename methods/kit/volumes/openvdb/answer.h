@@ -1,0 +1,41 @@
+// How dustbench_vdb_reader answers: header after header on its standard output, then it ends.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdio>
+#include <string>
+
+#include "methods/kit/volumes/vdb_message.h"
+
+namespace dustbench::volumes {
+
+/// A reason to refuse the file, as one clause.
+struct Refusal {
+    std::string reason;
+};
+
+inline void put(const void* data, std::size_t bytes) {
+    if (std::fwrite(data, 1, bytes, stdout) != bytes) _exit(1);
+}
+
+template <typename Header>
+void put(const Header& header) {
+    put(&header, sizeof header);
+}
+
+/// Ends the process: what the file left in memory is not taken apart.
+[[noreturn]] inline void finish() {
+    _exit(std::fflush(stdout) == 0 ? 0 : 1);
+}
+
+[[noreturn]] inline void writeReason(const std::string& reason) {
+    VdbMessage message;
+    message.reasonBytes = reason.size();
+    put(message);
+    put(reason.data(), reason.size());
+    finish();
+}
+
+}  // namespace dustbench::volumes

@@ -1,0 +1,49 @@
+// Writes where an OpenVDB grid lies, and its values within a box, cell by cell.
+#pragma once
+
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Dense.h>
+
+#include <algorithm>
+
+#include "methods/kit/volumes/openvdb/answer.h"
+
+namespace dustbench::volumes {
+
+/// Its corners are any 32-bit numbers, whose differences overflow.
+[[nodiscard]] inline double countOf(const openvdb::CoordBBox& box) {
+    double cells = 1;
+    for (int axis = 0; axis < 3; ++axis)
+        cells *= static_cast<double>(box.max()[axis]) - static_cast<double>(box.min()[axis]) + 1;
+    return cells;
+}
+
+/// Where the cells of the box lie, and when.
+[[nodiscard]] inline VdbMessage messageOf(const openvdb::GridBase& grid, const openvdb::CoordBBox& box) {
+    VdbMessage message;
+    message.spacing = grid.voxelSize()[0];
+    const openvdb::Vec3d first = grid.indexToWorld(box.min());  // the centre of the first cell
+    for (int axis = 0; axis < 3; ++axis) {
+        message.cells[axis] = box.max()[axis] - box.min()[axis] + 1;
+        message.origin[axis] = first[axis] - message.spacing / 2;
+    }
+    if (const auto time = grid.getMetadata<openvdb::DoubleMetadata>("time_s")) {
+        message.hasTime = 1;
+        message.timeSeconds = time->value();
+    }
+    return message;
+}
+
+/// A slab of eight layers at a time.
+template <typename Value, typename Grid>
+void putDense(const Grid& grid, const openvdb::CoordBBox& box) {
+    for (int z = box.min().z(); z <= box.max().z(); z += 8) {
+        const int last = std::min(z + 7, box.max().z());
+        openvdb::tools::Dense<Value, openvdb::tools::LayoutXYZ> slab(
+            openvdb::CoordBBox(box.min().x(), box.min().y(), z, box.max().x(), box.max().y(), last));
+        openvdb::tools::copyToDense(grid, slab);
+        put(slab.data(), slab.valueCount() * sizeof(Value));
+    }
+}
+
+}  // namespace dustbench::volumes

@@ -1,0 +1,187 @@
+// Apart from the other files, because NanoVDB's headers are slow as well.
+// What asks NanoVDB to read compressed files. NOLINTBEGIN(cppcoreguidelines-macro-usage)
+#define NANOVDB_USE_ZIP
+#define NANOVDB_USE_BLOSC
+// NOLINTEND(cppcoreguidelines-macro-usage)
+#include <nanovdb/NanoVDB.h>
+#include <nanovdb/util/IO.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "methods/kit/files/limits.h"
+#include "methods/kit/volumes/openvdb/answer.h"
+#include "methods/kit/volumes/openvdb/volume_answer.h"
+
+namespace dustbench::volumes {
+namespace {
+
+using Handle = nanovdb::GridHandle<nanovdb::HostBuffer>;
+
+struct Named {
+    std::string name;
+    int components = 1;
+};
+
+struct Chosen {
+    const WantedField* wanted;
+    Handle handle;
+};
+
+/// Numbers in a field of this type; 0: it is none that is read.
+int componentsOf(nanovdb::GridType type) {
+    switch (type) {
+        case nanovdb::GridType::Float:
+        case nanovdb::GridType::Double:
+        case nanovdb::GridType::Fp4:
+        case nanovdb::GridType::Fp8:
+        case nanovdb::GridType::Fp16:
+        case nanovdb::GridType::FpN:
+            return 1;
+        case nanovdb::GridType::Vec3f:
+            return 3;
+        default:
+            return 0;
+    }
+}
+
+/// Calls take(grid) with the grid as what it is.
+template <typename Take>
+void visit(const Handle& handle, const Take& take) {
+    const auto as = [&]<typename Build>(Build) {
+        const auto* const grid = handle.template grid<Build>();
+        if (!grid) throw Refusal{notWholeOf(".nvdb")};
+        take(*grid);
+    };
+    switch (handle.gridMetaData()->gridType()) {
+        case nanovdb::GridType::Float:
+            return as(float{});
+        case nanovdb::GridType::Double:
+            return as(double{});
+        case nanovdb::GridType::Fp4:
+            return as(nanovdb::Fp4{});
+        case nanovdb::GridType::Fp8:
+            return as(nanovdb::Fp8{});
+        case nanovdb::GridType::Fp16:
+            return as(nanovdb::Fp16{});
+        case nanovdb::GridType::FpN:
+            return as(nanovdb::FpN{});
+        case nanovdb::GridType::Vec3f:
+            return as(nanovdb::Vec3f{});
+        default:
+            throw Refusal{notWholeOf(".nvdb")};
+    }
+}
+
+struct Lattice {
+    double spacing = 0;
+    nanovdb::Vec3d origin{0};
+    nanovdb::CoordBBox box;
+
+    bool operator==(const Lattice& other) const { return spacing == other.spacing && origin == other.origin; }
+};
+
+/// Cells are cubes along the axes of the world.
+template <typename Grid>
+Lattice latticeOf(const Grid& grid) {
+    Lattice lattice{grid.voxelSize()[0], grid.indexToWorld(nanovdb::Vec3d(0.0)), grid.indexBBox()};
+    if (!(lattice.spacing > 0) || !std::isfinite(lattice.spacing)) throw Refusal{"its cells are no cubes"};
+    for (int axis = 0; axis < 3; ++axis) {
+        nanovdb::Vec3d unit(0.0);
+        unit[axis] = 1;
+        const nanovdb::Vec3d off = grid.indexToWorld(unit) - lattice.origin - lattice.spacing * unit;
+        if (!(off.length() <= 1e-5 * lattice.spacing)) throw Refusal{"its cells are no cubes along the axes"};
+    }
+    return lattice;
+}
+
+double countOf(const nanovdb::CoordBBox& box) {
+    double cells = 1;
+    for (int axis = 0; axis < 3; ++axis)
+        cells *= std::max(static_cast<double>(box.max()[axis]) - static_cast<double>(box.min()[axis]) + 1, 0.0);
+    return cells;
+}
+
+// Fog is 0 where it is not active, whatever the background: NanoVDB's own spheres of fog have another.
+
+/// A level set as OpenVDB's sdfToFogVolume makes fog of it: 0 at the surface, 1 from the half width of its band on.
+float fogOf(float distance, float halfWidth) {
+    return distance < 0 ? std::min(-distance / halfWidth, 1.0f) : 0.0f;
+}
+
+template <typename Grid>
+void putValues(const Grid& grid, const nanovdb::CoordBBox& box) {
+    using Value = typename Grid::ValueType;
+    const auto values = grid.getAccessor();
+    for (int z = box.min()[2]; z <= box.max()[2]; ++z)
+        for (int y = box.min()[1]; y <= box.max()[1]; ++y)
+            for (int x = box.min()[0]; x <= box.max()[0]; ++x) {
+                Value value{};
+                [[maybe_unused]] const bool isActive = values.probeValue({x, y, z}, value);
+                if constexpr (std::is_same_v<Value, nanovdb::Vec3f>) {
+                    const float vector[3]{value[0], value[1], value[2]};
+                    put(vector);
+                } else {
+                    const auto number = static_cast<float>(value);
+                    if (grid.isLevelSet())
+                        put(fogOf(number, static_cast<float>(grid.tree().background())));
+                    else
+                        put(isActive || !grid.isFogVolume() ? number : 0.0f);
+                }
+            }
+}
+
+std::vector<Chosen> choose(const std::string& file, const std::array<WantedField, 3>& wanted) {
+    std::vector<Named> present;
+    for (const auto& each : nanovdb::io::readGridMetaData(file))
+        present.push_back({each.gridName, componentsOf(each.gridType)});
+    if (present.empty()) throw Refusal{notWholeOf(file)};
+    std::vector<Chosen> chosen;
+    for (const WantedField& each : wanted)
+        if (const int at = chosenField<Refusal>(each, present); at >= 0)
+            chosen.push_back({&each, nanovdb::io::readGrid(file, static_cast<std::uint64_t>(at))});
+    return chosen;
+}
+
+}  // namespace
+
+void answerNanoVolume(const std::string& file, const VolumeFields& fields) {
+    const auto wanted = wantedFields(fields);
+    std::vector<Chosen> chosen = choose(file, wanted);
+    Lattice lattice;
+    visit(chosen[0].handle, [&](const auto& grid) {
+        lattice = latticeOf(grid);
+        if constexpr (!std::is_same_v<typename std::decay_t<decltype(grid)>::ValueType, nanovdb::Vec3f>)
+            if (const auto background = static_cast<double>(grid.tree().background());
+                background != 0 && !grid.isLevelSet() && !grid.isFogVolume())
+                throw Refusal{"its density goes on beyond its grid: the background is " + std::to_string(background) +
+                              ", expected 0"};
+    });
+    const double cells = countOf(lattice.box);
+    if (!(cells >= 1)) throw Refusal{"its density is zero everywhere"};
+    if (cells > static_cast<double>(files::limits::volumeCells))
+        throw Refusal{"the box of its density has more than 256 million cells (limit of volumes)"};
+    std::erase_if(chosen, [&](const Chosen& each) {
+        bool isThere = true;
+        visit(each.handle, [&](const auto& grid) { isThere = latticeOf(grid) == lattice; });
+        if (!isThere && each.wanted->isRequired)
+            throw Refusal{"its field of " + std::string(each.wanted->what) + " lies on another grid than its density"};
+        return !isThere;
+    });
+    VdbMessage message;
+    message.spacing = lattice.spacing;
+    message.columns = static_cast<std::int32_t>(chosen.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        message.cells[axis] = lattice.box.max()[axis] - lattice.box.min()[axis] + 1;
+        message.origin[axis] = lattice.origin[axis] + (lattice.box.min()[axis] - 0.5) * lattice.spacing;
+    }
+    put(message);
+    for (const Chosen& each : chosen) {
+        put(columnOf(*each.wanted));
+        visit(each.handle, [&](const auto& grid) { putValues(grid, lattice.box); });
+    }
+    finish();
+}
+
+}  // namespace dustbench::volumes

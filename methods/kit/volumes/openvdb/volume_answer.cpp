@@ -1,0 +1,116 @@
+#include "methods/kit/volumes/openvdb/volume_answer.h"
+
+#include <openvdb/io/Stream.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/LevelSetUtil.h>
+
+#include <cmath>
+#include <fstream>
+#include <vector>
+
+#include "methods/kit/files/limits.h"
+#include "methods/kit/volumes/openvdb/answer.h"
+#include "methods/kit/volumes/openvdb/dense_answer.h"
+
+namespace dustbench::volumes {
+namespace {
+
+using openvdb::DoubleGrid, openvdb::FloatGrid, openvdb::Vec3SGrid;
+
+struct Named {
+    std::string name;
+    int components = 1;
+};
+
+struct Chosen {
+    const WantedField* wanted;
+    openvdb::GridBase::Ptr grid;
+};
+
+openvdb::GridPtrVec readGrids(const std::string& file) {
+    // As in vdb_reader.cpp: the stream notices the end of a file.
+    std::ifstream stream(file, std::ios::binary);
+    stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+    openvdb::io::Stream stored(stream, /*delayLoad=*/false);
+    openvdb::GridPtrVec grids;
+    for (const openvdb::GridBase::Ptr& each : *stored.getGrids())
+        if (each->isType<FloatGrid>() || each->isType<DoubleGrid>() || each->isType<Vec3SGrid>()) grids.push_back(each);
+    return grids;
+}
+
+FloatGrid::Ptr inFloats(const openvdb::GridBase::Ptr& grid) {
+    if (FloatGrid::Ptr floats = openvdb::gridPtrCast<FloatGrid>(grid)) return floats;
+    const auto doubles = openvdb::gridPtrCast<DoubleGrid>(grid);
+    const auto floats = FloatGrid::create(static_cast<float>(doubles->background()));
+    floats->setTree(std::make_shared<openvdb::FloatTree>(doubles->tree()));
+    floats->setTransform(doubles->transformPtr());
+    floats->insertMeta(*doubles);
+    return floats;
+}
+
+/// Cells are cubes along the axes of the world.
+void requireUpright(const openvdb::GridBase& grid) {
+    const double spacing = grid.voxelSize()[0];
+    if (!grid.transform().isLinear() || !grid.hasUniformVoxels() || !(spacing > 0) || !std::isfinite(spacing))
+        throw Refusal{"its cells are no cubes"};
+    const openvdb::Vec3d origin = grid.indexToWorld(openvdb::Vec3d(0));
+    for (int axis = 0; axis < 3; ++axis) {
+        openvdb::Vec3d unit(0);
+        unit[axis] = 1;
+        if (!((grid.indexToWorld(unit) - origin - spacing * unit).length() <= 1e-5 * spacing))
+            throw Refusal{"its grid is turned, expected one along the axes"};
+    }
+}
+
+openvdb::CoordBBox boxOf(const FloatGrid& density) {
+    const openvdb::CoordBBox box = density.evalActiveVoxelBoundingBox();
+    if (box.empty()) throw Refusal{"its density is zero everywhere"};
+    if (countOf(box) > static_cast<double>(files::limits::volumeCells))
+        throw Refusal{"the box of its density has more than 256 million cells (limit of volumes)"};
+    return box;
+}
+
+void putField(const WantedField& field, const openvdb::GridBase::Ptr& grid, const openvdb::CoordBBox& box) {
+    put(columnOf(field));
+    if (const auto vectors = openvdb::gridPtrCast<Vec3SGrid>(grid))
+        putDense<openvdb::Vec3s>(*vectors, box);
+    else
+        putDense<float>(*inFloats(grid), box);
+}
+
+}  // namespace
+
+void answerVolume(const std::string& file, const VolumeFields& fields) {
+    const openvdb::GridPtrVec grids = readGrids(file);
+    std::vector<Named> present;
+    for (const openvdb::GridBase::Ptr& grid : grids)
+        present.push_back({grid->getName(), grid->isType<Vec3SGrid>() ? 3 : 1});
+    const auto wanted = wantedFields(fields);
+    std::vector<Chosen> chosen;
+    for (const WantedField& each : wanted)
+        if (const int at = chosenField<Refusal>(each, present); at >= 0)
+            chosen.push_back({&each, grids[static_cast<std::size_t>(at)]});
+
+    const FloatGrid::Ptr density = inFloats(chosen[0].grid);
+    requireUpright(*density);
+    const bool isLevelSet = density->getGridClass() == openvdb::GRID_LEVEL_SET;
+    if (isLevelSet) openvdb::tools::sdfToFogVolume(*density);
+    if (density->background() != 0.0f && !isLevelSet)
+        throw Refusal{"its density goes on beyond its grid: the background is " +
+                      std::to_string(density->background()) + ", expected 0"};
+    chosen[0].grid = density;
+    std::erase_if(chosen, [&](const Chosen& each) {
+        if (each.grid->transform() == density->transform()) return false;
+        if (each.wanted->isRequired)
+            throw Refusal{"its field '" + each.grid->getName() + "' lies on another grid than its density"};
+        return true;
+    });
+    const openvdb::CoordBBox box = boxOf(*density);
+    VdbMessage message = messageOf(*density, box);
+    message.columns = static_cast<std::int32_t>(chosen.size());
+    put(message);
+    for (const Chosen& each : chosen) putField(*each.wanted, each.grid, box);
+    finish();
+}
+
+}  // namespace dustbench::volumes

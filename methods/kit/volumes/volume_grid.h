@@ -1,0 +1,16 @@
+// Density on a grid, as a file holds it, with what else it holds of its smoke.
+//
+// Units and frame: the file's own.
+#pragma once
+
+#include "methods/kit/volumes/grid_place.h"
+
+namespace dustbench::volumes {
+
+struct VolumeGrid : GridPlace {
+    std::vector<float> density;
+    std::vector<float> temperature;   ///< empty: none
+    std::vector<glm::vec3> velocity;  ///< empty: none
+};
+
+}  // namespace dustbench::volumes

@@ -1,0 +1,142 @@
+#include "methods/kit/volumes/volume_series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
+#include "methods/kit/files/limits.h"
+#include "methods/kit/volumes/file_series.h"
+#include "methods/kit/volumes/volume_file.h"
+
+namespace dustbench::volumes {
+namespace {
+
+std::size_t bytesOf(const VolumeGrid& grid) {
+    return (grid.density.size() + grid.temperature.size()) * sizeof(float) + grid.velocity.size() * sizeof(glm::vec3);
+}
+
+/// Values of a grid with +Z up, with +Y up: (x, y, z) becomes (x, z, −y).
+template <typename Value>
+void turn(std::vector<Value>& values, const GridPlace& from, const GridPlace& to) {
+    if (values.empty()) return;
+    std::vector<Value> turned(values.size());
+    for (int z = 0; z < from.cells.z; ++z)
+        for (int y = 0; y < from.cells.y; ++y)
+            std::copy_n(&values[from.indexOf({0, y, z})], from.cells.x,
+                        &turned[to.indexOf({0, z, from.cells.y - 1 - y})]);
+    values = std::move(turned);
+}
+
+template <typename Value>
+void addShare(const std::vector<Value>& values, const GridPlace& from, float share, const GridPlace& to,
+              std::vector<Value>& sum) {
+    forEachRow(from, to, [&](std::size_t source, std::size_t target, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) sum[target + i] += share * values[source + i];
+    });
+}
+
+/// (1 − share)·a + share·b within `to`; empty if one of them has no such field.
+template <typename Value>
+void blend(const VolumeGrid& a, const VolumeGrid& b, std::vector<Value> VolumeGrid::*field, float share,
+           VolumeGrid& to) {
+    (to.*field).clear();
+    if ((a.*field).empty() || (b.*field).empty()) return;
+    (to.*field).assign(to.cellCount(), Value(0));
+    addShare(a.*field, a, 1 - share, to, to.*field);
+    addShare(b.*field, b, share, to, to.*field);
+}
+
+InputError tooMuch(const std::filesystem::path& file, double bytes) {
+    return InputError(fmt::format("{}: the series takes {:.3g} GB up to here, allowed: {:.3g} GB (limit of volumes)",
+                                  file.string(), bytes / 1e9, static_cast<double>(files::limits::dustBytes) / 1e9));
+}
+
+}  // namespace
+
+void placeInWorld(VolumeGrid& grid, const VolumeSetup& setup) {
+    if (setup.zUp) {
+        const GridPlace from = grid;
+        grid.cells = {from.cells.x, from.cells.z, from.cells.y};
+        grid.origin = {from.origin.x, from.origin.z, -(from.origin.y + from.cells.y * from.spacing)};
+        turn(grid.density, from, grid);
+        turn(grid.temperature, from, grid);
+        turn(grid.velocity, from, grid);
+        for (glm::vec3& v : grid.velocity) v = {v.x, v.z, -v.y};
+    }
+    grid.origin = grid.origin * setup.metresPerUnit + setup.position;
+    grid.spacing *= setup.metresPerUnit;
+    for (glm::vec3& v : grid.velocity) v *= static_cast<float>(setup.metresPerUnit);
+}
+
+VolumeSeries VolumeSeries::read(const VolumeSetup& setup) {
+    std::vector<VolumeGrid> moments;
+    std::vector<std::filesystem::path> names;
+    double bytes = 0;
+    for (const SeriesEntry& entry : seriesEntries(setup.files, "volumes")) {
+        files::noteInput(entry.file);
+        VolumeGrid& grid = moments.emplace_back(readVolume(entry.file, setup.fields));
+        if (entry.timeSeconds) grid.timeSeconds = entry.timeSeconds;
+        placeInWorld(grid, setup);
+        bytes += static_cast<double>(bytesOf(grid));
+        if (bytes > static_cast<double>(files::limits::dustBytes)) throw tooMuch(entry.file, bytes);
+        names.push_back(entry.file);
+    }
+    const bool haveNone =
+        std::ranges::none_of(moments, [](const VolumeGrid& grid) { return grid.timeSeconds.has_value(); });
+    if (setup.secondsPerFile && haveNone)
+        for (std::size_t i = 0; i < moments.size(); ++i)
+            moments[i].timeSeconds = static_cast<double>(i) * *setup.secondsPerFile;
+    return {std::move(moments), std::move(names)};
+}
+
+VolumeSeries::VolumeSeries(std::vector<VolumeGrid> moments, std::vector<std::filesystem::path> names)
+    : moments_(std::move(moments)), names_(std::move(names)) {
+    if (moments_.empty()) throw InputError("a series of volumes: got no file, expected one or more");
+    if (isStill()) return;
+    for (std::size_t i = 0; i < moments_.size(); ++i) {
+        if (!moments_[i].timeSeconds)
+            throw InputError(names_[i].string() +
+                             ": has no time, expected TimeValue (.vti), time_s (.vdb), a .pvd or .series that says "
+                             "it, or seconds_per_file in a .toml");
+        const std::size_t before = i > 0 ? i - 1 : 0;
+        requireGoesOn(moments_[i], names_[i], i > 0 ? &moments_[before] : nullptr, names_[before], moments_[0],
+                      names_[0], /*anyCells=*/true);
+        if (cellsOf(together(moments_[before], moments_[i])) > static_cast<double>(files::limits::volumeCells))
+            throw InputError(fmt::format("{}: with {} it has more than {} cells (limit of volumes)", names_[i].string(),
+                                         names_[before].filename().string(), files::limits::volumeCells));
+    }
+}
+
+double VolumeSeries::seconds() const {
+    return isStill() ? 0 : *moments_.back().timeSeconds - *moments_.front().timeSeconds;
+}
+
+std::size_t VolumeSeries::bytes() const {
+    return std::accumulate(moments_.begin(), moments_.end(), std::size_t{0},
+                           [](std::size_t sum, const VolumeGrid& grid) { return sum + bytesOf(grid); });
+}
+
+const VolumeGrid& VolumeSeries::at(double seconds, bool wantsVelocity, VolumeGrid& between) const {
+    if (isStill()) return moments_.front();
+    const double time = *moments_.front().timeSeconds + seconds;
+    const auto after = std::ranges::upper_bound(moments_, time + sameMomentSeconds, {},
+                                                [](const VolumeGrid& grid) { return *grid.timeSeconds; });
+    if (after == moments_.begin()) return moments_.front();
+    const VolumeGrid& from = *std::prev(after);
+    const double passed = time - *from.timeSeconds;
+    if (after == moments_.end() || passed <= sameMomentSeconds) return from;
+    const auto share = static_cast<float>(passed / (*after->timeSeconds - *from.timeSeconds));
+    static_cast<GridPlace&>(between) = together(from, *after);
+    between.timeSeconds = time;
+    blend(from, *after, &VolumeGrid::density, share, between);
+    blend(from, *after, &VolumeGrid::temperature, share, between);
+    between.velocity.clear();
+    if (wantsVelocity) blend(from, *after, &VolumeGrid::velocity, share, between);
+    return between;
+}
+
+}  // namespace dustbench::volumes
