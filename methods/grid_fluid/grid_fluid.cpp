@@ -11,6 +11,7 @@
 #include "methods/grid_fluid/dust_mass.h"
 #include "methods/grid_fluid/flow/grid_noise.h"
 #include "methods/grid_fluid/fluid_place.h"
+#include "methods/kit/maths/hash.h"
 #include "methods/kit/maths/transmittance.h"
 
 namespace dustbench::grid_fluid {
@@ -66,6 +67,11 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     if (settings_.scheme == FlowScheme::demo && scene.wind != glm::vec3(0))
         throw InputError("parameter scheme: got demo in scene '" + scene.id +
                          "', which has wind, allowed: ours; the demo has still air");
+    if (settings_.setup.followsVehicle && settings_.trail) {
+        solver.notesLeaving = true;
+        rim_ = Rim(settings_.picture.filter, scene.terrain.isFlat());
+        trail_.emplace(solver, ledger_);
+    }
     solver_ = makeFlowSolver(solver, settings_.scheme, burns, onGpu, device, ledger_);
     solids_.emplace(scene, solver.box.cells, ledger_.account("solids"));
     emitters_.emplace(settings_.setup.sources, scene, setup.seed);
@@ -73,10 +79,15 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     if (scene.lights.onDust) lightDust(settings_.picture, scene);
     settings_.picture.smokeColour = settings_.setup.look.albedo.value_or(scene.dustAlbedo);
     picture_.emplace(device, settings_.picture, scene.lights, ledger_);
+    if (trail_) trailPicture_.emplace(*picture_, settings_.picture, scene.terrain.isFlat());
     if (solver_->onGpu() && picture_->takesTextures()) {
-        const glm::ivec3 cells = solver.box.cells;
+        const glm::ivec3 cells = rim_.around(solver.box.cells);
         const auto make = [&](gpu::Texture& texture) {
             texture = gpu::Texture::make3D(device, "grid shown", gpu::Format::r32F, cells.x, cells.y, cells.z);
+            if (cells == solver.box.cells) return;  // every texel is written each time
+            const auto count = static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
+                               static_cast<std::size_t>(cells.z);
+            texture.write(std::vector<float>(count, 0.0f));
         };
         make(densityTexture_);
         if (burns) make(reactionTexture_);
@@ -119,18 +130,15 @@ void GridFluid::update(const Frame& frame) {
 void GridFluid::simulate(const Frame& frame) {
     {
         const auto timing = frame.clock.measureDetail("solids");
-        if (settings_.setup.followsVehicle) {
-            const glm::dvec3 wanted =
-                wantedOrigin(settings_.setup, solver_->box(), scene_->terrain, frame.state.vehicle);
-            if (const glm::ivec3 due = dueScroll(solver_->box(), wanted); due != glm::ivec3(0)) {
-                solver_->scroll(due);
-                solidsStandStill_ = false;
-            }
-        }
+        if (settings_.setup.followsVehicle) follow(frame.state.vehicle);
         placeSolids(frame.state);
     }
     const auto sources = emitters_->at(frame.state, steps_++, secondsDue_, dustDueM2_);
     const flow::StepReport report = solver_->step(secondsDue_, sources, frame.clock);
+    if (trail_) {
+        const auto timing = frame.clock.measureDetail("trail");
+        trail_->pass(*solver_, static_cast<float>(secondsDue_), sources);
+    }
     const auto cells = static_cast<double>(report.cellsPerStep);
     extremes_.cellsPerStep = std::max(extremes_.cellsPerStep, cells);
     extremes_.speedMetresPerSecond =
@@ -148,6 +156,22 @@ void GridFluid::simulate(const Frame& frame) {
     secondsDue_ = dustDueM2_ = 0;
 }
 
+void GridFluid::follow(const scene::VehicleState& vehicle) {
+    const flow::FluidBox& box = solver_->box();
+    const glm::ivec3 due = dueScroll(box, wantedOrigin(settings_.setup, box, scene_->terrain, vehicle));
+    if (due != glm::ivec3(0)) {
+        if (trail_) {
+            // Read back only now: a box on the GPU moves once in several steps.
+            std::vector<float> density(box.cellCount());
+            solver_->gather(flow::density, density);
+            trail_->leave(box, due, density);
+        }
+        solver_->scroll(due);
+        solidsStandStill_ = false;
+    }
+    if (trail_) trail_->enter(*solver_);
+}
+
 void GridFluid::placeSolids(const scene::SceneState& state) {
     const bool moving = scene_->vehicle && vehicleIsNear(solver_->box(), state);
     if (solidsStandStill_ && !moving) return;
@@ -157,21 +181,36 @@ void GridFluid::placeSolids(const scene::SceneState& state) {
 
 void GridFluid::show() {
     const flow::FluidBox& box = solver_->box();
+    const glm::ivec3 cells = rim_.around(box.cells);
+    const glm::dvec3 origin = box.originMetres - box.spacingMetres * glm::dvec3(rim_.before);
+    if (trail_) trailPicture_->show(trail_->dust());
     if (densityTexture_.bytes() > 0) {
         const bool burns = reactionTexture_.bytes() > 0;
-        solver_->gather(flow::density, densityTexture_);
-        if (burns) solver_->gather(flow::reaction, reactionTexture_);
-        picture_->take(
-            {box.cells, box.spacingMetres, box.originMetres, &densityTexture_, burns ? &reactionTexture_ : nullptr});
+        solver_->gather(flow::density, densityTexture_, rim_.before);
+        if (burns) solver_->gather(flow::reaction, reactionTexture_, rim_.before);
+        picture_->take({cells, box.spacingMetres, origin, &densityTexture_, burns ? &reactionTexture_ : nullptr});
         return;
     }
     solver_->gather(flow::density, density_);
     if (!reaction_.empty()) solver_->gather(flow::reaction, reaction_);
-    picture_->upload({box.cells, box.spacingMetres, box.originMetres, density_, reaction_});
+    std::span<const float> density = density_, reaction = reaction_;
+    if (trail_) {
+        density = surrounded(density_, surroundedDensity_);
+        if (!reaction_.empty()) reaction = surrounded(reaction_, surroundedReaction_);
+    }
+    picture_->upload({cells, box.spacingMetres, origin, density, reaction});
+}
+
+std::span<const float> GridFluid::surrounded(std::span<const float> values, std::vector<float>& to) const {
+    rim_.surround(solver_->box().cells, values, 1, to);
+    return to;
 }
 
 void GridFluid::draw(const Frame& frame, gpu::Layer& layer) {
-    picture_->draw(frame.view, layer);
+    if (trailPicture_)
+        trailPicture_->draw(frame.view, layer, *picture_, solver_->box());
+    else
+        picture_->draw(frame.view, layer);
 }
 
 void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
@@ -205,14 +244,43 @@ void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
                                            {"pressure", "m2/s2 (by density of the air)", 1, pressure},
                                            {"solids", "1 inside", 1, solids}}};
     visitor.grid({box.originMetres, box.spacingMetres, box.cells, extinction, fields});
+    if (trail_) volumeOfTrail(visitor);
 }
 
-double GridFluid::opticalMassSquareMetres() const {
+/// Its tiles as grids of their own, without fields.
+void GridFluid::volumeOfTrail(VolumeVisitor& visitor) const {
+    std::vector<float> extinction(DustTrail::tileCells);
+    for (const auto& [place, tile] : trail_->dust().tiles()) {
+        const auto scale = static_cast<float>(tile.share * settings_.setup.look.extinctionPerMetre);
+        std::ranges::transform(tile.density, extinction.begin(), [&](float value) { return value * scale; });
+        visitor.grid({trail_->dust().originOf(place),
+                      trail_->dust().spacingMetres(),
+                      glm::ivec3(DustTrail::edge),
+                      extinction,
+                      {}});
+    }
+}
+
+double GridFluid::amountM3() const {
     std::vector<float> density(solver_->box().cellCount());
     solver_->gather(flow::density, density);
     double sum = 0;
     for (const float value : density) sum += static_cast<double>(value);
-    return sum * settings_.setup.look.extinctionPerMetre * std::pow(settings_.solver.box.spacingMetres, 3);
+    return sum * std::pow(settings_.solver.box.spacingMetres, 3) + (trail_ ? trail_->dust().amountM3() : 0);
+}
+
+double GridFluid::opticalMassSquareMetres() const {
+    return amountM3() * settings_.setup.look.extinctionPerMetre;
+}
+
+std::optional<double> GridFluid::massLost() const {
+    const bool isKnown = std::ranges::all_of(settings_.setup.sources, [](const SourceSetup& source) {
+        return source.at == SourceAt::wheels || source.densityPerSecond == 0;
+    });
+    if (!trail_ || !settings_.solver.keepsDensity || !isKnown) return std::nullopt;
+    const std::optional<double> due = trail_->dueM3();
+    if (!due) return std::nullopt;
+    return std::abs(1 - amountM3() / *due);
 }
 
 void GridFluid::report(const Frame& frame, Facts& facts) const {
@@ -224,6 +292,8 @@ void GridFluid::report(const Frame& frame, Facts& facts) const {
         facts.tell("flow_divergence", static_cast<double>(solver_->divergencePerStep()));
     if (facts.wants("flow_noise_speed")) facts.tell("flow_noise_speed", noiseOf(flow::velocityY));
     if (facts.wants("flow_noise_density")) facts.tell("flow_noise_density", noiseOf(flow::density));
+    if (facts.wants("mass_lost"))
+        if (const auto lost = massLost()) facts.tell("mass_lost", *lost);
     if (!facts.wants("mass_kept")) return;
     if (const auto kept = massKept(frame.dust)) facts.tell("mass_kept", *kept);
 }
@@ -251,15 +321,19 @@ MemoryReport GridFluid::memory() const {
     if (const std::size_t bytes = densityTexture_.bytes() + reactionTexture_.bytes(); bytes > 0)
         report.push_back({"grid shown", 0, bytes});
     if (picture_) report.push_back({"picture", 0, picture_->gpuBytes()});
+    if (trailPicture_) report.push_back({"picture of the trail", 0, trailPicture_->gpuBytes()});
     return report;
 }
 
 std::int64_t GridFluid::primitives() const {
+    if (trailPicture_) return trailPicture_->primitives();
     return picture_ ? picture_->primitives() : 0;
 }
 
 std::optional<std::uint64_t> GridFluid::stateHash() const {
-    return solver_ ? solver_->stateHash() : 0;
+    if (!solver_) return 0;
+    if (!trail_) return solver_->stateHash();
+    return maths::Hash().add(solver_->stateHash()).add(trail_->dust().stateHash()).value();
 }
 
 }  // namespace dustbench::grid_fluid

@@ -250,7 +250,11 @@ void DemoSolver::gather(flow::Lane lane, std::span<float> to) const {
     });
 }
 
-void DemoSolver::gather(flow::Lane, const gpu::Texture&) const {
+void DemoSolver::addDensity(std::span<const flow::AddedDensity>) {
+    throw std::logic_error("the box of the demo stands still");
+}
+
+void DemoSolver::gather(flow::Lane, const gpu::Texture&, glm::ivec3) const {
     throw std::logic_error("a fluid that is solved on the CPU lies in no texture");
 }
 

@@ -90,10 +90,11 @@ StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> so
 
 void FluidSolver::advect(float seconds) {
     const float cellsPerSpeed = seconds / static_cast<float>(settings_.box.spacingMetres);
-    const bool keeps = settings_.keepsDensity;
-    const double due = keeps ? covered_ + densityTotal(cells_, layout_) -
-                                   densityLeaving(cells_, layout_, solids_.conductance(), cellsPerSpeed)
-                             : 0;
+    const bool keeps = settings_.keepsDensity, notes = settings_.notesLeaving;
+    leaving_.clear();
+    double due = keeps ? covered_ + densityTotal(cells_, layout_) : 0;
+    if (keeps || notes)
+        due -= densityLeaving(cells_, layout_, solids_.conductance(), cellsPerSpeed, notes ? &leaving_ : nullptr);
     solids_.extendInto(cells_, !settings_.noSlip);
     fillGhosts();
     advection_.advect(cells_, spare_, solids_.moving(), settings_.advection, cellsPerSpeed, maximumSpeeds_.z);
@@ -233,6 +234,10 @@ void FluidSolver::scroll(glm::ivec3 by) {
     setSolids({});
 }
 
+void FluidSolver::addDensity(std::span<const AddedDensity> added) {
+    for (const auto& [cell, more] : added) cells_.cell(layout_.at(cell.x, cell.y, cell.z))[density] += more;
+}
+
 void FluidSolver::gather(Lane lane, std::span<float> to) const {
     gatherMean(lane, lane > velocityZ ? 0 : std::array{std::size_t{1}, layout_.row, layout_.slab}[lane], to);
 }
@@ -258,7 +263,7 @@ float FluidSolver::divergencePerStep() const {
            static_cast<float>(lastStepSeconds_ / settings_.box.spacingMetres);
 }
 
-void FluidSolver::gather(Lane, const gpu::Texture&) const {
+void FluidSolver::gather(Lane, const gpu::Texture&, glm::ivec3) const {
     throw std::logic_error("a fluid that is solved on the CPU lies in no texture");
 }
 

@@ -17,6 +17,8 @@ class DUSTBENCH_API GridRaycast {
     /// `device` and `ledger` must outlive this. Throws InputError for settings out of range.
     GridRaycast(gpu::Device& device, const RaycastSettings& settings, const scene::Lights& lights,
                 MemoryLedger& ledger);
+    /// For another grid of the same picture, with the same settings: both share their programs.
+    GridRaycast(Beside, const GridRaycast& sibling);
 
     /// Copies everything that is drawn; the grid need not outlive the call. Throws InputError if the grid has no cells
     /// or a density is negative or NaN; nothing is drawn after an error.
@@ -27,8 +29,13 @@ class DUSTBENCH_API GridRaycast {
     /// True for the march and the slices on OpenGL: no data then pass through the host.
     [[nodiscard]] bool takesTextures() const { return renderer_->takesTextures(); }
 
+    /// Shows the grid uploaded last elsewhere, with this share of its extinction. Light within it stays as it was.
+    void change(const glm::dvec3& originMetres, float thickness);
+
     /// Draws the grid uploaded last; may be called repeatedly.
     void draw(const scene::View& view, const gpu::Layer& layer);
+    /// The same for one of several grids, which share the scene's depths.
+    void draw(const scene::View& view, const gpu::Layer& layer, SceneDepthCopy& sceneDepth);
 
     [[nodiscard]] std::size_t gpuBytes() const;
     /// Number of rays cast by the last draw, or of the planes, splats or triangles drawn.
@@ -38,6 +45,7 @@ class DUSTBENCH_API GridRaycast {
     gpu::Device& device_;
     RaycastSettings settings_;
     glm::vec3 toSun_;
+    MemoryLedger& ledger_;
     BrickMap bricks_;
     std::optional<LightVolume> light_;        ///< empty: no shadow
     std::optional<BricksOnGpu> bricksOnGpu_;  ///< created on first use
