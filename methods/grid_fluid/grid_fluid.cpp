@@ -69,7 +69,6 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
                          "', which has wind, allowed: ours; the demo has still air");
     if (settings_.setup.followsVehicle && settings_.trail) {
         solver.notesLeaving = true;
-        rim_ = Rim(settings_.picture.filter, scene.terrain.isFlat());
         trail_.emplace(solver, ledger_);
     }
     solver_ = makeFlowSolver(solver, settings_.scheme, burns, onGpu, device, ledger_);
@@ -80,14 +79,11 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     settings_.picture.smokeColour = settings_.setup.look.albedo.value_or(scene.dustAlbedo);
     picture_.emplace(device, settings_.picture, scene.lights, ledger_);
     if (trail_) trailPicture_.emplace(*picture_, settings_.picture, scene.terrain.isFlat());
-    if (solver_->onGpu() && picture_->takesTextures()) {
-        const glm::ivec3 cells = rim_.around(solver.box.cells);
+    // Box and trail are blended on the host.
+    if (solver_->onGpu() && picture_->takesTextures() && !trail_) {
+        const glm::ivec3 cells = solver.box.cells;
         const auto make = [&](gpu::Texture& texture) {
             texture = gpu::Texture::make3D(device, "grid shown", gpu::Format::r32F, cells.x, cells.y, cells.z);
-            if (cells == solver.box.cells) return;  // every texel is written each time
-            const auto count = static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
-                               static_cast<std::size_t>(cells.z);
-            texture.write(std::vector<float>(count, 0.0f));
         };
         make(densityTexture_);
         if (burns) make(reactionTexture_);
@@ -181,34 +177,26 @@ void GridFluid::placeSolids(const scene::SceneState& state) {
 
 void GridFluid::show() {
     const flow::FluidBox& box = solver_->box();
-    const glm::ivec3 cells = rim_.around(box.cells);
-    const glm::dvec3 origin = box.originMetres - box.spacingMetres * glm::dvec3(rim_.before);
-    if (trail_) trailPicture_->show(trail_->dust());
     if (densityTexture_.bytes() > 0) {
         const bool burns = reactionTexture_.bytes() > 0;
-        solver_->gather(flow::density, densityTexture_, rim_.before);
-        if (burns) solver_->gather(flow::reaction, reactionTexture_, rim_.before);
-        picture_->take({cells, box.spacingMetres, origin, &densityTexture_, burns ? &reactionTexture_ : nullptr});
+        solver_->gather(flow::density, densityTexture_);
+        if (burns) solver_->gather(flow::reaction, reactionTexture_);
+        picture_->take(
+            {box.cells, box.spacingMetres, box.originMetres, &densityTexture_, burns ? &reactionTexture_ : nullptr});
         return;
     }
     solver_->gather(flow::density, density_);
     if (!reaction_.empty()) solver_->gather(flow::reaction, reaction_);
-    std::span<const float> density = density_, reaction = reaction_;
-    if (trail_) {
-        density = surrounded(density_, surroundedDensity_);
-        if (!reaction_.empty()) reaction = surrounded(reaction_, surroundedReaction_);
-    }
-    picture_->upload({cells, box.spacingMetres, origin, density, reaction});
-}
-
-std::span<const float> GridFluid::surrounded(std::span<const float> values, std::vector<float>& to) const {
-    rim_.surround(solver_->box().cells, values, 1, to);
-    return to;
+    const raycast::ShownGrid shown{box.cells, box.spacingMetres, box.originMetres, density_, reaction_};
+    if (trailPicture_)
+        trailPicture_->show(trail_->dust(), shown);
+    else
+        picture_->upload(shown);
 }
 
 void GridFluid::draw(const Frame& frame, gpu::Layer& layer) {
     if (trailPicture_)
-        trailPicture_->draw(frame.view, layer, *picture_, solver_->box());
+        trailPicture_->draw(frame.view, layer);
     else
         picture_->draw(frame.view, layer);
 }

@@ -75,15 +75,12 @@ class GridFluid final : public Method {
     void placeSolids(const scene::SceneState& state);
     void requireSourcesInside(const scene::SceneState& state);
     void show();
-    [[nodiscard]] std::span<const float> surrounded(std::span<const float> values, std::vector<float>& to) const;
     void volumeOfTrail(VolumeVisitor& visitor) const;
 
     GridFluidSettings settings_;
     const scene::Scene* scene_ = nullptr;
     MemoryLedger ledger_;
-    LedgerVector<float> density_, reaction_;                     ///< for the ray caster
-    std::vector<float> surroundedDensity_, surroundedReaction_;  ///< the same with the rim of a box that has a trail
-    Rim rim_;
+    LedgerVector<float> density_, reaction_;         ///< for the ray caster
     gpu::Texture densityTexture_, reactionTexture_;  ///< the same if they stay on the GPU
     std::unique_ptr<flow::Solver> solver_;
     std::optional<FluidSolids> solids_;

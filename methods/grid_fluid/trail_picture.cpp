@@ -1,51 +1,57 @@
 #include "methods/grid_fluid/trail_picture.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "methods/grid_fluid/trail/overlaps.h"
 #include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::grid_fluid {
 namespace {
 
-/// A tile is left out if no ray through it meets more optical depth.
+/// A tile is left out if no ray through it meets more optical depth. The same of a box's cells across its border.
 constexpr double unseenDepth = 1e-4;
 /// Surfaces and light hold for the densities as uploaded: they are renewed when a tile has lost so much of them.
 constexpr double renewedShare = 0.95;
+/// Cells within which the box fades out: two lattices differ by an eighth of what they would at a sharp border.
+constexpr int fadingCells = 8;
+
+/// Layers of empty cells around a shown grid. There are none below a floor, where the lowest cells go on.
+struct Rim {
+    Rim(raycast::Filter filter, bool onFloor) : before(filter == raycast::Filter::cubic ? 2 : 1), behind(before) {
+        if (onFloor) before.y = 0;
+    }
+    [[nodiscard]] glm::ivec3 around(const glm::ivec3& cells) const { return cells + before + behind; }
+
+    void surround(const glm::ivec3& cells, std::span<const float> values, std::vector<float>& to) const {
+        const glm::ivec3 size = around(cells);
+        const auto rows = static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+        to.resize(rows * static_cast<std::size_t>(size.x));
+        parallel::forEachBlock(rows, 256, [&](std::size_t first, std::size_t count) {
+            for (std::size_t r = first; r < first + count; ++r) {
+                float* row = to.data() + r * static_cast<std::size_t>(size.x);
+                const int j = static_cast<int>(r) % size.y - before.y, k = static_cast<int>(r) / size.y - before.z;
+                if (j < 0 || j >= cells.y || k < 0 || k >= cells.z) {
+                    std::fill_n(row, size.x, 0.0f);
+                    continue;
+                }
+                const std::size_t from =
+                    static_cast<std::size_t>(cells.x) *
+                    (static_cast<std::size_t>(j) + static_cast<std::size_t>(cells.y) * static_cast<std::size_t>(k));
+                row = std::fill_n(row, before.x, 0.0f);
+                row = std::copy_n(values.data() + from, cells.x, row);
+                std::fill_n(row, behind.x, 0.0f);
+            }
+        });
+    }
+
+    glm::ivec3 before, behind;
+};
 
 }  // namespace
 
-Rim::Rim(raycast::Filter filter, bool onFloor) : before(filter == raycast::Filter::cubic ? 2 : 1), behind(before) {
-    if (onFloor) before.y = 0;
-}
-
-void Rim::surround(const glm::ivec3& cells, std::span<const float> values, float share, std::vector<float>& to) const {
-    const glm::ivec3 size = around(cells);
-    const auto rows = static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
-    to.resize(rows * static_cast<std::size_t>(size.x));
-    parallel::forEachBlock(rows, 256, [&](std::size_t first, std::size_t count) {
-        for (std::size_t r = first; r < first + count; ++r) {
-            float* row = to.data() + r * static_cast<std::size_t>(size.x);
-            const int j = static_cast<int>(r) % size.y - before.y, k = static_cast<int>(r) / size.y - before.z;
-            if (j < 0 || j >= cells.y || k < 0 || k >= cells.z) {
-                std::fill_n(row, size.x, 0.0f);
-                continue;
-            }
-            const float* from = values.data() + static_cast<std::size_t>(cells.x) *
-                                                    (static_cast<std::size_t>(j) +
-                                                     static_cast<std::size_t>(cells.y) * static_cast<std::size_t>(k));
-            row = std::fill_n(row, before.x, 0.0f);
-            row = std::transform(from, from + cells.x, row, [&](float value) { return value * share; });
-            std::fill_n(row, behind.x, 0.0f);
-        }
-    });
-}
-
-TrailPicture::TrailPicture(const raycast::GridRaycast& ofBox, const raycast::RaycastSettings& settings, bool onFloor)
+TrailPicture::TrailPicture(raycast::GridRaycast& ofBox, const raycast::RaycastSettings& settings, bool onFloor)
     : ofBox_(ofBox), settings_(settings), onFloor_(onFloor) {}
-
-Rim TrailPicture::rimOf(const Place& place) const {
-    return {settings_.filter, onFloor_ && place[1] == 0};
-}
 
 bool TrailPicture::isSeen(const DustTrail::Tile& tile, double spacingMetres) const {
     return static_cast<double>(tile.maximum) * tile.share * settings_.extinctionPerMetre * spacingMetres *
@@ -53,51 +59,121 @@ bool TrailPicture::isSeen(const DustTrail::Tile& tile, double spacingMetres) con
            unseenDepth;
 }
 
-void TrailPicture::show(const DustTrail& trail) {
-    std::erase_if(tiles_, [&](const auto& entry) {
-        const auto found = trail.tiles().find(entry.first);
-        return found == trail.tiles().end() || !isSeen(found->second, trail.spacingMetres());
-    });
+void TrailPicture::show(const DustTrail& trail, const raycast::ShownGrid& box) {
+    fadeBox(trail, box);
+    const Rim rim(settings_.filter, onFloor_);
+    rim.surround(box.cells, faded_, surrounded_);
+    if (!box.reaction.empty()) rim.surround(box.cells, box.reaction, surroundedReaction_);
+    ofBox_.upload({rim.around(box.cells), box.spacingMetres,
+                   box.originMetres - box.spacingMetres * glm::dvec3(rim.before), surrounded_, surroundedReaction_});
+
+    std::map<Place, const DustTrail::Tile*> seen;
+    for (const auto& [place, values] : lent_) seen[place] = nullptr;
     for (const auto& [place, tile] : trail.tiles())
-        if (isSeen(tile, trail.spacingMetres())) showTile(trail, place, tile);
+        if (isSeen(tile, trail.spacingMetres()) || seen.contains(place)) seen[place] = &tile;
+    std::erase_if(tiles_, [&](const auto& entry) { return !seen.contains(entry.first); });
+    for (const auto& [place, tile] : seen) {
+        const auto lent = lent_.find(place);
+        showTile(trail, place, tile, lent != lent_.end() ? &lent->second : nullptr);
+    }
 }
 
-void TrailPicture::showTile(const DustTrail& trail, const Place& place, const DustTrail::Tile& tile) {
+/// From the box's border inwards its cells keep a growing share of their density; the rest goes to the tiles' cells, by
+/// overlapping volumes.
+void TrailPicture::fadeBox(const DustTrail& trail, const raycast::ShownGrid& box) {
+    const glm::ivec3 cells = box.cells;
+    boxHalf_ = 0.5 * box.spacingMetres * glm::dvec3(cells);
+    boxMiddle_ = box.originMetres + boxHalf_;
+    faded_.assign(box.density.begin(), box.density.end());
+    lent_.clear();
+    const int depth = std::min(fadingCells, std::min({cells.x, cells.y, cells.z}) / 4);
+    if (depth < 1) return;
+    const auto least =
+        static_cast<float>(unseenDepth / std::max(settings_.extinctionPerMetre * box.spacingMetres * 128, 1e-30));
+    const glm::dvec3 corner = trail.inCells(box.originMetres);
+    const Overlaps x(corner.x, corner.x + 1), y(corner.y, corner.y + 1), z(corner.z, corner.z + 1);
+    const auto fromBorder = [&](int i, int count) { return std::min(i, count - 1 - i); };
+    Place place{};
+    std::vector<float>* tile = nullptr;
+    const auto lend = [&](const glm::ivec3& cell, float density) {
+        if (const Place of = DustTrail::tileOf(cell); !tile || of != place) {
+            place = of;
+            tile = &lent_[place];
+            tile->resize(DustTrail::tileCells);
+        }
+        (*tile)[DustTrail::indexOf(cell, place)] += density;
+    };
+    const auto fade = [&](const glm::ivec3& cell, float& density) {
+        if (density <= least) return;
+        const int below = onFloor_ ? cells.y - 1 - cell.y : fromBorder(cell.y, cells.y);
+        const int within = std::min({fromBorder(cell.x, cells.x), below, fromBorder(cell.z, cells.z)});
+        const float kept = std::min((static_cast<float>(within) + 0.5f) / static_cast<float>(depth), 1.0f);
+        const double rest = static_cast<double>(density * (1 - kept));
+        if (rest <= 0) return;
+        density *= kept;
+        for (int k = 0; k < z.count; ++k)
+            for (int j = 0; j < y.count; ++j)
+                for (int i = 0; i < x.count; ++i)
+                    lend({x.first + cell.x + i, y.first + cell.y + j, z.first + cell.z + k},
+                         static_cast<float>(rest * x.shares[static_cast<std::size_t>(i)] *
+                                            y.shares[static_cast<std::size_t>(j)] *
+                                            z.shares[static_cast<std::size_t>(k)]));
+    };
+    float* row = faded_.data();
+    for (int k = 0; k < cells.z; ++k)
+        for (int j = 0; j < cells.y; ++j, row += cells.x) {
+            const bool whole = fromBorder(k, cells.z) < depth || cells.y - 1 - j < depth || (!onFloor_ && j < depth);
+            for (int i = 0; i < cells.x; ++i) {
+                if (!whole && i == depth) i = std::max(i, cells.x - depth);
+                fade({i, j, k}, row[i]);
+            }
+        }
+}
+
+void TrailPicture::showTile(const DustTrail& trail, const Place& place, const DustTrail::Tile* tile,
+                            const std::vector<float>* lent) {
     ShownTile& shown = tiles_[place];
     if (!shown.picture) shown.picture = std::make_unique<raycast::GridRaycast>(raycast::Beside(), ofBox_);
-    const double spacing = trail.spacingMetres();
+    const double spacing = trail.spacingMetres(), share = tile ? tile->share : 1;
+    const std::uint64_t version = tile ? tile->version : 0;
     const glm::dvec3 origin = trail.originOf(place);
-    const Rim rim = rimOf(place);
+    const Rim rim(settings_.filter, onFloor_ && place[1] == 0);
     const glm::dvec3 originWithRim = origin - spacing * glm::dvec3(rim.before);
     const bool holdsAsUploaded = settings_.shadowCells > 0 || settings_.renderer == raycast::Renderer::isosurface;
-    if (shown.version != tile.version || (holdsAsUploaded && tile.share < renewedShare * shown.share)) {
+    if (lent || shown.lent || shown.version != version || shown.share == 0 ||
+        (holdsAsUploaded && share < renewedShare * shown.share)) {
+        tileNow_.assign(DustTrail::tileCells, 0.0f);
+        if (lent) tileNow_ = *lent;
+        if (tile)
+            std::ranges::transform(tile->density, tileNow_, tileNow_.begin(), [&](float density, float more) {
+                return density * static_cast<float>(share) + more;
+            });
         const glm::ivec3 cells(DustTrail::edge);
-        rim.surround(cells, tile.density, static_cast<float>(tile.share), surrounded_);
+        rim.surround(cells, tileNow_, surrounded_);
         shown.picture->upload({rim.around(cells), spacing, originWithRim, surrounded_, {}});
-        shown.version = tile.version;
-        shown.share = tile.share;
+        shown.version = version;
+        shown.share = share;
+        shown.lent = lent != nullptr;
     }
-    shown.picture->change(originWithRim, static_cast<float>(tile.share / shown.share));
+    shown.picture->change(originWithRim, static_cast<float>(share / shown.share));
     shown.middle = origin + 0.5 * spacing * DustTrail::edge;
 }
 
-void TrailPicture::draw(const scene::View& view, const gpu::Layer& layer, raycast::GridRaycast& ofBox,
-                        const flow::FluidBox& box) {
+void TrailPicture::draw(const scene::View& view, const gpu::Layer& layer) {
     const glm::dvec3 eye = view.camera.eye;
-    const glm::dvec3 half = 0.5 * box.spacingMetres * glm::dvec3(box.cells), middle = box.originMetres + half;
     // A tile lies beside the box along the axis on which it is furthest from it. It is in front if the eye is there
     // too.
     const auto isInFront = [&](const ShownTile& tile) {
-        const glm::dvec3 from = tile.middle - middle, beyond = glm::abs(from) - half;
+        const glm::dvec3 from = tile.middle - boxMiddle_, beyond = glm::abs(from) - boxHalf_;
         const int axis = beyond.x >= beyond.y && beyond.x >= beyond.z ? 0 : beyond.y >= beyond.z ? 1 : 2;
-        return (eye[axis] - middle[axis]) * (from[axis] > 0 ? 1 : -1) > half[axis];
+        return (eye[axis] - boxMiddle_[axis]) * (from[axis] > 0 ? 1 : -1) > boxHalf_[axis];
     };
     struct Drawn {
         bool inFront;
         double distance;
         raycast::GridRaycast* picture;
     };
-    std::vector<Drawn> order{{true, std::numeric_limits<double>::infinity(), &ofBox}};  // first of those in front
+    std::vector<Drawn> order{{true, std::numeric_limits<double>::infinity(), &ofBox_}};  // first of those in front
     for (const auto& [place, tile] : tiles_)
         order.push_back({isInFront(tile), glm::distance(tile.middle, eye), tile.picture.get()});
     std::ranges::stable_sort(order, [](const Drawn& a, const Drawn& b) {

@@ -254,7 +254,7 @@ void DemoSolver::addDensity(std::span<const flow::AddedDensity>) {
     throw std::logic_error("the box of the demo stands still");
 }
 
-void DemoSolver::gather(flow::Lane, const gpu::Texture&, glm::ivec3) const {
+void DemoSolver::gather(flow::Lane, const gpu::Texture&) const {
     throw std::logic_error("a fluid that is solved on the CPU lies in no texture");
 }
 

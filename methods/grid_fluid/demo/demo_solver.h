@@ -28,7 +28,7 @@ class DemoSolver final : public flow::Solver {
     [[nodiscard]] std::vector<float> pressuresM2PerS2() const override;
     [[nodiscard]] float divergencePerStep() const override;
     [[nodiscard]] bool onGpu() const override { return false; }
-    void gather(flow::Lane lane, const gpu::Texture& to, glm::ivec3 corner) const override;
+    void gather(flow::Lane lane, const gpu::Texture& to) const override;
     void addDensity(std::span<const flow::AddedDensity> added) override;
     [[nodiscard]] MemoryReport gpuMemory() const override { return {}; }
 

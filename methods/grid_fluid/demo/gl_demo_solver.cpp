@@ -248,11 +248,10 @@ void GlDemoSolver::addDensity(std::span<const flow::AddedDensity>) {
     throw std::logic_error("the box of the demo stands still");
 }
 
-void GlDemoSolver::gather(flow::Lane lane, const gpu::Texture& to, glm::ivec3 corner) const {
+void GlDemoSolver::gather(flow::Lane lane, const gpu::Texture& to) const {
     const bool alone = lane == flow::density || lane == flow::temperature;
     (lane == flow::density ? density_ : lane == flow::temperature ? temperature_ : velocity_).bind(0);
     to.bindImage(0, false, true);
-    shown_.set("corner", corner);
     shown_.set("component", alone ? 0 : lane == flow::reaction ? 3 : static_cast<int>(lane));
     run(shown_);
 }

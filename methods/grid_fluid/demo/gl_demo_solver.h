@@ -31,7 +31,7 @@ class GlDemoSolver final : public flow::Solver {
     [[nodiscard]] std::vector<float> pressuresM2PerS2() const override;
     [[nodiscard]] float divergencePerStep() const override;
     [[nodiscard]] bool onGpu() const override { return true; }
-    void gather(flow::Lane lane, const gpu::Texture& to, glm::ivec3 corner) const override;
+    void gather(flow::Lane lane, const gpu::Texture& to) const override;
     void addDensity(std::span<const flow::AddedDensity> added) override;
     [[nodiscard]] MemoryReport gpuMemory() const override;
 

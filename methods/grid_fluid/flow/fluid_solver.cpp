@@ -263,7 +263,7 @@ float FluidSolver::divergencePerStep() const {
            static_cast<float>(lastStepSeconds_ / settings_.box.spacingMetres);
 }
 
-void FluidSolver::gather(Lane, const gpu::Texture&, glm::ivec3) const {
+void FluidSolver::gather(Lane, const gpu::Texture&) const {
     throw std::logic_error("a fluid that is solved on the CPU lies in no texture");
 }
 

@@ -37,7 +37,7 @@ class FluidSolver final : public Solver {
     void gatherStored(Lane lane, std::span<float> to) const override;
     [[nodiscard]] std::vector<float> pressuresM2PerS2() const override;
     [[nodiscard]] bool onGpu() const override { return false; }
-    void gather(Lane lane, const gpu::Texture& to, glm::ivec3 corner) const override;
+    void gather(Lane lane, const gpu::Texture& to) const override;
     [[nodiscard]] MemoryReport gpuMemory() const override { return {}; }
 
     [[nodiscard]] const CellLayout& layout() const { return layout_; }

@@ -7,9 +7,6 @@ layout(binding = 0, r32f) restrict writeonly uniform image3D picture;
 layout(std430, binding = 3) restrict writeonly buffer Values { float values[]; };
 #endif
 uniform int lane;
-#ifdef TEXTURE
-uniform ivec3 corner;  // texel of the first cell
-#endif
 #ifndef TEXTURE
 uniform int asStored;  // a velocity on the face towards -x, -y or -z
 #else
@@ -23,7 +20,7 @@ void main() {
     float value = lane < 4 ? moving[cell][lane] : carried[cell][lane - 4];
     if (lane < 3 && asStored == 0) value = 0.5 * (value + moving[cell + stepAlong(lane)][lane]);
 #ifdef TEXTURE
-    imageStore(picture, c + corner, vec4(value));
+    imageStore(picture, c, vec4(value));
 #else
     values[c.x + cells.x * (c.y + cells.y * c.z)] = value;
 #endif

@@ -251,11 +251,10 @@ void GlFluidSolver::gather(flow::Lane lane, bool asStored, std::span<float> to) 
     guess_.moving.read(to);
 }
 
-void GlFluidSolver::gather(flow::Lane lane, const gpu::Texture& to, glm::ivec3 corner) const {
+void GlFluidSolver::gather(flow::Lane lane, const gpu::Texture& to) const {
     cells_.bind(1);
     to.bindImage(0, false, true);
     gatherTexture_.set("lane", static_cast<int>(lane));
-    gatherTexture_.set("corner", corner);
     gatherTexture_.run(settings_.box.cells);
 }
 

@@ -45,7 +45,7 @@ class GlFluidSolver final : public flow::Solver {
     [[nodiscard]] std::vector<float> pressuresM2PerS2() const override;
     [[nodiscard]] float divergencePerStep() const override;
     [[nodiscard]] bool onGpu() const override { return true; }
-    void gather(flow::Lane lane, const gpu::Texture& to, glm::ivec3 corner) const override;
+    void gather(flow::Lane lane, const gpu::Texture& to) const override;
     [[nodiscard]] MemoryReport gpuMemory() const override;
 
     [[nodiscard]] const flow::CellLayout& layout() const { return layout_; }

@@ -8,18 +8,15 @@
 #include "methods/kit/maths/hash.h"
 
 namespace dustbench::grid_fluid {
-namespace {
-
-int tileOf(int cell) {
-    return cell >= 0 ? cell / DustTrail::edge : -((DustTrail::edge - 1 - cell) / DustTrail::edge);
+std::array<int, 3> DustTrail::tileOf(const glm::ivec3& cell) {
+    const auto along = [](int at) { return at >= 0 ? at / edge : -((edge - 1 - at) / edge); };
+    return {along(cell.x), along(cell.y), along(cell.z)};
 }
 
-std::size_t indexIn(const glm::ivec3& cell, const glm::ivec3& firstOfTile) {
-    const glm::ivec3 at = cell - firstOfTile;
-    return static_cast<std::size_t>(at.x + DustTrail::edge * (at.y + DustTrail::edge * at.z));
+std::size_t DustTrail::indexOf(const glm::ivec3& cell, const std::array<int, 3>& tile) {
+    const glm::ivec3 at = cell - edge * glm::ivec3(tile[0], tile[1], tile[2]);
+    return static_cast<std::size_t>(at.x + edge * (at.y + edge * at.z));
 }
-
-}  // namespace
 
 void DustTrail::pass(float seconds) {
     driftMetres_ += glm::dvec3(settings_.windMetresPerSecond) * static_cast<double>(seconds);
@@ -44,16 +41,15 @@ void DustTrail::add(const Cuboid& where, double amountM3) {
 }
 
 void DustTrail::addTo(const glm::ivec3& cell, double amountM3) {
-    const std::array place{tileOf(cell.x), tileOf(cell.y), tileOf(cell.z)};
+    const std::array place = tileOf(cell);
     Tile& tile = tiles_.try_emplace(place, account_).first->second;
     const double cellM3 = std::pow(settings_.spacingMetres, 3);
-    const glm::ivec3 first = edge * glm::ivec3(place[0], place[1], place[2]);
     // Where little is left of the old, new dust over `share` would leave the range of floats.
     if (tile.share < 1e-6) {
         for (float& density : tile.density) density *= static_cast<float>(tile.share);
         tile.share = 1;
     }
-    tile.density[indexIn(cell, first)] += static_cast<float>(amountM3 / cellM3 / tile.share);
+    tile.density[indexOf(cell, place)] += static_cast<float>(amountM3 / cellM3 / tile.share);
     tile.changed = true;
 }
 
@@ -72,7 +68,7 @@ void DustTrail::takeEntered(const Cuboid& box,
             for (cell.y = from.y; cell.y < end.y; ++cell.y)
                 for (cell.x = from.x; cell.x < end.x; ++cell.x) {
                     if (inBox_.contains(cell)) continue;
-                    float& density = tile.density[indexIn(cell, first)];
+                    float& density = tile.density[indexOf(cell, place)];
                     if (density == 0) continue;
                     taker(driftMetres_ + (glm::dvec3(cell) + 0.5) * settings_.spacingMetres,
                           static_cast<double>(density) * tile.share * cellM3);

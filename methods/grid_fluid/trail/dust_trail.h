@@ -44,6 +44,10 @@ class DustTrail {
     /// By the tile's place, in tiles.
     using Tiles = std::map<std::array<int, 3>, Tile>;
 
+    /// The tile of a cell of the lattice, and its index there.
+    [[nodiscard]] static std::array<int, 3> tileOf(const glm::ivec3& cell);
+    [[nodiscard]] static std::size_t indexOf(const glm::ivec3& cell, const std::array<int, 3>& tile);
+
     DustTrail(const TrailSettings& settings, MemoryAccount& account) : settings_(settings), account_(account) {}
 
     /// Wind and age.
@@ -60,6 +64,10 @@ class DustTrail {
     [[nodiscard]] glm::dvec3 originOf(const std::array<int, 3>& tile) const {
         return driftMetres_ + settings_.spacingMetres * edge * glm::dvec3(tile[0], tile[1], tile[2]);
     }
+    /// A place in the lattice.
+    [[nodiscard]] glm::dvec3 inCells(const glm::dvec3& place) const {
+        return (place - driftMetres_) / settings_.spacingMetres;
+    }
     [[nodiscard]] double spacingMetres() const { return settings_.spacingMetres; }
     /// As of the last `settle`.
     [[nodiscard]] double amountM3() const;
@@ -72,9 +80,6 @@ class DustTrail {
             return glm::all(glm::greaterThanEqual(cell, first)) && glm::all(glm::lessThan(cell, end));
         }
     };
-    [[nodiscard]] glm::dvec3 inCells(const glm::dvec3& place) const {
-        return (place - driftMetres_) / settings_.spacingMetres;
-    }
     void addTo(const glm::ivec3& cell, double amountM3);
 
     TrailSettings settings_;
