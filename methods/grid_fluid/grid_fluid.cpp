@@ -78,7 +78,7 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     if (scene.lights.onDust) lightDust(settings_.picture, scene);
     settings_.picture.smokeColour = settings_.setup.look.albedo.value_or(scene.dustAlbedo);
     picture_.emplace(device, settings_.picture, scene.lights, ledger_);
-    if (trail_) trailPicture_.emplace(*picture_, settings_.picture, scene.terrain.isFlat());
+    if (trail_) trailPicture_.emplace(*picture_, settings_.picture, scene.lights.toSun, scene.terrain.isFlat());
     // Box and trail are blended on the host.
     if (solver_->onGpu() && picture_->takesTextures() && !trail_) {
         const glm::ivec3 cells = solver.box.cells;

@@ -15,6 +15,8 @@ constexpr double unseenDepth = 1e-4;
 constexpr double renewedShare = 0.95;
 /// Cells within which the box fades out: two lattices differ by an eighth of what they would at a sharp border.
 constexpr int fadingCells = 8;
+/// The box's name among the grids that cast shadows: no tile lies there.
+constexpr CloudShade::Id theBox{std::numeric_limits<int>::max(), 0, 0};
 
 /// Layers of empty cells around a shown grid. There are none below a floor, where the lowest cells go on.
 struct Rim {
@@ -50,8 +52,9 @@ struct Rim {
 
 }  // namespace
 
-TrailPicture::TrailPicture(raycast::GridRaycast& ofBox, const raycast::RaycastSettings& settings, bool onFloor)
-    : ofBox_(ofBox), settings_(settings), onFloor_(onFloor) {}
+TrailPicture::TrailPicture(raycast::GridRaycast& ofBox, const raycast::RaycastSettings& settings,
+                           const glm::vec3& toSun, bool onFloor)
+    : ofBox_(ofBox), settings_(settings), onFloor_(onFloor), shade_(toSun, settings.extinctionPerMetre) {}
 
 bool TrailPicture::isSeen(const DustTrail::Tile& tile, double spacingMetres) const {
     return static_cast<double>(tile.maximum) * tile.share * settings_.extinctionPerMetre * spacingMetres *
@@ -64,18 +67,43 @@ void TrailPicture::show(const DustTrail& trail, const raycast::ShownGrid& box) {
     const Rim rim(settings_.filter, onFloor_);
     rim.surround(box.cells, faded_, surrounded_);
     if (!box.reaction.empty()) rim.surround(box.cells, box.reaction, surroundedReaction_);
-    ofBox_.upload({rim.around(box.cells), box.spacingMetres,
-                   box.originMetres - box.spacingMetres * glm::dvec3(rim.before), surrounded_, surroundedReaction_});
-
+    const raycast::ShownGrid boxShown{rim.around(box.cells), box.spacingMetres,
+                                      box.originMetres - box.spacingMetres * glm::dvec3(rim.before), surrounded_,
+                                      surroundedReaction_};
     std::map<Place, const DustTrail::Tile*> seen;
     for (const auto& [place, values] : lent_) seen[place] = nullptr;
     for (const auto& [place, tile] : trail.tiles())
         if (isSeen(tile, trail.spacingMetres()) || seen.contains(place)) seen[place] = &tile;
-    std::erase_if(tiles_, [&](const auto& entry) { return !seen.contains(entry.first); });
-    for (const auto& [place, tile] : seen) {
-        const auto lent = lent_.find(place);
-        showTile(trail, place, tile, lent != lent_.end() ? &lent->second : nullptr);
+    std::erase_if(tiles_, [&](const auto& entry) {
+        const bool gone = !seen.contains(entry.first);
+        if (gone) shade_.remove(entry.first);
+        return gone;
+    });
+    raycast::ShownGrid grid;
+    // All grids must cast their shadows before any is lit.
+    if (isLit()) {
+        shade_.set(theBox, boxShown);
+        for (const auto& [place, tile] : seen) {
+            if (find(trail, place, tile, grid))
+                shade_.set(place, grid);
+            else
+                shade_.change(place, grid.originMetres, tile ? tile->share / tiles_[place].share : 1);
+        }
     }
+    for (const auto& [place, tile] : seen) {
+        if (find(trail, place, tile, grid)) uploadTile(place, tile, grid);
+        ShownTile& shown = tiles_[place];
+        shown.picture->change(grid.originMetres, static_cast<float>(tile ? tile->share / shown.share : 1));
+        shown.middle = trail.originOf(place) + 0.5 * trail.spacingMetres() * DustTrail::edge;
+    }
+    upload(ofBox_, theBox, boxShown);
+}
+
+void TrailPicture::upload(raycast::GridRaycast& picture, const Place& id, const raycast::ShownGrid& grid) {
+    if (!isLit())
+        picture.upload(grid);
+    else
+        picture.upload(grid, [&](const glm::dvec3& place) { return shade_.arrivingAt(place, id); });
 }
 
 /// From the box's border inwards its cells keep a growing share of their density; the rest goes to the tiles' cells, by
@@ -130,33 +158,36 @@ void TrailPicture::fadeBox(const DustTrail& trail, const raycast::ShownGrid& box
         }
 }
 
-void TrailPicture::showTile(const DustTrail& trail, const Place& place, const DustTrail::Tile* tile,
-                            const std::vector<float>* lent) {
+bool TrailPicture::find(const DustTrail& trail, const Place& place, const DustTrail::Tile* tile,
+                        raycast::ShownGrid& grid) {
+    const ShownTile& shown = tiles_[place];
+    const double spacing = trail.spacingMetres(), share = tile ? tile->share : 1;
+    const Rim rim(settings_.filter, onFloor_ && place[1] == 0);
+    const glm::ivec3 cells(DustTrail::edge);
+    grid = {rim.around(cells), spacing, trail.originOf(place) - spacing * glm::dvec3(rim.before), {}, {}};
+    const auto lent = lent_.find(place);
+    const bool isLent = lent != lent_.end();
+    const bool holdsAsUploaded = isLit() || settings_.renderer == raycast::Renderer::isosurface;
+    if (shown.picture && !isLent && !shown.lent && shown.version == (tile ? tile->version : 0) &&
+        !(holdsAsUploaded && share < renewedShare * shown.share))
+        return false;
+    tileNow_.assign(DustTrail::tileCells, 0.0f);
+    if (isLent) tileNow_ = lent->second;
+    if (tile)
+        std::ranges::transform(tile->density, tileNow_, tileNow_.begin(),
+                               [&](float density, float more) { return density * static_cast<float>(share) + more; });
+    rim.surround(cells, tileNow_, surroundedTile_);
+    grid.density = surroundedTile_;
+    return true;
+}
+
+void TrailPicture::uploadTile(const Place& place, const DustTrail::Tile* tile, const raycast::ShownGrid& grid) {
     ShownTile& shown = tiles_[place];
     if (!shown.picture) shown.picture = std::make_unique<raycast::GridRaycast>(raycast::Beside(), ofBox_);
-    const double spacing = trail.spacingMetres(), share = tile ? tile->share : 1;
-    const std::uint64_t version = tile ? tile->version : 0;
-    const glm::dvec3 origin = trail.originOf(place);
-    const Rim rim(settings_.filter, onFloor_ && place[1] == 0);
-    const glm::dvec3 originWithRim = origin - spacing * glm::dvec3(rim.before);
-    const bool holdsAsUploaded = settings_.shadowCells > 0 || settings_.renderer == raycast::Renderer::isosurface;
-    if (lent || shown.lent || shown.version != version || shown.share == 0 ||
-        (holdsAsUploaded && share < renewedShare * shown.share)) {
-        tileNow_.assign(DustTrail::tileCells, 0.0f);
-        if (lent) tileNow_ = *lent;
-        if (tile)
-            std::ranges::transform(tile->density, tileNow_, tileNow_.begin(), [&](float density, float more) {
-                return density * static_cast<float>(share) + more;
-            });
-        const glm::ivec3 cells(DustTrail::edge);
-        rim.surround(cells, tileNow_, surrounded_);
-        shown.picture->upload({rim.around(cells), spacing, originWithRim, surrounded_, {}});
-        shown.version = version;
-        shown.share = share;
-        shown.lent = lent != nullptr;
-    }
-    shown.picture->change(originWithRim, static_cast<float>(share / shown.share));
-    shown.middle = origin + 0.5 * spacing * DustTrail::edge;
+    upload(*shown.picture, place, grid);
+    shown.version = tile ? tile->version : 0;
+    shown.share = tile ? tile->share : 1;
+    shown.lent = lent_.contains(place);
 }
 
 void TrailPicture::draw(const scene::View& view, const gpu::Layer& layer) {

@@ -3,7 +3,7 @@
 // Each grid is shown with a rim of empty cells. Interpolation is linear in the cells' values, so the rims of neighbours
 // add up to what one grid would show. The wind moves the trail's lattice against the box's, which no rim makes up for:
 // within some cells of its border the box fades out, and lends to the tiles what it no longer shows. So no border is
-// seen. Only light is found by each grid on its own.
+// seen. Light comes to each grid through all others (cloud_shade.h).
 // Units: metres. Frame: world. Owns: a picture of each tile. Threads: the OpenGL thread.
 #pragma once
 
@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-#include "methods/grid_fluid/flow/fluid_box.h"
+#include "methods/grid_fluid/cloud_shade.h"
 #include "methods/grid_fluid/trail/dust_trail.h"
 #include "methods/kit/raycast/grid_raycast.h"
 
@@ -22,7 +22,8 @@ namespace dustbench::grid_fluid {
 class TrailPicture {
  public:
     /// `ofBox` must outlive it. `onFloor`: the ground is level at y = 0.
-    TrailPicture(raycast::GridRaycast& ofBox, const raycast::RaycastSettings& settings, bool onFloor);
+    TrailPicture(raycast::GridRaycast& ofBox, const raycast::RaycastSettings& settings, const glm::vec3& toSun,
+                 bool onFloor);
 
     /// Takes over the box and the tiles that changed.
     void show(const DustTrail& trail, const raycast::ShownGrid& box);
@@ -48,14 +49,18 @@ class TrailPicture {
     using Place = std::array<int, 3>;
     void fadeBox(const DustTrail& trail, const raycast::ShownGrid& box);
     [[nodiscard]] bool isSeen(const DustTrail::Tile& tile, double spacingMetres) const;
-    void showTile(const DustTrail& trail, const Place& place, const DustTrail::Tile* tile,
-                  const std::vector<float>* lent);
+    [[nodiscard]] bool isLit() const { return settings_.shadowCells > 0; }
+    /// Finds `tileNow_` and what it is shown as; false if the tile is shown so already.
+    bool find(const DustTrail& trail, const Place& place, const DustTrail::Tile* tile, raycast::ShownGrid& grid);
+    void upload(raycast::GridRaycast& picture, const Place& id, const raycast::ShownGrid& grid);
+    void uploadTile(const Place& place, const DustTrail::Tile* tile, const raycast::ShownGrid& grid);
 
     raycast::GridRaycast& ofBox_;
     raycast::RaycastSettings settings_;
     bool onFloor_;
+    CloudShade shade_;
     glm::dvec3 boxMiddle_{0}, boxHalf_{0};  ///< metres
-    std::vector<float> faded_, surrounded_, surroundedReaction_, tileNow_;
+    std::vector<float> faded_, surrounded_, surroundedReaction_, tileNow_, surroundedTile_;
     std::map<Place, std::vector<float>> lent_;
     std::map<Place, ShownTile> tiles_;
     std::int64_t primitives_ = 0;

@@ -44,7 +44,7 @@ TEST(TrailPicture, ShowsNoBorderBetweenBoxAndTrailHoweverTheirLatticesLie) {
             settings.renderer = renderer;
             settings.stepCells = 0.25;
             raycast::GridRaycast box(draw::TestCanvas::device(), settings, {}, dust.ledger);
-            TrailPicture picture(box, settings, true);
+            TrailPicture picture(box, settings, {0, 1, 0}, true);
             picture.show(dust.trail, dust.box());
             const pictures::Image image =
                 canvas.picture([&](const gpu::Layer& layer) { picture.draw(canvas.view, layer); });
@@ -70,7 +70,7 @@ TEST(TrailPicture, LendsWhatTheBoxNoLongerShows) {
     raycast::RaycastSettings settings;
     settings.backend = raycast::Backend::gl;
     raycast::GridRaycast box(draw::TestCanvas::device(), settings, {}, dust.ledger);
-    TrailPicture picture(box, settings, true);
+    TrailPicture picture(box, settings, {0, 1, 0}, true);
     picture.show(dust.trail, dust.box());
     double shown = std::accumulate(picture.faded().begin(), picture.faded().end(), 0.0);
     EXPECT_LT(shown, 0.8 * static_cast<double>(dust.density.size()));

@@ -28,13 +28,13 @@ GridRaycast::GridRaycast(Beside, const GridRaycast& sibling)
     if (settings_.shadowCells > 0) light_.emplace(settings_, toSun_, ledger_);
 }
 
-void GridRaycast::upload(const ShownGrid& grid) {
+void GridRaycast::upload(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving) {
     drawable_ = false;
     check(grid);
     bricks_.set(grid, reachOf(settings_.filter));
     place_ = {{grid.cells, grid.spacingMetres, grid.originMetres, {}, {}}, bricks_.minimum(), bricks_.maximum()};
     if (bricks_.empty()) return;
-    if (light_) light_->set(grid);
+    if (light_) light_->set(grid, arriving);
     renderer_->upload(grid, bricks_, light_ ? &*light_ : nullptr);
     drawable_ = true;
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -22,7 +23,8 @@ class DUSTBENCH_API GridRaycast {
 
     /// Copies everything that is drawn; the grid need not outlive the call. Throws InputError if the grid has no cells
     /// or a density is negative or NaN; nothing is drawn after an error.
-    void upload(const ShownGrid& grid);
+    /// `arriving`: see LightVolume::set.
+    void upload(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving = {});
 
     /// The same for a grid that is already on the GPU; only if `takesTextures()`.
     void take(const ShownTextures& grid);
