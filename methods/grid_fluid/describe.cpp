@@ -73,6 +73,7 @@ GridFluidSettings settingsOf(const ParameterValues& values) {
         throw InputError("parameter scheme: got demo with fluid '" + setup.name +
                          "', which follows the vehicle, allowed: ours; the demo's box stands still");
     settings.solverBackend = values.choice("solver", solverBackends);
+    settings.trail = values.boolean("trail");
     settings.framesPerStep = static_cast<int>(values.integer("frames_per_step"));
 
     raycast::RaycastSettings& picture = settings.picture;
@@ -114,12 +115,21 @@ MethodInfo describe() {
         .real("cooling", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the heat lost; -1: as the file says")
         .real("decay", asTheFileSays, asTheFileSays, 1000, "1/s", "share of the density lost; -1: as the file says")
         .real("diffusion", asTheFileSays, asTheFileSays, 1000, "m2/s", "viscosity; -1: as the file says")
+        .boolean(
+            "trail", true,
+            "keep the dust that a box leaves behind that follows the vehicle: the wind carries it, and it fades with "
+            "age; without, it is gone")
         .integer("frames_per_step", 1, 1, 600, "frames", "the fluid takes one long step in so many frames");
     raycast::declareRaycast(info.parameters);
     info.facts = {
         {"mass_kept", "share", FactOver::lastFrame,
          "share of the particles' optical mass that the method's volume holds after the last frame; dust outside of "
          "the volume's box is missing from it"},
+        {"mass_lost",
+         "share",
+         FactOver::lastFrame,
+         "share of the optical mass that the method's rule keeps and its volume does not hold, after the last frame",
+         {.maximum = 0.01}},
         {"flow_speed_max", "m/s", FactOver::lastFrame, "speed of the flow along an axis: maximum since the beginning"},
         {"flow_cells_per_step_max", "cells", FactOver::lastFrame,
          "distance that the flow covers in a step (the Courant number): maximum since the beginning"},

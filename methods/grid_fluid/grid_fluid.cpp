@@ -11,6 +11,7 @@
 #include "methods/grid_fluid/dust_mass.h"
 #include "methods/grid_fluid/flow/grid_noise.h"
 #include "methods/grid_fluid/fluid_place.h"
+#include "methods/kit/maths/hash.h"
 #include "methods/kit/maths/transmittance.h"
 #include "methods/kit/raycast/raycast_parameters.h"
 
@@ -54,6 +55,10 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     if (settings_.scheme == FlowScheme::demo && scene.wind != glm::vec3(0))
         throw InputError("parameter scheme: got demo in scene '" + scene.id +
                          "', which has wind, allowed: ours; the demo has still air");
+    if (settings_.setup.followsVehicle && settings_.trail) {
+        solver.notesLeaving = true;
+        trail_.emplace(solver, ledger_);
+    }
     solver_ = makeFlowSolver(solver, settings_.scheme, burns, onGpu, device, ledger_);
     if (onGpu) rays_.emplace(device, solver.box.cells);
     solids_.emplace(scene, solver.box.cells, ledger_.account("solids"), rays_ ? &*rays_ : nullptr);
@@ -62,7 +67,9 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     if (scene.lights.onDust) raycast::lightDust(settings_.picture, scene);
     settings_.picture.smokeColour = settings_.setup.look.albedo.value_or(scene.dustAlbedo);
     picture_.emplace(device, settings_.picture, scene.lights, ledger_);
-    if (solver_->onGpu() && picture_->takesTextures()) {
+    if (trail_) trailPicture_.emplace(*picture_, settings_.picture, scene.lights.toSun, scene.terrain.isFlat());
+    // Box and trail are blended on the host.
+    if (solver_->onGpu() && picture_->takesTextures() && !trail_) {
         const glm::ivec3 cells = solver.box.cells;
         const auto make = [&](gpu::Texture& texture) {
             texture = gpu::Texture::make3D(device, "grid shown", gpu::Format::r32F, cells.x, cells.y, cells.z);
@@ -108,18 +115,15 @@ void GridFluid::update(const Frame& frame) {
 void GridFluid::simulate(const Frame& frame) {
     {
         const auto timing = frame.clock.measureDetail("solids");
-        if (settings_.setup.followsVehicle) {
-            const glm::dvec3 wanted =
-                wantedOrigin(settings_.setup, solver_->box(), scene_->terrain, frame.state.vehicle);
-            if (const glm::ivec3 due = dueScroll(solver_->box(), wanted); due != glm::ivec3(0)) {
-                solver_->scroll(due);
-                solidsStandStill_ = false;
-            }
-        }
+        if (settings_.setup.followsVehicle) follow(frame.state.vehicle);
         placeSolids(frame.state);
     }
     const auto sources = emitters_->at(frame.state, steps_++, secondsDue_, dustDueM2_);
     const flow::StepReport report = solver_->step(secondsDue_, sources, frame.clock);
+    if (trail_) {
+        const auto timing = frame.clock.measureDetail("trail");
+        trail_->pass(*solver_, static_cast<float>(secondsDue_), sources);
+    }
     const auto cells = static_cast<double>(report.cellsPerStep);
     extremes_.cellsPerStep = std::max(extremes_.cellsPerStep, cells);
     extremes_.speedMetresPerSecond =
@@ -135,6 +139,22 @@ void GridFluid::simulate(const Frame& frame) {
     }
     framesDue_ = 0;
     secondsDue_ = dustDueM2_ = 0;
+}
+
+void GridFluid::follow(const scene::VehicleState& vehicle) {
+    const flow::FluidBox& box = solver_->box();
+    const glm::ivec3 due = dueScroll(box, wantedOrigin(settings_.setup, box, scene_->terrain, vehicle));
+    if (due != glm::ivec3(0)) {
+        if (trail_) {
+            // Read back only now: a box on the GPU moves once in several steps.
+            std::vector<float> density(box.cellCount());
+            solver_->gather(flow::density, density);
+            trail_->leave(box, due, density);
+        }
+        solver_->scroll(due);
+        solidsStandStill_ = false;
+    }
+    if (trail_) trail_->enter(*solver_);
 }
 
 void GridFluid::placeSolids(const scene::SceneState& state) {
@@ -156,11 +176,18 @@ void GridFluid::show() {
     }
     solver_->gather(flow::density, density_);
     if (!reaction_.empty()) solver_->gather(flow::reaction, reaction_);
-    picture_->upload({box.cells, box.spacingMetres, box.originMetres, density_, reaction_});
+    const raycast::ShownGrid shown{box.cells, box.spacingMetres, box.originMetres, density_, reaction_};
+    if (trailPicture_)
+        trailPicture_->show(trail_->dust(), shown);
+    else
+        picture_->upload(shown);
 }
 
 void GridFluid::draw(const Frame& frame, gpu::Layer& layer) {
-    picture_->draw(frame.view, layer);
+    if (trailPicture_)
+        trailPicture_->draw(frame.view, layer);
+    else
+        picture_->draw(frame.view, layer);
 }
 
 void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
@@ -194,14 +221,43 @@ void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
                                            {"pressure", "m2/s2 (by density of the air)", 1, pressure},
                                            {"solids", "1 inside", 1, solids}}};
     visitor.grid({box.originMetres, box.spacingMetres, box.cells, extinction, fields});
+    if (trail_) volumeOfTrail(visitor);
 }
 
-double GridFluid::opticalMassSquareMetres() const {
+/// Its tiles as grids of their own, without fields.
+void GridFluid::volumeOfTrail(VolumeVisitor& visitor) const {
+    std::vector<float> extinction(DustTrail::tileCells);
+    for (const auto& [place, tile] : trail_->dust().tiles()) {
+        const auto scale = static_cast<float>(tile.share * settings_.setup.look.extinctionPerMetre);
+        std::ranges::transform(tile.density, extinction.begin(), [&](float value) { return value * scale; });
+        visitor.grid({trail_->dust().originOf(place),
+                      trail_->dust().spacingMetres(),
+                      glm::ivec3(DustTrail::edge),
+                      extinction,
+                      {}});
+    }
+}
+
+double GridFluid::amountM3() const {
     std::vector<float> density(solver_->box().cellCount());
     solver_->gather(flow::density, density);
     double sum = 0;
     for (const float value : density) sum += static_cast<double>(value);
-    return sum * settings_.setup.look.extinctionPerMetre * std::pow(settings_.solver.box.spacingMetres, 3);
+    return sum * std::pow(settings_.solver.box.spacingMetres, 3) + (trail_ ? trail_->dust().amountM3() : 0);
+}
+
+double GridFluid::opticalMassSquareMetres() const {
+    return amountM3() * settings_.setup.look.extinctionPerMetre;
+}
+
+std::optional<double> GridFluid::massLost() const {
+    const bool isKnown = std::ranges::all_of(settings_.setup.sources, [](const SourceSetup& source) {
+        return source.at == SourceAt::wheels || source.densityPerSecond == 0;
+    });
+    if (!trail_ || !settings_.solver.keepsDensity || !isKnown) return std::nullopt;
+    const std::optional<double> due = trail_->dueM3();
+    if (!due) return std::nullopt;
+    return std::abs(1 - amountM3() / *due);
 }
 
 void GridFluid::report(const Frame& frame, Facts& facts) const {
@@ -213,6 +269,8 @@ void GridFluid::report(const Frame& frame, Facts& facts) const {
         facts.tell("flow_divergence", static_cast<double>(solver_->divergencePerStep()));
     if (facts.wants("flow_noise_speed")) facts.tell("flow_noise_speed", noiseOf(flow::velocityY));
     if (facts.wants("flow_noise_density")) facts.tell("flow_noise_density", noiseOf(flow::density));
+    if (facts.wants("mass_lost"))
+        if (const auto lost = massLost()) facts.tell("mass_lost", *lost);
     if (!facts.wants("mass_kept")) return;
     if (const auto kept = massKept(frame.dust)) facts.tell("mass_kept", *kept);
 }
@@ -241,15 +299,19 @@ MemoryReport GridFluid::memory() const {
         report.push_back({"grid shown", 0, bytes});
     if (rays_) report.push_back({"fluid voxelisation", 0, rays_->bytes()});
     if (picture_) report.push_back({"picture", 0, picture_->gpuBytes()});
+    if (trailPicture_) report.push_back({"picture of the trail", 0, trailPicture_->gpuBytes()});
     return report;
 }
 
 std::int64_t GridFluid::primitives() const {
+    if (trailPicture_) return trailPicture_->primitives();
     return picture_ ? picture_->primitives() : 0;
 }
 
 std::optional<std::uint64_t> GridFluid::stateHash() const {
-    return solver_ ? solver_->stateHash() : 0;
+    if (!solver_) return 0;
+    if (!trail_) return solver_->stateHash();
+    return maths::Hash().add(solver_->stateHash()).add(trail_->dust().stateHash()).value();
 }
 
 }  // namespace dustbench::grid_fluid

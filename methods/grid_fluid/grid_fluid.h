@@ -14,6 +14,8 @@
 #include "methods/grid_fluid/flow_solver.h"
 #include "methods/grid_fluid/fluid_setup.h"
 #include "methods/grid_fluid/fluid_solids.h"
+#include "methods/grid_fluid/trail/fluid_trail.h"
+#include "methods/grid_fluid/trail_picture.h"
 #include "methods/kit/gpu/texture.h"
 #include "methods/kit/raycast/grid_raycast.h"
 
@@ -25,6 +27,7 @@ struct GridFluidSettings {
     FlowScheme scheme = FlowScheme::ours;
     SolverBackend solverBackend = SolverBackend::cpu;
     int framesPerStep = 1;
+    bool trail = true;  ///< keeps the dust that a box that follows the vehicle leaves behind
     raycast::RaycastSettings picture;
 };
 
@@ -50,7 +53,7 @@ class GridFluid final : public Method {
     [[nodiscard]] std::optional<std::uint64_t> stateHash() const override;
     [[nodiscard]] bool wantsPreroll() const override { return true; }
 
-    /// ∫ extinction dV.
+    /// ∫ extinction dV, of box and trail.
     [[nodiscard]] double opticalMassSquareMetres() const;
 
  private:
@@ -63,9 +66,16 @@ class GridFluid final : public Method {
     [[nodiscard]] std::optional<double> massKept(const Puffs& dust) const;
     /// Noise at the grid's scale of the stored numbers (flow/grid_noise.h).
     [[nodiscard]] double noiseOf(flow::Lane lane) const;
+    /// Σ density·volume, of box and trail.
+    [[nodiscard]] double amountM3() const;
+    /// Share of the mass that the sources raised and that has not died of age, and that box and trail do not hold, or
+    /// hold too much of; empty without a trail, or if the sources' mass is not known.
+    [[nodiscard]] std::optional<double> massLost() const;
+    void follow(const scene::VehicleState& vehicle);
     void placeSolids(const scene::SceneState& state);
     void requireSourcesInside(const scene::SceneState& state);
     void show();
+    void volumeOfTrail(VolumeVisitor& visitor) const;
 
     GridFluidSettings settings_;
     const scene::Scene* scene_ = nullptr;
@@ -77,6 +87,8 @@ class GridFluid final : public Method {
     std::optional<FluidSolids> solids_;
     std::optional<Emitters> emitters_;
     std::optional<raycast::GridRaycast> picture_;
+    std::optional<FluidTrail> trail_;
+    std::optional<TrailPicture> trailPicture_;
     bool solidsStandStill_ = false;  ///< and the solver already has them
     int framesDue_ = 0;
     double secondsDue_ = 0, dustDueM2_ = 0;

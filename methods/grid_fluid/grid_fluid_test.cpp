@@ -241,9 +241,14 @@ TEST(GridFluid, FollowsTheVehicleByWholeCellsAndHandsOverAllItHas) {
         void puffs(const Puffs&) override { ADD_FAILURE() << "puffs"; }
         void octree(const OctreeVolume&) override { ADD_FAILURE() << "octree"; }
         void grid(const GridVolume& volume) override {
+            if (volume.fields.empty()) {  // a tile of the trail
+                for (const float extinction : volume.extinctionPerMetre)
+                    massOfTrail += static_cast<double>(extinction) * std::pow(volume.spacingMetres, 3);
+                return;
+            }
             ++grids;
             originMetres = volume.originMetres;
-            mass = inside = 0;
+            mass = inside = massOfTrail = 0;
             names.clear();
             const std::size_t cells = volume.extinctionPerMetre.size();
             EXPECT_EQ(cells, 48u * 16 * 32);
@@ -258,7 +263,7 @@ TEST(GridFluid, FollowsTheVehicleByWholeCellsAndHandsOverAllItHas) {
         }
         int grids = 0;
         glm::dvec3 originMetres{0};
-        double mass = 0, inside = 0;
+        double mass = 0, inside = 0, massOfTrail = 0;
         std::vector<std::string> names;
     } collector;
     Drive drive;
@@ -276,7 +281,7 @@ TEST(GridFluid, FollowsTheVehicleByWholeCellsAndHandsOverAllItHas) {
     EXPECT_NEAR(moved, 24, 4);
     EXPECT_EQ(collector.originMetres.y, 0);
     EXPECT_EQ(collector.grids, 2);
-    EXPECT_NEAR(collector.mass, method.opticalMassSquareMetres(), 1e-4 * collector.mass);
+    EXPECT_NEAR(collector.mass + collector.massOfTrail, method.opticalMassSquareMetres(), 1e-4 * collector.mass);
     EXPECT_EQ(collector.names, (std::vector<std::string>{"density", "temperature", "reaction", "velocity",
                                                          "face_speeds", "pressure", "solids"}));
     // The body and its four wheels, apart from their overlap.
@@ -290,6 +295,36 @@ TEST(GridFluid, FollowsTheVehicleByWholeCellsAndHandsOverAllItHas) {
     double alpha = 0;
     for (const glm::vec4& pixel : picture.pixels) alpha += static_cast<double>(pixel.a);
     EXPECT_GT(alpha, 1);
+}
+
+TEST(GridFluid, KeepsTheDustThatItsBoxLeavesBehind) {
+    const MethodInfo info = describe();
+    const auto factsAfter = [&](SolverBackend solver, bool trail, int steps) {
+        Drive drive;
+        drive.scene.wind = {0.6f, 0, -0.9f};
+        GridFluidSettings settings = settingsOf("dust", {48, 16, 32});
+        settings.solver.box.spacingMetres = 0.25;
+        settings.solverBackend = solver;
+        settings.trail = trail;
+        GridFluid method(settings);
+        method.prepare(drive.scene, {}, Drive::device());
+        drive.go(method, steps);
+        Facts facts(info.facts, FactOver::lastFrame);
+        method.report(drive.frame(), facts);
+        return facts;
+    };
+    // Of dust of one rate and lifetime T, after t: rate·T·(1 − e^(−t/T)) of rate·T.
+    const double expected = 1 - std::exp(-2.5 / 4);
+    const FactInfo& lost = *std::ranges::find(info.facts, "mass_lost", &FactInfo::name);
+    for (const SolverBackend solver : {SolverBackend::cpu, SolverBackend::openGl}) {
+        const Facts facts = factsAfter(solver, true, 150);  // 30 m: two and a half boxes
+        EXPECT_LT(std::get<double>(facts.value("mass_lost").value()), 0.003);
+        EXPECT_NEAR(std::get<double>(facts.value("mass_kept").value()), expected, 0.02 * expected);
+    }
+    EXPECT_FALSE(lost.valid.contains(0.011)) << "a run that loses more is not valid";
+    const Facts without = factsAfter(SolverBackend::cpu, false, 150);
+    EXPECT_FALSE(without.value("mass_lost")) << "without a trail it promises nothing";
+    EXPECT_LT(std::get<double>(without.value("mass_kept").value()), 0.6 * expected);
 }
 
 TEST(GridFluid, IsTheSameAgainAndFollowsItsSeed) {

@@ -250,6 +250,10 @@ void DemoSolver::gather(flow::Lane lane, std::span<float> to) const {
     });
 }
 
+void DemoSolver::addDensity(std::span<const flow::AddedDensity>) {
+    throw std::logic_error("the box of the demo stands still");
+}
+
 void DemoSolver::gather(flow::Lane, const gpu::Texture&) const {
     throw std::logic_error("a fluid that is solved on the CPU lies in no texture");
 }

@@ -29,6 +29,7 @@ class DemoSolver final : public flow::Solver {
     [[nodiscard]] float divergencePerStep() const override;
     [[nodiscard]] bool onGpu() const override { return false; }
     void gather(flow::Lane lane, const gpu::Texture& to) const override;
+    void addDensity(std::span<const flow::AddedDensity> added) override;
     [[nodiscard]] MemoryReport gpuMemory() const override { return {}; }
 
  private:

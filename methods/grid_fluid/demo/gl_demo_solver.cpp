@@ -243,6 +243,10 @@ void GlDemoSolver::gather(flow::Lane lane, std::span<float> to) const {
     for (std::size_t c = 0; c < to.size(); ++c) to[c] = values[c * stride + component];
 }
 
+void GlDemoSolver::addDensity(std::span<const flow::AddedDensity>) {
+    throw std::logic_error("the box of the demo stands still");
+}
+
 void GlDemoSolver::gather(flow::Lane lane, const gpu::Texture& to) const {
     const bool alone = lane == flow::density || lane == flow::temperature;
     (lane == flow::density ? density_ : lane == flow::temperature ? temperature_ : velocity_).bind(0);

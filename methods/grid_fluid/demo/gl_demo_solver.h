@@ -32,6 +32,7 @@ class GlDemoSolver final : public flow::Solver {
     [[nodiscard]] float divergencePerStep() const override;
     [[nodiscard]] bool onGpu() const override { return true; }
     void gather(flow::Lane lane, const gpu::Texture& to) const override;
+    void addDensity(std::span<const flow::AddedDensity> added) override;
     [[nodiscard]] MemoryReport gpuMemory() const override;
 
  private:

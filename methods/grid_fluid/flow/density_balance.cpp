@@ -29,7 +29,7 @@ double densityTotal(const CellField& cells, const CellLayout& layout) {
 }
 
 double densityLeaving(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
-                      float cellsPerSpeed) {
+                      float cellsPerSpeed, std::vector<LeavingDensity>* note) {
     const glm::ivec3 size(layout.nx, layout.ny, layout.nz);
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -46,7 +46,10 @@ double densityLeaving(const CellField& cells, const CellLayout& layout, const st
                     const float* record = cells.cell(layout.at(cell.x, cell.y, cell.z));
                     const float* face = far ? cells.cell(layout.at(beyond.x, beyond.y, beyond.z)) : record;
                     const float out = (far ? face[axis] : -face[axis]) * cellsPerSpeed;
-                    if (out > 0) sum += static_cast<double>(out * record[density]);
+                    if (!(out > 0) || record[density] == 0) continue;
+                    const float leaving = out * record[density];
+                    sum += static_cast<double>(leaving);
+                    if (note) note->push_back({cell, axis, far, out, leaving});
                 }
         }
     }

@@ -19,6 +19,7 @@ struct FluidSettings {
     /// Removes density created by advection, in proportion everywhere, and restores density lost by advection or
     /// covered by solids.
     bool keepsDensity = false;
+    bool notesLeaving = false;  ///< what leaves through open sides is noted, for Solver::leaving
     ForceSettings forces;
     PressureMethod pressure = PressureMethod::multigrid;
     int jacobiSweeps = 20;

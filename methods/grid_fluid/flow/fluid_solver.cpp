@@ -90,10 +90,11 @@ StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> so
 
 void FluidSolver::advect(float seconds) {
     const float cellsPerSpeed = seconds / static_cast<float>(settings_.box.spacingMetres);
-    const bool keeps = settings_.keepsDensity;
-    const double due = keeps ? covered_ + densityTotal(cells_, layout_) -
-                                   densityLeaving(cells_, layout_, solids_.conductance(), cellsPerSpeed)
-                             : 0;
+    const bool keeps = settings_.keepsDensity, notes = settings_.notesLeaving;
+    leaving_.clear();
+    double due = keeps ? covered_ + densityTotal(cells_, layout_) : 0;
+    if (keeps || notes)
+        due -= densityLeaving(cells_, layout_, solids_.conductance(), cellsPerSpeed, notes ? &leaving_ : nullptr);
     solids_.extendInto(cells_, !settings_.noSlip);
     fillGhosts();
     advection_.advect(cells_, spare_, solids_.moving(), settings_.advection, cellsPerSpeed, maximumSpeeds_.z);
@@ -231,6 +232,10 @@ void FluidSolver::scroll(glm::ivec3 by) {
     settings_.box.originMetres += glm::dvec3(by) * settings_.box.spacingMetres;
     lastStepSeconds_ = 0;  // the memory of its pressure now holds the cells
     setSolids({});
+}
+
+void FluidSolver::addDensity(std::span<const AddedDensity> added) {
+    for (const auto& [cell, more] : added) cells_.cell(layout_.at(cell.x, cell.y, cell.z))[density] += more;
 }
 
 void FluidSolver::gather(Lane lane, std::span<float> to) const {

@@ -27,6 +27,8 @@ class FluidSolver final : public Solver {
     StepReport step(double stepSeconds, std::span<const FluidSource> sources,
                     const StageClock& clock = StageClock()) override;
     void scroll(glm::ivec3 cells) override;
+    [[nodiscard]] std::span<const LeavingDensity> leaving() const override { return leaving_; }
+    void addDensity(std::span<const AddedDensity> added) override;
 
     [[nodiscard]] const FluidBox& box() const override { return settings_.box; }
     [[nodiscard]] std::int64_t steps() const override { return steps_; }
@@ -72,6 +74,7 @@ class FluidSolver final : public Solver {
     glm::vec3 maximumSpeeds_{0};
     bool speedsKnown_ = false;
     double covered_ = 0;  ///< density covered by solids since the last step
+    std::vector<LeavingDensity> leaving_;
     std::int64_t steps_ = 0;
     double lastStepSeconds_ = 0;
 };

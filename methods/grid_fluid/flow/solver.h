@@ -10,6 +10,7 @@
 
 #include "methods/contract/stage_clock.h"
 #include "methods/grid_fluid/flow/cell_field.h"
+#include "methods/grid_fluid/flow/exchanged_density.h"
 #include "methods/grid_fluid/flow/fluid_settings.h"
 #include "methods/grid_fluid/flow/fluid_source.h"
 #include "methods/grid_fluid/flow/solid_mask.h"
@@ -31,6 +32,11 @@ class Solver {
     virtual StepReport step(double stepSeconds, std::span<const FluidSource> sources, const StageClock& clock) = 0;
     /// Moves the box by whole cells; cell contents stay in place in the world. The solids must be set again.
     virtual void scroll(glm::ivec3 cells) = 0;
+    /// What left through open sides in the last step, if FluidSettings::notesLeaving, else nothing. Valid until the
+    /// next.
+    [[nodiscard]] virtual std::span<const LeavingDensity> leaving() const { return {}; }
+    /// Adds density to cells, each named once. The solids must be set again.
+    virtual void addDensity(std::span<const AddedDensity> added) = 0;
 
     [[nodiscard]] virtual const FluidBox& box() const = 0;
     [[nodiscard]] virtual std::int64_t steps() const = 0;

@@ -57,12 +57,14 @@ GlFluidSolver::GlFluidSolver(const flow::FluidSettings& settings, gpu::Device& d
         kernel->set("cells", settings.box.cells);
     scroll_.set("wind", settings.windMetresPerSecond);
     if (settings.keepsDensity) density_.emplace(device, settings.box.cells);
+    if (settings.notesLeaving) exchange_.emplace(device, settings.box.cells);
     move(settings.box.cells);  // move by the whole box: only the wind remains
     ghosts_.setSideFaces(cells_);
 }
 
 void GlFluidSolver::setSolids(const flow::SolidMask& mask) {
-    if (!solids_.set(mask)) return;
+    if (!solids_.set(mask) && !std::exchange(densityAdded_, false)) return;
+    densityAdded_ = false;
     if (density_) density_->noteCovered(cells_, solids_.kinds());
     solids_.fill(cells_);
     operatorKnown_ = speedsKnown_ = false;
@@ -93,6 +95,7 @@ flow::StepReport GlFluidSolver::step(double stepSeconds, std::span<const flow::F
     ++steps_;
     lastStepSeconds_ = stepSeconds;
     requireNumbers();
+    if (exchange_) exchange_->readLeaving(leaving_);
     flow::StepReport report;
     report.pressure = pressure_.result();
     report.divergencePerStep = report.pressure.residual * seconds / spacing;
@@ -103,6 +106,7 @@ flow::StepReport GlFluidSolver::step(double stepSeconds, std::span<const flow::F
 void GlFluidSolver::advect(float seconds) {
     const float cellsPerSpeed = seconds / static_cast<float>(settings_.box.spacingMetres);
     if (density_) density_->noteDue(cells_, solids_.kinds(), cellsPerSpeed);
+    if (exchange_) exchange_->noteLeaving(cells_, solids_.kinds(), cellsPerSpeed);
     solids_.extendInto(cells_, !settings_.noSlip);
     ghosts_.fill(cells_);
     advection_.advect(cells_, spare_, guess_, solids_.kinds(), report_, cellsPerSpeed);
@@ -196,6 +200,12 @@ void GlFluidSolver::scroll(glm::ivec3 by) {
     setSolids({});
 }
 
+void GlFluidSolver::addDensity(std::span<const flow::AddedDensity> added) {
+    if (added.empty()) return;
+    exchange_->add(cells_, added);
+    densityAdded_ = true;
+}
+
 void GlFluidSolver::writeCells(const flow::CellField& state) {
     std::vector<glm::vec4> moving(layout_.padded());
     std::vector<glm::vec2> carried(layout_.padded());
@@ -264,10 +274,15 @@ std::uint64_t GlFluidSolver::stateHash() const {
 }
 
 MemoryReport GlFluidSolver::gpuMemory() const {
-    return {{"fluid cells", 0, cells_.bytes()},         {"fluid cells of the last step", 0, spare_.bytes()},
-            {"fluid first guesses", 0, guess_.bytes()}, {"fluid paths", 0, advection_.bytes()},
-            {"fluid solids", 0, solids_.bytes()},       {"fluid density", 0, density_ ? density_->bytes() : 0},
-            {"fluid sources", 0, sources_.bytes()},     {"fluid pressure", 0, pressure_.bytes()}};
+    return {{"fluid cells", 0, cells_.bytes()},
+            {"fluid cells of the last step", 0, spare_.bytes()},
+            {"fluid first guesses", 0, guess_.bytes()},
+            {"fluid paths", 0, advection_.bytes()},
+            {"fluid solids", 0, solids_.bytes()},
+            {"fluid density", 0, density_ ? density_->bytes() : 0},
+            {"fluid exchange", 0, exchange_ ? exchange_->bytes() : 0},
+            {"fluid sources", 0, sources_.bytes()},
+            {"fluid pressure", 0, pressure_.bytes()}};
 }
 
 }  // namespace dustbench::grid_fluid::flow_gl

@@ -14,6 +14,7 @@
 #include "methods/grid_fluid/flow/solver.h"
 #include "methods/grid_fluid/flow_gl/advection_on_gpu.h"
 #include "methods/grid_fluid/flow_gl/density_on_gpu.h"
+#include "methods/grid_fluid/flow_gl/exchange_on_gpu.h"
 #include "methods/grid_fluid/flow_gl/forces_on_gpu.h"
 #include "methods/grid_fluid/flow_gl/ghosts_on_gpu.h"
 #include "methods/grid_fluid/flow_gl/pressure_on_gpu.h"
@@ -32,6 +33,8 @@ class GlFluidSolver final : public flow::Solver {
     flow::StepReport step(double stepSeconds, std::span<const flow::FluidSource> sources,
                           const StageClock& clock = StageClock()) override;
     void scroll(glm::ivec3 cells) override;
+    [[nodiscard]] std::span<const flow::LeavingDensity> leaving() const override { return leaving_; }
+    void addDensity(std::span<const flow::AddedDensity> added) override;
 
     [[nodiscard]] const flow::FluidBox& box() const override { return settings_.box; }
     [[nodiscard]] std::int64_t steps() const override { return steps_; }
@@ -70,12 +73,14 @@ class GlFluidSolver final : public flow::Solver {
     GhostsOnGpu ghosts_;
     AdvectionOnGpu advection_;
     std::optional<DensityOnGpu> density_;
+    std::optional<ExchangeOnGpu> exchange_;  ///< of density with what lies around the box
+    std::vector<flow::LeavingDensity> leaving_;
     SourcesOnGpu sources_;
     ForcesOnGpu forces_;
     PressureOnGpu pressure_;
     Kernel divergence_, gradient_, maximum_, scroll_;
     mutable Kernel gather_, gatherTexture_;  ///< `mutable` because running them sets uniforms
-    bool operatorKnown_ = false, speedsKnown_ = false, stateUnseen_ = false;
+    bool operatorKnown_ = false, speedsKnown_ = false, stateUnseen_ = false, densityAdded_ = false;
     std::int64_t steps_ = 0;
     double lastStepSeconds_ = 0;
 };

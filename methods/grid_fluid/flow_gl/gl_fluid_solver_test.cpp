@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 
 #include "methods/grid_fluid/flow/fluid_solver.h"
@@ -263,6 +264,46 @@ TEST(GlFluidSolver, HandsOverWhatItStoresAndItsMeans) {
             }
             EXPECT_LE(off, 3e-5f * maximum) << lane << asStored;
         }
+}
+
+TEST(GlFluidSolver, GivesAndTakesDensityAsTheCpuDoes) {
+    Flow flow({23, 19, 17});
+    flow.settings.notesLeaving = flow.settings.keepsDensity = true;
+    MemoryLedger ledger;
+    flow::FluidSolver cpu(flow.settings, ledger);
+    GlFluidSolver gl(flow.settings, device(), ledger);
+    const CellField initial = flow.randomState(ledger, 2);
+    cpu.changeCells() = initial;
+    gl.writeCells(initial);
+    const std::vector<flow::AddedDensity> added{{{0, 0, 0}, 0.5f}, {{22, 18, 16}, 2}, {{9, 9, 8}, 1}};
+    const auto both = [&](const auto& act) {
+        act(static_cast<flow::Solver&>(cpu));
+        act(static_cast<flow::Solver&>(gl));
+    };
+    both([&](flow::Solver& solver) { solver.addDensity(added); });
+    std::vector<float> ofCpu(flow.settings.box.cellCount()), ofGl(ofCpu.size());
+    cpu.gather(flow::density, ofCpu);
+    gl.gather(flow::density, ofGl);
+    EXPECT_EQ(ofCpu, ofGl);
+    // What solids cover is given to the rest, also where the same solids cover what was added.
+    const flow::SolidMask mask = flow.ball(9.1f);
+    both([&](flow::Solver& solver) { solver.setSolids(mask); });
+    both([&](flow::Solver& solver) { solver.addDensity(std::vector<flow::AddedDensity>{{{9, 9, 8}, 40}}); });
+    both([&](flow::Solver& solver) { solver.setSolids(mask); });
+    both([&](flow::Solver& solver) { solver.step(0.03, {}, StageClock()); });
+    ASSERT_EQ(gl.leaving().size(), cpu.leaving().size());
+    EXPECT_GT(cpu.leaving().size(), 100u);
+    for (std::size_t n = 0; n < cpu.leaving().size(); ++n) {
+        const flow::LeavingDensity &a = cpu.leaving()[n], &b = gl.leaving()[n];
+        EXPECT_TRUE(a.cell == b.cell && a.axis == b.axis && a.far == b.far) << n;
+        EXPECT_NEAR(a.cells, b.cells, 1e-5);
+        EXPECT_NEAR(a.density, b.density, 1e-5);
+    }
+    const auto totalOf = [&](const flow::Solver& solver) {
+        solver.gather(flow::density, ofCpu);
+        return std::accumulate(ofCpu.begin(), ofCpu.end(), 0.0);
+    };
+    EXPECT_NEAR(totalOf(gl), totalOf(cpu), 1e-4 * totalOf(cpu));
 }
 
 TEST(GlFluidSolver, ConvergesAroundRandomSolids) {

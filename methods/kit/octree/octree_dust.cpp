@@ -114,8 +114,8 @@ void declareDust(MethodInfo& info) {
     info.facts.push_back({"mass_lost",
                           "share",
                           FactOver::lastFrame,
-                          "share of the particles' optical mass that the method's rule keeps and its volume does not "
-                          "hold, after the last frame",
+                          "share of the optical mass that the method's rule keeps and its volume does not hold, after "
+                          "the last frame",
                           {.maximum = 0.01}});
     info.facts.push_back(
         {"world_edge_max", "m", FactOver::maximumOfFrames,

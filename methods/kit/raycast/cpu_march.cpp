@@ -282,7 +282,7 @@ void CpuMarch::upload(const ShownGrid& grid, const BrickMap& bricks, const Light
 }
 
 void CpuMarch::march(const PixelRays& rays, const SceneDepths& depths, const Reflected& reflected,
-                     const PacketPicture& picture) const {
+                     const PacketPicture& picture, float thickness) const {
     Volume volume{Field(density_),
                   std::nullopt,
                   std::nullopt,
@@ -290,7 +290,7 @@ void CpuMarch::march(const PixelRays& rays, const SceneDepths& depths, const Ref
                   fire_,
                   reflected,
                   static_cast<float>(settings_.stepCells),
-                  extinctionPerCell_,
+                  extinctionPerCell_ * thickness,
                   opaqueDepth(settings_)};
     if (burning_) volume.reaction.emplace(reaction_);
     if (light_) volume.light.emplace(light_->padded(), 1 / static_cast<float>(light_->texelCells()));

@@ -12,13 +12,18 @@ namespace dustbench::raycast {
 class CpuRenderer final : public GridRenderer {
  public:
     CpuRenderer(gpu::Device& device, const RaycastSettings& settings, const Reflected& reflected, MemoryLedger& ledger);
+    CpuRenderer(Beside, const CpuRenderer& sibling);
 
     void upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light) override;
-    std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer) override;
+    std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer,
+                      SceneDepthCopy& sceneDepth) override;
+    [[nodiscard]] std::unique_ptr<GridRenderer> another() const override;
     [[nodiscard]] std::size_t gpuBytes() const override { return composite_.gpuBytes(); }
 
  private:
+    RaycastSettings settings_;
     Reflected reflected_;
+    MemoryLedger& ledger_;
     CpuMarch march_;
     PacketComposite composite_;
 };

@@ -7,7 +7,24 @@
 namespace dustbench::raycast {
 
 GlMarch::GlMarch(gpu::Device& device, const RaycastSettings& settings, const Reflected& reflected)
-    : device_(device), settings_(settings), reflected_(reflected), grid_(device, settings), vertices_(device) {}
+    : device_(device),
+      settings_(settings),
+      reflected_(reflected),
+      grid_(device, settings),
+      vertices_(device),
+      programs_(std::make_shared<SmokeAndFire>()) {}
+
+GlMarch::GlMarch(Beside, const GlMarch& sibling)
+    : device_(sibling.device_),
+      settings_(sibling.settings_),
+      reflected_(sibling.reflected_),
+      grid_(device_, settings_),
+      vertices_(device_),
+      programs_(sibling.programs_) {}
+
+std::unique_ptr<GridRenderer> GlMarch::another() const {
+    return std::make_unique<GlMarch>(Beside(), *this);
+}
 
 void GlMarch::upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light) {
     grid_.upload(grid, light);
@@ -27,7 +44,7 @@ void GlMarch::take(const ShownTextures& grid, const BricksOnGpu& bricks, const L
 }
 
 gpu::Program& GlMarch::program() {
-    std::optional<gpu::Program>& made = grid_.burning() ? withFire_ : smokeAlone_;
+    std::optional<gpu::Program>& made = grid_.burning() ? programs_->withFire : programs_->smokeAlone;
     if (!made) {
         std::map<std::string, std::string> definitions = grid_.definitions();
         if (settings_.jitter) definitions["JITTER"] = "";
@@ -44,12 +61,12 @@ gpu::Program& GlMarch::program() {
     return *made;
 }
 
-std::int64_t GlMarch::draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer) {
+std::int64_t GlMarch::draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer, SceneDepthCopy&) {
     const PixelRectangle pixels = pixelsOf(place.grid, place.minimum, place.maximum, view);
     if (pixels.empty()) return 0;
     const PixelRays rays(place.grid, view);
     gpu::Program& program = this->program();
-    grid_.bind(program, reflected_);
+    grid_.bind(program, reflected_, place.thickness);
     if (settings_.skipEmpty) {
         program.set("minimum", glm::vec3(minimum_));
         program.set("maximum", glm::vec3(maximum_));

@@ -43,7 +43,24 @@ glm::vec4 sectionOf(const std::array<glm::vec3, 8>& corners, float distance) {
 }  // namespace
 
 GlSlices::GlSlices(gpu::Device& device, const RaycastSettings& settings, const Reflected& reflected)
-    : device_(device), settings_(settings), reflected_(reflected), grid_(device, settings), vertices_(device) {}
+    : device_(device),
+      settings_(settings),
+      reflected_(reflected),
+      grid_(device, settings),
+      vertices_(device),
+      programs_(std::make_shared<SmokeAndFire>()) {}
+
+GlSlices::GlSlices(Beside, const GlSlices& sibling)
+    : device_(sibling.device_),
+      settings_(sibling.settings_),
+      reflected_(sibling.reflected_),
+      grid_(device_, settings_),
+      vertices_(device_),
+      programs_(sibling.programs_) {}
+
+std::unique_ptr<GridRenderer> GlSlices::another() const {
+    return std::make_unique<GlSlices>(Beside(), *this);
+}
 
 void GlSlices::upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light) {
     grid_.upload(grid, light);
@@ -58,7 +75,7 @@ void GlSlices::take(const ShownTextures& grid, const BricksOnGpu& bricks, const 
 }
 
 gpu::Program& GlSlices::program() {
-    std::optional<gpu::Program>& made = grid_.burning() ? withFire_ : smokeAlone_;
+    std::optional<gpu::Program>& made = grid_.burning() ? programs_->withFire : programs_->smokeAlone;
     if (!made)
         made.emplace(
             device_, "grid slices",
@@ -68,7 +85,7 @@ gpu::Program& GlSlices::program() {
     return *made;
 }
 
-std::int64_t GlSlices::draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer) {
+std::int64_t GlSlices::draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer, SceneDepthCopy&) {
     const PixelRays rays(place.grid, view);
     const std::array<glm::vec3, 8> corners = cornersOf(minimum_, maximum_, rays);
     const auto nearer = [](const glm::vec3& a, const glm::vec3& b) { return a.z < b.z; };
@@ -88,7 +105,7 @@ std::int64_t GlSlices::draw(const GridPlace& place, const scene::View& view, con
     slices_.write(std::span<const glm::vec4>(slices));
 
     gpu::Program& program = this->program();
-    grid_.bind(program, reflected_);
+    grid_.bind(program, reflected_, place.thickness);
     program.set("eye", rays.eye);
     program.set("rayCorner", rays.corner);
     program.set("rayRight", rays.right);

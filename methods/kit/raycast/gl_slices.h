@@ -17,11 +17,14 @@ namespace dustbench::raycast {
 class GlSlices final : public GridRenderer {
  public:
     GlSlices(gpu::Device& device, const RaycastSettings& settings, const Reflected& reflected);
+    GlSlices(Beside, const GlSlices& sibling);
 
     void upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light) override;
     [[nodiscard]] bool takesTextures() const override { return true; }
     void take(const ShownTextures& grid, const BricksOnGpu& bricks, const LightOnGpu* light) override;
-    std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer) override;
+    std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer,
+                      SceneDepthCopy& sceneDepth) override;
+    [[nodiscard]] std::unique_ptr<GridRenderer> another() const override;
 
     [[nodiscard]] std::size_t gpuBytes() const override { return grid_.gpuBytes() + slices_.bytes(); }
 
@@ -35,7 +38,7 @@ class GlSlices final : public GridRenderer {
     glm::ivec3 minimum_{0}, maximum_{0};
     gpu::Buffer slices_;
     gpu::VertexArray vertices_;
-    std::optional<gpu::Program> smokeAlone_, withFire_;  ///< compiled on first use
+    std::shared_ptr<SmokeAndFire> programs_;  ///< shared with siblings
 };
 
 }  // namespace dustbench::raycast

@@ -64,9 +64,9 @@ std::map<std::string, std::string> GridOnGpu::definitions() const {
     return definitions;
 }
 
-void GridOnGpu::bind(gpu::Program& program, const Reflected& reflected) const {
+void GridOnGpu::bind(gpu::Program& program, const Reflected& reflected, float thickness) const {
     program.set("cells", glm::vec3(cells_));
-    program.set("extinction", extinctionPerCell_);
+    program.set("extinction", extinctionPerCell_ * thickness);
     (takenDensity_ ? *takenDensity_ : density_).bind(1);
     if (settings_.shadowCells > 0) {
         program.set("reflectedSky", reflected.ambient);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "methods/kit/gpu/program.h"
@@ -26,8 +27,8 @@ class GridOnGpu {
 
     [[nodiscard]] bool burning() const { return burning_; }
     [[nodiscard]] std::map<std::string, std::string> definitions() const;
-    /// Binds to texture units 1, 3, 4 and 5, and sets the program's uniforms.
-    void bind(gpu::Program& program, const Reflected& reflected) const;
+    /// Binds to texture units 1, 3, 4 and 5, and sets the program's uniforms; `thickness` as in GridPlace.
+    void bind(gpu::Program& program, const Reflected& reflected, float thickness) const;
 
     [[nodiscard]] std::size_t gpuBytes() const;
 
@@ -42,6 +43,11 @@ class GridOnGpu {
     glm::ivec3 cells_{0}, lightCells_{0};
     float extinctionPerCell_ = 0;
     bool burning_ = false;
+};
+
+/// The programs of a renderer, compiled on first use.
+struct SmokeAndFire {
+    std::optional<gpu::Program> smokeAlone, withFire;
 };
 
 /// The transfer function, and the definitions that shaders need for it.

@@ -12,19 +12,29 @@ int reachOf(Filter filter) {
 
 GridRaycast::GridRaycast(gpu::Device& device, const RaycastSettings& settings, const scene::Lights& lights,
                          MemoryLedger& ledger)
-    : device_(device), settings_(settings), toSun_(lights.toSun), bricks_(ledger) {
+    : device_(device), settings_(settings), toSun_(lights.toSun), ledger_(ledger), bricks_(ledger) {
     check(settings);
     if (settings.shadowCells > 0) light_.emplace(settings, lights.toSun, ledger);
     renderer_ = makeGridRenderer(device, settings, lights, ledger);
 }
 
-void GridRaycast::upload(const ShownGrid& grid) {
+GridRaycast::GridRaycast(Beside, const GridRaycast& sibling)
+    : device_(sibling.device_),
+      settings_(sibling.settings_),
+      toSun_(sibling.toSun_),
+      ledger_(sibling.ledger_),
+      bricks_(ledger_),
+      renderer_(sibling.renderer_->another()) {
+    if (settings_.shadowCells > 0) light_.emplace(settings_, toSun_, ledger_);
+}
+
+void GridRaycast::upload(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving) {
     drawable_ = false;
     check(grid);
     bricks_.set(grid, reachOf(settings_.filter));
     place_ = {{grid.cells, grid.spacingMetres, grid.originMetres, {}, {}}, bricks_.minimum(), bricks_.maximum()};
     if (bricks_.empty()) return;
-    if (light_) light_->set(grid);
+    if (light_) light_->set(grid, arriving);
     renderer_->upload(grid, bricks_, light_ ? &*light_ : nullptr);
     drawable_ = true;
 }
@@ -49,8 +59,18 @@ void GridRaycast::take(const ShownTextures& grid) {
     drawable_ = true;
 }
 
+void GridRaycast::change(const glm::dvec3& originMetres, float thickness) {
+    place_.grid.originMetres = originMetres;
+    place_.thickness = thickness;
+}
+
 void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer) {
-    primitives_ = drawable_ ? renderer_->draw(place_, view, layer) : 0;
+    SceneDepthCopy sceneDepth(layer);
+    draw(view, layer, sceneDepth);
+}
+
+void GridRaycast::draw(const scene::View& view, const gpu::Layer& layer, SceneDepthCopy& sceneDepth) {
+    primitives_ = drawable_ ? renderer_->draw(place_, view, layer, sceneDepth) : 0;
 }
 
 std::size_t GridRaycast::gpuBytes() const {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -17,18 +18,26 @@ class DUSTBENCH_API GridRaycast {
     /// `device` and `ledger` must outlive this. Throws InputError for settings out of range.
     GridRaycast(gpu::Device& device, const RaycastSettings& settings, const scene::Lights& lights,
                 MemoryLedger& ledger);
+    /// For another grid of the same picture, with the same settings: both share their programs.
+    GridRaycast(Beside, const GridRaycast& sibling);
 
     /// Copies everything that is drawn; the grid need not outlive the call. Throws InputError if the grid has no cells
     /// or a density is negative or NaN; nothing is drawn after an error.
-    void upload(const ShownGrid& grid);
+    /// `arriving`: see LightVolume::set.
+    void upload(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving = {});
 
     /// The same for a grid that is already on the GPU; only if `takesTextures()`.
     void take(const ShownTextures& grid);
     /// True for the march and the slices on OpenGL: no data then pass through the host.
     [[nodiscard]] bool takesTextures() const { return renderer_->takesTextures(); }
 
+    /// Shows the grid uploaded last elsewhere, with this share of its extinction. Light within it stays as it was.
+    void change(const glm::dvec3& originMetres, float thickness);
+
     /// Draws the grid uploaded last; may be called repeatedly.
     void draw(const scene::View& view, const gpu::Layer& layer);
+    /// The same for one of several grids, which share the scene's depths.
+    void draw(const scene::View& view, const gpu::Layer& layer, SceneDepthCopy& sceneDepth);
 
     [[nodiscard]] std::size_t gpuBytes() const;
     /// Number of rays cast by the last draw, or of the planes, splats or triangles drawn.
@@ -38,6 +47,7 @@ class DUSTBENCH_API GridRaycast {
     gpu::Device& device_;
     RaycastSettings settings_;
     glm::vec3 toSun_;
+    MemoryLedger& ledger_;
     BrickMap bricks_;
     std::optional<LightVolume> light_;        ///< empty: no shadow
     std::optional<BricksOnGpu> bricksOnGpu_;  ///< created on first use

@@ -15,6 +15,11 @@ Reflected cloudColour(const glm::vec3& albedo, const scene::Lights& lights, floa
     return {often * lights.ambient, often * (lights.sun / 4.0f), lights.toSun, asymmetry};
 }
 
+SceneDepths SceneDepthCopy::depths() {
+    if (values_.empty()) values_ = layer_.sceneDepth().readFloats();
+    return {values_, layer_.width(), layer_.height()};
+}
+
 void GridRenderer::take(const ShownTextures&, const BricksOnGpu&, const LightOnGpu*) {
     throw std::logic_error("a renderer that takes no textures was given some");
 }

@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "methods/contract/scene.h"
 #include "methods/contract/view.h"
 #include "methods/kit/gpu/layer.h"
 #include "methods/kit/raycast/brick_map.h"
 #include "methods/kit/raycast/bricks_on_gpu.h"
+#include "methods/kit/raycast/cpu_march.h"
 #include "methods/kit/raycast/light_on_gpu.h"
 #include "methods/kit/raycast/light_volume.h"
 #include "methods/kit/raycast/raycast_settings.h"
@@ -27,7 +29,22 @@ namespace dustbench::raycast {
 struct GridPlace {
     ShownGrid grid;  ///< position and size only, no values
     glm::ivec3 minimum{0}, maximum{0};
+    float thickness = 1;  ///< share of the extinction that its densities have now
 };
+
+/// The scene's depths of a layer on the CPU, read back when first asked for: all grids of a picture share them.
+class DUSTBENCH_API SceneDepthCopy {
+ public:
+    explicit SceneDepthCopy(const gpu::Layer& layer) : layer_(layer) {}
+    [[nodiscard]] SceneDepths depths();
+
+ private:
+    const gpu::Layer& layer_;
+    std::vector<float> values_;
+};
+
+/// Makes something for another grid of the same picture.
+struct Beside {};
 
 class GridRenderer {
  public:
@@ -41,7 +58,11 @@ class GridRenderer {
     virtual void take(const ShownTextures& grid, const BricksOnGpu& bricks, const LightOnGpu* light);
 
     /// Draws the grid uploaded last. Returns the number of rays, planes, splats or triangles.
-    virtual std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer) = 0;
+    virtual std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer,
+                              SceneDepthCopy& sceneDepth) = 0;
+
+    /// Another of the same kind, for another grid of the same picture: both share their programs.
+    [[nodiscard]] virtual std::unique_ptr<GridRenderer> another() const = 0;
 
     [[nodiscard]] virtual std::size_t gpuBytes() const = 0;
 };

@@ -16,24 +16,35 @@ namespace dustbench::raycast {
 class IsoSurfacePass final : public GridRenderer {
  public:
     IsoSurfacePass(gpu::Device& device, const RaycastSettings& settings, const scene::Lights& lights);
+    IsoSurfacePass(Beside, const IsoSurfacePass& sibling);
 
     void upload(const ShownGrid& grid, const BrickMap& bricks, const LightVolume* light) override;
-    std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer) override;
+    /// The surface is that of the densities as they were uploaded, whatever the place's thickness.
+    std::int64_t draw(const GridPlace& place, const scene::View& view, const gpu::Layer& layer,
+                      SceneDepthCopy& sceneDepth) override;
+    [[nodiscard]] std::unique_ptr<GridRenderer> another() const override;
 
     [[nodiscard]] std::size_t gpuBytes() const override {
-        return vertexBuffer_.bytes() + indexBuffer_.bytes() + colour_.bytes() + depth_.bytes();
+        return vertexBuffer_.bytes() + indexBuffer_.bytes() +
+               (first_ ? shared_->colour.bytes() + shared_->depth.bytes() : 0);
     }
 
  private:
+    /// What siblings share.
+    struct Shared {
+        explicit Shared(gpu::Device& device);
+        gpu::Program surface, composite;
+        gpu::Texture colour, depth;
+        gpu::Framebuffer target;
+    };
+
     gpu::Device& device_;
     RaycastSettings settings_;
     scene::Lights lights_;
-    gpu::Program surface_, composite_;
+    std::shared_ptr<Shared> shared_;
+    bool first_ = true;
     gpu::Buffer vertexBuffer_, indexBuffer_;
     gpu::VertexArray vertices_, noVertices_;
-    gpu::Texture colour_, depth_;
-    gpu::Framebuffer target_;
-    glm::dvec3 originMetres_{0};
     std::size_t indexCount_ = 0;
 };
 

@@ -23,7 +23,7 @@ LightVolume::LightVolume(const RaycastSettings& settings, const glm::vec3& toSun
       paddedDensity_(ledger.account("ray cast light")),
       light_(ledger.account("ray cast light")) {}
 
-void LightVolume::set(const ShownGrid& grid) {
+void LightVolume::set(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving) {
     const glm::ivec3 texels = (grid.cells + texelCells_ - 1) / texelCells_;
     const auto rows = static_cast<std::size_t>(texels.y * texels.z);
     density_.resize(rows * static_cast<std::size_t>(texels.x));
@@ -34,7 +34,40 @@ void LightVolume::set(const ShownGrid& grid) {
         for (std::size_t r = first; r < first + count; ++r)
             marchRow(grid, static_cast<int>(r) % texels.y, static_cast<int>(r) / texels.y);
     });
+    if (arriving) dim(grid, arriving);
     light_.set(texels, values_);
+}
+
+/// By what is found at every fourth texel, and linear between.
+void LightVolume::dim(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving) {
+    constexpr int apart = 4;
+    const glm::ivec3 texels = paddedDensity_.cells(), nodes = (texels - 1) / apart + 2;
+    const auto index = [](const glm::ivec3& at, const glm::ivec3& size) {
+        return static_cast<std::size_t>(at.x + size.x * (at.y + size.y * at.z));
+    };
+    std::vector<float> found(index({0, 0, nodes.z}, nodes));
+    parallel::forEachBlock(found.size(), 64, [&](std::size_t first, std::size_t count) {
+        for (std::size_t n = first; n < first + count; ++n) {
+            const int i = static_cast<int>(n);
+            const glm::ivec3 node(i % nodes.x, i / nodes.x % nodes.y, i / nodes.x / nodes.y);
+            const glm::dvec3 cell = (glm::dvec3(node * apart) + 0.5) * static_cast<double>(texelCells_);
+            found[n] = arriving(grid.originMetres + grid.spacingMetres * cell);
+        }
+    });
+    std::size_t t = 0;
+    for (glm::ivec3 texel(0); texel.z < texels.z; ++texel.z)
+        for (texel.y = 0; texel.y < texels.y; ++texel.y)
+            for (texel.x = 0; texel.x < texels.x; ++texel.x, ++t) {
+                const glm::ivec3 low = texel / apart;
+                const glm::vec3 share = glm::vec3(texel - low * apart) / static_cast<float>(apart);
+                float sum = 0;
+                for (int corner = 0; corner < 8; ++corner) {
+                    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
+                    const glm::vec3 weight = glm::mix(1.0f - share, share, glm::vec3(side));
+                    sum += weight.x * weight.y * weight.z * found[index(low + side, nodes)];
+                }
+                values_[t] *= sum;
+            }
 }
 
 /// Mean extinction of each texel's cells, expressed as an equivalent density of smoke.

@@ -5,6 +5,7 @@
 // Source: Fedkiw2001; Senger2009 refers to it for light and shadow.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -33,7 +34,9 @@ class LightVolume {
     /// `toSun`: unit vector in world coordinates.
     LightVolume(const RaycastSettings& settings, const glm::vec3& toSun, MemoryLedger& ledger);
 
-    void set(const ShownGrid& grid);
+    /// `arriving`: share of the sun's light that gets to a place in the world through all that lies outside of this
+    /// grid; it varies slowly. Empty: all of it. It is called from several threads.
+    void set(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving = {});
 
     /// Cells along a texel's edge.
     [[nodiscard]] int texelCells() const { return texelCells_; }
@@ -45,6 +48,7 @@ class LightVolume {
  private:
     void average(const ShownGrid& grid, const glm::ivec3& texels);
     void marchRow(const ShownGrid& grid, int y, int z);
+    void dim(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving);
 
     int texelCells_;
     double extinctionPerMetre_;

@@ -18,7 +18,7 @@ PacketPicture PacketComposite::map(const PixelRectangle& rectangle, int channels
 
 void PacketComposite::draw(const glm::vec3& reflected, const gpu::Layer& layer) {
     values_.unmap();
-    std::optional<gpu::Program>& program = picture_.channels == 1 ? alphaAlone_ : withColour_;
+    std::optional<gpu::Program>& program = picture_.channels == 1 ? programs_->alphaAlone : programs_->withColour;
     if (!program) {
         std::map<std::string, std::string> definitions;
         if (picture_.channels == 1) definitions["ALPHA_ALONE"] = "";

@@ -3,6 +3,7 @@
 // Owns: the picture's GPU memory, which the CPU writes to. Threads: the OpenGL thread.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "methods/kit/gpu/buffer.h"
@@ -10,12 +11,18 @@
 #include "methods/kit/gpu/program.h"
 #include "methods/kit/gpu/vertex_array.h"
 #include "methods/kit/raycast/cpu_march.h"
+#include "methods/kit/raycast/grid_renderer.h"
 
 namespace dustbench::raycast {
 
 class PacketComposite {
  public:
-    explicit PacketComposite(gpu::Device& device) : device_(device), vertices_(device) {}
+    explicit PacketComposite(gpu::Device& device)
+        : device_(device), vertices_(device), programs_(std::make_shared<Programs>()) {}
+    /// For another picture of the same frame: both share their programs. Memory is not shared, since the CPU writes to
+    /// one while OpenGL still reads the other.
+    PacketComposite(Beside, const PacketComposite& sibling)
+        : device_(sibling.device_), vertices_(device_), programs_(sibling.programs_) {}
 
     /// A picture to fill; its values are write-only and valid until it is drawn.
     [[nodiscard]] PacketPicture map(const PixelRectangle& rectangle, int channels);
@@ -25,10 +32,15 @@ class PacketComposite {
     [[nodiscard]] std::size_t gpuBytes() const { return values_.bytes(); }
 
  private:
+    /// Compiled on first use.
+    struct Programs {
+        std::optional<gpu::Program> alphaAlone, withColour;
+    };
+
     gpu::Device& device_;
     gpu::Buffer values_;
     gpu::VertexArray vertices_;
-    std::optional<gpu::Program> alphaAlone_, withColour_;
+    std::shared_ptr<Programs> programs_;
     PacketPicture picture_;
 };
 
