@@ -57,9 +57,10 @@ int reportMachines(const ReportOptions& options) {
         bench::comparisonOf(bench::readMachines({options.folders.begin(), options.folders.end()}, options.labels));
     const bench::MachineRemarks& remarks = comparison.remarks;
     if (!comparison.isComparable()) {
-        for (const auto* sentences : {&remarks.apart, &remarks.notes})
-            for (const std::string& sentence : *sentences)
-                std::cerr << "not comparable: " << files::printable(sentence) << "\n";
+        for (const std::string& sentence : remarks.notes) std::cerr << "note: " << files::printable(sentence) << "\n";
+        for (const std::string& sentence : remarks.apart)
+            std::cerr << "not comparable: " << files::printable(sentence) << "\n";
+        std::cerr << "not comparable: no cell is done on two machines\n";
         return exitNotComparable;
     }
     if (options.text) {

@@ -115,6 +115,8 @@ struct ReportData {
     std::string writtenUtc;  ///< ISO 8601
     StoredRuns runs;
     std::vector<std::string> problems;  ///< missing or doubtful data, one sentence each
+    /// Those of the problems that say that machines or builds of the runs differ.
+    std::vector<std::string> mixedMachines;
     /// Provenance fields of each machine involved.
     std::vector<std::map<std::string, std::string, std::less<>>> machines;
     std::vector<Paper> papers;

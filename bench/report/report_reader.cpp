@@ -56,6 +56,11 @@ std::string provenanceOf(const StoredRun& run, std::string_view field) {
     return found == run.provenance.end() ? std::string() : found->second;
 }
 
+void noteMixed(ReportData& data, const std::string& problem) {
+    data.problems.push_back(problem);
+    data.mixedMachines.push_back(problem);
+}
+
 MachineOfRun findMachines(ReportData& data) {
     MachineOfRun machineOf;
     std::vector<std::vector<std::string>> keys;
@@ -69,10 +74,12 @@ MachineOfRun findMachines(ReportData& data) {
         machineOf[id] = static_cast<std::size_t>(found - keys.begin());
     }
     if (data.machines.size() > 1)
-        data.problems.push_back(fmt::format(
-            "the runs are of {} different machines or kinds of build: their times stand apart, and are not to be "
-            "compared",
-            data.machines.size()));
+        noteMixed(
+            data,
+            fmt::format(
+                "the runs are of {} different machines or kinds of build: their times stand apart, and are not to be "
+                "compared",
+                data.machines.size()));
     return machineOf;
 }
 
@@ -84,7 +91,7 @@ void noteBuilds(ReportData& data) {
         for (const auto& [id, run] : data.runs)
             values.insert(field == "git_commit" ? provenanceOf(run, field).substr(0, 12) : provenanceOf(run, field));
         if (values.size() > 1)
-            data.problems.push_back(fmt::format("the runs differ in {}: {}", field, fmt::join(values, ", ")));
+            noteMixed(data, fmt::format("the runs differ in {}: {}", field, fmt::join(values, ", ")));
     }
 }
 

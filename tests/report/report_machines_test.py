@@ -113,7 +113,7 @@ class ReportOfSeveralMachines(MachinesCase):
         out = os.path.join(self.place, "never")
         called = report(self.lab, large, "--out", out)
         self.assertEqual(called.returncode, 6)
-        self.assertIn("not comparable: size: 320x240 on lab; 640x480 on large\n", called.stderr)
+        self.assertIn("not comparable: size: 320x240 on lab; 640x480 on large\nnot comparable: no cell is done on two machines\n", called.stderr)
         self.assertFalse(os.path.exists(out))
         data = self.data_of(self.page_of(self.lab, large, self.attic))
         self.assertEqual(data["remarks"]["apart"], ["size: 320x240 on attic and lab; 640x480 on large"])

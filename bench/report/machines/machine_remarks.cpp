@@ -53,10 +53,9 @@ class Remarks {
         saySuites();
         sayOtherWork();
         sayPrograms();
+        sayMixedPrograms();
         sayKinds();
-        for (std::size_t folder = 0; folder < set_.folders.size(); ++folder)
-            for (const std::string& problem : set_.folders[folder].problems)
-                result_.notes.push_back(fmt::format("{}: {}", set_.labels[folder], problem));
+        for (std::size_t folder = 0; folder < set_.folders.size(); ++folder) sayProblems(folder);
         for (const std::string& sentence : cells_.unplaced) result_.notes.push_back(sentence);
         listMissing();
         return std::move(result_);
@@ -89,6 +88,14 @@ class Remarks {
     void sayOnlyOn(const std::string& thing, const std::set<std::size_t>& on) {
         result_.apart.push_back(
             fmt::format("{}: only on {}", thing, listOf(labelsOf(std::vector<std::size_t>(on.begin(), on.end())))));
+    }
+
+    /// But what the table of hardware shows, which leaves out runs that are not done.
+    void sayProblems(std::size_t folder) {
+        const ReportData& data = set_.folders[folder];
+        for (const std::string& problem : data.problems)
+            if (std::ranges::find(data.mixedMachines, problem) == data.mixedMachines.end())
+                result_.notes.push_back(fmt::format("{}: {}", set_.labels[folder], problem));
     }
 
     void sayMethods() {
@@ -163,6 +170,15 @@ class Remarks {
             for (const std::string& value : row.values) texts.push_back(value.empty() ? "unknown" : value);
             result_.programs.push_back(fmt::format("{}: {}", row.name, bySide(texts)));
         }
+    }
+
+    /// Runs of one machine that need not be of one program.
+    void sayMixedPrograms() {
+        for (const MachineSide& side : set_.sides)
+            for (const char* field : {"git_commit", "compiler", "gl_version"})
+                if (const auto found = side.facts.find(field); found != side.facts.end() && found->second.size() > 1)
+                    result_.notes.push_back(
+                        fmt::format("{}: its runs differ in {}: {}", side.label, field, valuesText(found->second)));
     }
 
     void sayKinds() {

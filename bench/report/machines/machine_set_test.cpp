@@ -151,6 +151,19 @@ TEST(MachineRemarks, SayThatTwoFoldersAreOfOneMachine) {
     EXPECT_THAT(two.remarks.notes, Not(Contains(HasSubstr("the same machine"))));
 }
 
+TEST(MachineRemarks, SayThatTheRunsOfOneMachineAreOfSeveralPrograms) {
+    StoredRuns mixed = storedRuns(session(1, 0.5), "A");
+    mixed.begin()->second.provenance["git_commit"] = "fedcba9876543210";
+    // Of a run that is not done nothing is shown, so its commit does not count.
+    StoredRuns failed = storedRuns(session(1, 0.5), "B");
+    failed.begin()->second.provenance["git_commit"] = "fedcba9876543210";
+    failed.begin()->second.status = RunStatus::failed;
+    const auto comparison = compared({{"a", mixed}, {"b", failed}});
+    EXPECT_THAT(comparison.remarks.notes,
+                Contains("a: its runs differ in git_commit: 0123456789abcdef, fedcba9876543210"));
+    EXPECT_THAT(comparison.remarks.notes, Not(Contains(HasSubstr("b: its runs differ"))));
+}
+
 TEST(MachineRemarks, SayThatProgramsAndRenderersDiffer) {
     StoredRuns other = storedRuns(session(1, 0.5), "B");
     for (auto& [id, run] : other) {
