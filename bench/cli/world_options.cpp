@@ -42,10 +42,11 @@ void WorldOptions::declareWorld(Arguments& arguments) {
         "key-framed camera instead of the parameter `camera`: CSV with time_s, eye_x, eye_y, eye_z, target_x, "
         "target_y, target_z, fov_deg; or its rows, separated by ';'",
         cameraPath);
-    arguments.text("--dust", "FILE",
-                   "particles of another program instead of the scene's dust: .vtp, .vdb, .csv, or a series of them, "
-                   ".pvd or .series; frame 0 shows its first moment",
-                   dust);
+    arguments.text(
+        "--dust", "FILE",
+        "particles of another program instead of the scene's dust: .vtp, .vdb, .csv, a volume, or a series of them, "
+        ".pvd or .series; frame 0 shows its first moment",
+        dust);
     arguments.text("--dust-columns", "key=NAME,…",
                    "what its columns are, by the keys position, radius, opacity, mass, age, lifetime, id, velocity, "
                    "colour, time, scale, up; or a .toml file with them; default: the usual names",

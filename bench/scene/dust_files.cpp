@@ -99,7 +99,7 @@ DustFiles readVolumes(const fs::path& path, bool hasColumns) {
                         path.string()));
     const volumes::VolumeSetup setup = volumes::readVolumeSetup(path);
     const volumes::VolumeSeries series = volumes::VolumeSeries::read(setup);
-    DustFiles dust{dustOfVolume(series, setup), {}};
+    DustFiles dust{dustOfVolume(series, setup), {}, setup.albedo};
     if (volumes::isIndex(setup.files) && !files::isPattern(setup.files)) dust.files.push_back(setup.files);
     if (path.extension() == ".toml") dust.files.push_back(path);
     std::ranges::copy(series.files(), std::back_inserter(dust.files));

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@ namespace dustbench::bench {
 struct DustFiles {
     std::vector<DustMoment> moments;           ///< in the order of the series
     std::vector<std::filesystem::path> files;  ///< all that were read, the series first
+    std::optional<glm::vec3> albedo{};         ///< of a volume; empty: the scene's
 };
 
 /// `.vtp`, `.vdb`, `.csv`, `.pvd`, `.series`; or several of the first three by a `*` in the file's name; or a volume,

@@ -53,6 +53,7 @@ DustSeries DustSeries::read(const std::filesystem::path& path, const std::string
         DustFiles read = readDustFiles(path, DustColumns::parse(columns), !columns.empty());
         DustSeries series(std::move(read.moments));
         series.files_ = std::move(read.files);
+        series.albedo_ = read.albedo;
         return series;
     } catch (const InputError& error) {
         throw InputError(files::printable(error.what()));  // names within the files may be any bytes

@@ -7,6 +7,8 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,8 @@ class DustSeries {
     /// Of all moments.
     [[nodiscard]] std::size_t bytes() const;
     [[nodiscard]] bool hasColour() const { return moments_.front().hasColour; }
+    /// What dust of one colour reflects, as the file says; empty: as the scene's.
+    [[nodiscard]] const std::optional<glm::vec3>& albedo() const { return albedo_; }
     [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
 
     /// The particles so many seconds after the first moment; before it the first moment, after the end the last.
@@ -48,6 +52,7 @@ class DustSeries {
 
     std::vector<DustMoment> moments_;
     std::vector<std::filesystem::path> files_;
+    std::optional<glm::vec3> albedo_;
     std::size_t births_ = 0, deaths_ = 0;
 };
 

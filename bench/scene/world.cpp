@@ -262,6 +262,7 @@ void World::useDust(const GivenDust& given) {
             "allowed: --frames 1..{:.0f}",
             given.file, series.seconds(), last, std::floor((series.seconds() + sameMomentSeconds) / stepSeconds) + 1));
     for (const std::filesystem::path& file : series.files()) s.file.files.push_back(file);
+    if (series.albedo()) s.file.scene.dustAlbedo = *series.albedo();
     if (given.columns.ends_with(".toml")) s.file.files.emplace_back(given.columns);
     // Frame 0 is the step after preroll and warm-up; without a preroll one step stands for it.
     const std::int64_t held = std::max<std::int64_t>(s.prerollSteps, 1) + given.warmup + 1;
