@@ -118,7 +118,7 @@ MethodInfo describe() {
         .boolean(
             "trail", true,
             "keep the dust that a box leaves behind that follows the vehicle: the wind carries it, and it fades with "
-            "age; without, it is gone")
+            "age; without, it is gone; renderer=isosurface shows the box alone")
         .integer("frames_per_step", 1, 1, 600, "frames", "the fluid takes one long step in so many frames");
     raycast::declareRaycast(info.parameters);
     info.facts = {

@@ -57,7 +57,7 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
                          "', which has wind, allowed: ours; the demo has still air");
     if (settings_.setup.followsVehicle && settings_.trail) {
         solver.notesLeaving = true;
-        trail_.emplace(solver, ledger_);
+        trail_.emplace(solver, settings_.setup.look.extinctionPerMetre, ledger_);
     }
     solver_ = makeFlowSolver(solver, settings_.scheme, burns, onGpu, device, ledger_);
     if (onGpu) rays_.emplace(device, solver.box.cells);
@@ -67,7 +67,9 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     if (scene.lights.onDust) raycast::lightDust(settings_.picture, scene);
     settings_.picture.smokeColour = settings_.setup.look.albedo.value_or(scene.dustAlbedo);
     picture_.emplace(device, settings_.picture, scene.lights, ledger_);
-    if (trail_) trailPicture_.emplace(*picture_, settings_.picture, scene.lights.toSun, scene.terrain.isFlat());
+    // Where box and trail share a density, neither reaches that of a surface.
+    if (trail_ && settings_.picture.renderer != raycast::Renderer::isosurface)
+        trailPicture_.emplace(*picture_, settings_.picture, scene.lights.toSun, scene.terrain.isFlat());
     // Box and trail are blended on the host.
     if (solver_->onGpu() && picture_->takesTextures() && !trail_) {
         const glm::ivec3 cells = solver.box.cells;

@@ -11,7 +11,7 @@ namespace {
 
 /// A tile is left out if no ray through it meets more optical depth. The same of a box's cells across its border.
 constexpr double unseenDepth = 1e-4;
-/// Surfaces and light hold for the densities as uploaded: they are renewed when a tile has lost so much of them.
+/// Light holds for the densities as uploaded: it is renewed when a tile has lost so much of them.
 constexpr double renewedShare = 0.95;
 /// Cells within which the box fades out: two lattices differ by an eighth of what they would at a sharp border.
 constexpr int fadingCells = 8;
@@ -167,9 +167,8 @@ bool TrailPicture::find(const DustTrail& trail, const Place& place, const DustTr
     grid = {rim.around(cells), spacing, trail.originOf(place) - spacing * glm::dvec3(rim.before), {}, {}};
     const auto lent = lent_.find(place);
     const bool isLent = lent != lent_.end();
-    const bool holdsAsUploaded = isLit() || settings_.renderer == raycast::Renderer::isosurface;
     if (shown.picture && !isLent && !shown.lent && shown.version == (tile ? tile->version : 0) &&
-        !(holdsAsUploaded && share < renewedShare * shown.share))
+        !(isLit() && share < renewedShare * shown.share))
         return false;
     tileNow_.assign(DustTrail::tileCells, 0.0f);
     if (isLent) tileNow_ = lent->second;

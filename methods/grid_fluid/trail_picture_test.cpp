@@ -21,7 +21,7 @@ struct EvenDust {
                     const glm::dvec3 corner = h * glm::dvec3(-i, j, k) + origin;
                     trail.add({corner, corner + h}, h * h * h);
                 }
-        trail.settle(0);
+        trail.settle();
     }
     [[nodiscard]] raycast::ShownGrid box() const { return {cells, h, origin, density, {}}; }
 

@@ -8,6 +8,11 @@
 #include "methods/kit/maths/hash.h"
 
 namespace dustbench::grid_fluid {
+namespace {
+
+constexpr float quiet = 1;  ///< seconds without new dust, after which a tile may be dropped
+
+}  // namespace
 std::array<int, 3> DustTrail::tileOf(const glm::ivec3& cell) {
     const auto along = [](int at) { return at >= 0 ? at / edge : -((edge - 1 - at) / edge); };
     return {along(cell.x), along(cell.y), along(cell.z)};
@@ -24,6 +29,7 @@ void DustTrail::pass(float seconds) {
     for (auto& [place, tile] : tiles_) {
         tile.share *= kept;
         tile.amountM3 *= kept;
+        tile.quietSeconds += seconds;
     }
 }
 
@@ -51,6 +57,7 @@ void DustTrail::addTo(const glm::ivec3& cell, double amountM3) {
     }
     tile.density[indexOf(cell, place)] += static_cast<float>(amountM3 / cellM3 / tile.share);
     tile.changed = true;
+    tile.quietSeconds = 0;
 }
 
 void DustTrail::takeEntered(const Cuboid& box,
@@ -79,7 +86,7 @@ void DustTrail::takeEntered(const Cuboid& box,
     inBox_ = now;
 }
 
-void DustTrail::settle(double leastM3) {
+void DustTrail::settle(double leastM3, double leastDensity) {
     const double cellM3 = std::pow(settings_.spacingMetres, 3);
     for (auto& [place, tile] : tiles_) {
         if (!tile.changed) continue;
@@ -93,7 +100,11 @@ void DustTrail::settle(double leastM3) {
         ++tile.version;
         tile.changed = false;
     }
-    std::erase_if(tiles_, [&](const auto& entry) { return entry.second.amountM3 < leastM3; });
+    std::erase_if(tiles_, [&](const auto& entry) {
+        const Tile& tile = entry.second;
+        return tile.quietSeconds > quiet && tile.amountM3 < leastM3 &&
+               static_cast<double>(tile.maximum) * tile.share < leastDensity;
+    });
 }
 
 double DustTrail::amountM3() const {

@@ -40,6 +40,7 @@ class DustTrail {
         float maximum = 0;          ///< of `density`
         std::uint64_t version = 0;  ///< grows whenever `density` changes
         bool changed = false;       ///< since the last `settle`
+        float quietSeconds = 0;     ///< since dust entered
     };
     /// By the tile's place, in tiles.
     using Tiles = std::map<std::array<int, 3>, Tile>;
@@ -57,8 +58,9 @@ class DustTrail {
     /// Removes what came to lie in `box` since the last call: cells whose middles are in it and were not. `taker` gets
     /// the middle of each and its amount.
     void takeEntered(const Cuboid& box, const std::function<void(const glm::dvec3& middle, double amountM3)>& taker);
-    /// Brings the tiles' amounts up to date, and drops tiles with less than `leastM3`.
-    void settle(double leastM3);
+    /// Brings the tiles' amounts up to date, and drops tiles with less than `leastM3` whose densities are all less than
+    /// `leastDensity`, unless dust enters: what comes in little by little must not be dropped each time.
+    void settle(double leastM3 = 0, double leastDensity = 0);
 
     [[nodiscard]] const Tiles& tiles() const { return tiles_; }
     [[nodiscard]] glm::dvec3 originOf(const std::array<int, 3>& tile) const {

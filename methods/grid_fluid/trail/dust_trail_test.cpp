@@ -67,7 +67,7 @@ TEST(DustTrail, GoesWithTheWindAgesAndLosesNothing) {
             expected += 0.3 * glm::dvec4(corner + extent / 2.0, 1);
         }
     }
-    trail.settle(0);
+    trail.settle();
     const glm::dvec4 found = momentOf(trail);
     EXPECT_NEAR(found.w, expected.w, 1e-6 * expected.w);
     EXPECT_NEAR(trail.amountM3(), expected.w, 1e-6 * expected.w);
@@ -86,7 +86,7 @@ TEST(DustTrail, KeepsEvenDustEvenThoughItsLatticeDrifts) {
         for (int k = 0; k < 3; ++k)
             for (int j = 0; j < 3; ++j) trail.add({{0, h * j, h * k}, {reach, h * j + h, h * k + h}}, reach * h * h);
     }
-    trail.settle(0);
+    trail.settle();
     int even = 0;
     for (const auto& [place, tile] : trail.tiles())
         for (std::size_t n = 0; n < tile.density.size(); ++n) {
@@ -119,10 +119,29 @@ TEST(DustTrail, GivesBackOnceWhatComesToLieInABox) {
     EXPECT_NEAR(take(4 * h), 4, 1e-5);
     EXPECT_EQ(take(4 * h), 0);
     EXPECT_NEAR(take(-3 * h), 3 + 4, 1e-5);  // behind it, and what it passes over again: cells 0 to 3
-    trail.settle(0);
+    trail.settle();
     EXPECT_NEAR(trail.amountM3(), 60 - 11, 1e-4);
-    trail.settle(40);
-    EXPECT_EQ(trail.tiles().size(), 0u);
+}
+
+TEST(DustTrail, DropsATileOnlyIfItIsQuietSmallAndUnseen) {
+    MemoryLedger ledger;
+    DustTrail trail({h, {0, 0, 0}, 1}, ledger.account("trail"));
+    const auto tilesLeft = [&](double leastM3, double leastDensity) {
+        trail.settle(leastM3, leastDensity);
+        return trail.tiles().size();
+    };
+    // Little by little, each less than what a tile must hold.
+    for (int step = 0; step < 300; ++step) {
+        trail.add({{0, 0, 0}, {h, h, h}}, 0.001);
+        trail.pass(0.01f);
+        EXPECT_EQ(tilesLeft(0.5, 1e9), 1u);
+    }
+    EXPECT_NEAR(trail.amountM3(), 0.1 * (1 - std::exp(-3.0)), 2e-3);
+    trail.pass(1.1f);
+    const double density = trail.amountM3() / (h * h * h);
+    EXPECT_EQ(tilesLeft(0.9 * trail.amountM3(), 1e9), 1u);
+    EXPECT_EQ(tilesLeft(1, 0.9 * density), 1u);
+    EXPECT_EQ(tilesLeft(1, 1.1 * density), 0u);
 }
 
 /// A box full of random density that does not flow, and a trail.
@@ -132,7 +151,7 @@ struct Still {
         settings.windMetresPerSecond = wind;
         settings.notesLeaving = settings.keepsDensity = true;
         solver.emplace(settings, ledger);
-        trail.emplace(settings, ledger);
+        trail.emplace(settings, 1, ledger);
         std::mt19937 random(9);
         std::uniform_real_distribution<float> density(0, 1);
         for (int k = 0; k < 20; ++k)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "methods/grid_fluid/trail/overlaps.h"
@@ -9,8 +10,10 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-/// Shares of all dust. A tile with less is dropped, a cell with less does not enter the trail.
+/// Shares of all dust. A tile with less is dropped if it is not seen either, a cell with less does not enter the trail.
 constexpr double leastOfTile = 1e-4, leastOfCell = 1e-10;
+/// Optical depth of the most that a ray could meet in a tile: about one step of an 8-bit picture.
+constexpr double unseenDepth = 5e-3;
 /// Share of the most dust that there was, below which none counts as left.
 constexpr double nothing = 1e-9;
 
@@ -46,8 +49,11 @@ Cuboid beyondFace(const flow::FluidBox& box, const flow::LeavingDensity& leaving
 
 }  // namespace
 
-FluidTrail::FluidTrail(const flow::FluidSettings& settings, MemoryLedger& ledger)
-    : settings_(settings), dust_(trailOf(settings), ledger.account("fluid trail")) {}
+FluidTrail::FluidTrail(const flow::FluidSettings& settings, double extinctionPerMetre, MemoryLedger& ledger)
+    : settings_(settings),
+      dust_(trailOf(settings), ledger.account("fluid trail")),
+      unseenDensity_(unseenDepth / std::max(extinctionPerMetre * settings.box.spacingMetres * DustTrail::edge, 1e-30)) {
+}
 
 void FluidTrail::leave(const flow::FluidBox& box, const glm::ivec3& by, std::span<const float> density) {
     const glm::ivec3 first = glm::clamp(by, glm::ivec3(0), box.cells);
@@ -109,7 +115,10 @@ void FluidTrail::pass(const flow::Solver& solver, float seconds, std::span<const
         const double amount = static_cast<double>(leaving.density) * cellM3 * kept;
         if (amount > least) dust_.add(beyondFace(solver.box(), leaving), amount);
     }
-    dust_.settle(std::max(leastOfTile * dueM3_, nothing * maximumDueM3_));
+    if (dueM3())
+        dust_.settle(leastOfTile * dueM3_, unseenDensity_);
+    else
+        dust_.settle(std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
 }
 
 std::optional<double> FluidTrail::dueM3() const {

@@ -19,7 +19,7 @@ namespace dustbench::grid_fluid {
 
 class FluidTrail {
  public:
-    FluidTrail(const flow::FluidSettings& settings, MemoryLedger& ledger);
+    FluidTrail(const flow::FluidSettings& settings, double extinctionPerMetre, MemoryLedger& ledger);
 
     /// Before the box moves by so many cells: what falls out of it. `density`: of its cells, x fastest.
     void leave(const flow::FluidBox& box, const glm::ivec3& by, std::span<const float> density);
@@ -36,6 +36,7 @@ class FluidTrail {
  private:
     flow::FluidSettings settings_;
     DustTrail dust_;
+    double unseenDensity_;
     double dueM3_ = 0, maximumDueM3_ = 0;
     std::vector<flow::AddedDensity> added_;
 };

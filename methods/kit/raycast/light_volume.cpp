@@ -50,7 +50,9 @@ void LightVolume::dim(const ShownGrid& grid, const std::function<float(const glm
         for (std::size_t n = first; n < first + count; ++n) {
             const int i = static_cast<int>(n);
             const glm::ivec3 node(i % nodes.x, i / nodes.x % nodes.y, i / nodes.x / nodes.y);
-            const glm::dvec3 cell = (glm::dvec3(node * apart) + 0.5) * static_cast<double>(texelCells_);
+            // Not beyond the grid: what lies between its end and there would count for neither.
+            const glm::dvec3 cell =
+                glm::min((glm::dvec3(node * apart) + 0.5) * static_cast<double>(texelCells_), glm::dvec3(grid.cells));
             found[n] = arriving(grid.originMetres + grid.spacingMetres * cell);
         }
     });
