@@ -31,8 +31,11 @@
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/volumes/vdb_process.h"
 #include "methods/kit/volumes/vector_file.h"
+#include "methods/kit/volumes/volume_file.h"
+#include "methods/kit/volumes/volume_series.h"
 #include "source_folder.h"
 #include "tests/fuzz/mutation.h"
+#include "tests/fuzz/nano_ball.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/lsan_interface.h>
@@ -225,6 +228,29 @@ TEST(Fuzz, Volumes) {
         read);
 }
 
+void readDensity(const fs::path& file) {
+    (void)volumes::readVolume(file, {});
+}
+
+TEST(Fuzz, Densities) {
+    expectSound("cloud.vti", bytesOf(data("volumes/cloud.vti")), readDensity);
+    expectSound(
+        "points.vti",
+        "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<ImageData WholeExtent=\"0 1 0 1 0 "
+        "1\" Origin=\"0 0 0\" Spacing=\"1 1 1\">\n<Piece Extent=\"0 1 0 1 0 1\">\n<PointData>\n<DataArray "
+        "type=\"Float32\" Name=\"density\" format=\"ascii\">\n1 2 3 4 5 6 7 8\n</DataArray>\n</PointData>\n</Piece>\n"
+        "</ImageData>\n</VTKFile>\n",
+        readDensity);
+    const TestFolder folder;
+    fs::copy(data("volumes/cloud.vti"), folder.path());
+    expectSound(
+        "volume.toml",
+        "files = \"cloud.vti\"\nup = \"z\"\nscale = 2.0\nposition = [1, 2, 3]\n[look]\nshadow_cells = 2\n[particles]\n"
+        "block_cells = 2\n",
+        [](const fs::path& file) { (void)volumes::VolumeSeries::read(volumes::readVolumeSetup(file)); }, folder.path(),
+        std::max(cases() / 3, 1));
+}
+
 /// Each is read in a process of its own, which takes a while and may end in any way.
 TEST(Fuzz, VolumesOfOpenVdb) {
     const TestFolder folder;
@@ -233,6 +259,16 @@ TEST(Fuzz, VolumesOfOpenVdb) {
         "small.vdb", bytesOf(folder.path() / "small.vdb"),
         [](const fs::path& file) { (void)volumes::readVectors(file, "velocity"); }, fs::temp_directory_path(),
         std::max(cases() / 2, 1));
+    bench::CollectedGrid fog = smallGrid();
+    fog.fields[0].name = "density";
+    fog.fields[0].components = 1;
+    fog.fields[0].values.resize(5 * 4 * 3);
+    for (float& value : fog.fields[0].values) value = std::abs(value);
+    bench::writeGridVdb(fog, 1, 1, folder.path() / "fog.vdb");
+    writeNanoBall(folder.path() / "ball.nvdb");
+    for (const char* name : {"fog.vdb", "ball.nvdb"})
+        expectSound(name, bytesOf(folder.path() / name), readDensity, fs::temp_directory_path(),
+                    std::max(cases() / 2, 1));
     // Five points with radii, as openvdb/vdb_mutants.cpp writes them.
     const fs::path points = fs::path(DUSTBENCH_SOURCE_DIR) / "tests/fuzz/points.vdb";
     expectSound(

@@ -1,6 +1,6 @@
-// Reads mutants of OpenVDB's files as readVectors() and readVdbPoints() do. The program dustbench_vdb_reader is
-// replaced by a fork of this process, in which OpenVDB is loaded already and which reads file after file, until one
-// ends it.
+// Reads mutants of OpenVDB's and NanoVDB's files as readVectors(), readVolume() and readVdbPoints() do. The program
+// dustbench_vdb_reader is replaced by a fork of this process, in which OpenVDB is loaded already and which reads file
+// after file, until one ends it.
 //
 //     vdb_mutants SEED CASES FOLDER
 //
@@ -33,7 +33,9 @@
 #include "methods/kit/volumes/vdb_pipe.h"
 #include "methods/kit/volumes/vdb_process.h"
 #include "methods/kit/volumes/vector_file.h"
+#include "methods/kit/volumes/volume_file.h"
 #include "tests/fuzz/mutation.h"
+#include "tests/fuzz/nano_ball.h"
 
 // Of AddressSanitizer's library; GCC 12 brings no header for them.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*allocated)(const volatile void*,
@@ -217,6 +219,19 @@ void writeVectors(const fs::path& file, std::uint32_t compression, bool half, in
     written.write({other, grid});
 }
 
+/// Fog in tiles and in leaves, with its temperature.
+void writeFog(const fs::path& file) {
+    const auto fog = openvdb::FloatGrid::create(), heat = openvdb::FloatGrid::create();
+    fog->setName("density");
+    heat->setName("temperature");
+    fog->fill({{0, 0, 0}, {15, 7, 7}}, 0.5f);
+    for (int i = 0; i < 40; ++i) {
+        fog->getAccessor().setValue({i % 7, 20, i / 7}, 0.01f * static_cast<float>(i));
+        heat->getAccessor().setValue({i % 7, 20, i / 7}, 300 + static_cast<float>(i));
+    }
+    openvdb::io::File(file.string()).write({fog, heat});
+}
+
 void writePoints(const fs::path& file, int count) {
     std::vector<openvdb::Vec3f> places;
     std::vector<float> radii;
@@ -244,6 +259,8 @@ void writeOriginals(const fs::path& folder) {
         writeVectors(folder / "mask.vdb", COMPRESS_ACTIVE_MASK, false, 9);
         writeVectors(folder / "zip.vdb", COMPRESS_ZIP | COMPRESS_ACTIVE_MASK, true, 5);
         writeVectors(folder / "blosc.vdb", COMPRESS_BLOSC | COMPRESS_ACTIVE_MASK, false, 6);
+        writeFog(folder / "fog.vdb");
+        dustbench::fuzz::writeNanoBall(folder / "ball.nvdb");
         writePoints(folder / "points.vdb", 5);
         writePoints(folder / "more_points.vdb", 60);
         __real__exit(0);
@@ -268,7 +285,9 @@ std::vector<Original> originalsIn(const fs::path& folder) {
     const auto points = [](const fs::path& file) {
         (void)dustbench::volumes::readVdbPoints(file, [](std::string_view) { return true; });
     };
+    const auto volume = [](const fs::path& file) { (void)dustbench::volumes::readVolume(file, {}); };
     std::vector<Original> originals;
+    for (const char* name : {"fog.vdb", "ball.nvdb"}) originals.push_back({name, bytesOf(folder / name), volume});
     for (const char* name : {"mask.vdb", "zip.vdb", "blosc.vdb"})
         originals.push_back({name, bytesOf(folder / name), vectors});
     for (const char* name : {"points.vdb", "more_points.vdb"})
@@ -282,7 +301,7 @@ int main(int argc, char** argv) {
     if (argc != 4) return 3;
     __sanitizer_install_malloc_and_free_hooks(countAllocated, countFreed);
     const long cases = std::atol(argv[2]);
-    const fs::path folder = argv[3], file = folder / "mutant.vdb";
+    const fs::path folder = argv[3];
     fs::create_directories(folder);
     writeOriginals(folder);
     worker.answers = folder / "answers";
@@ -298,6 +317,7 @@ int main(int argc, char** argv) {
     long findings = 0;
     for (long n = 0; n < cases; ++n) {
         Original& original = originals[static_cast<std::size_t>(n) % originals.size()];
+        const fs::path file = folder / ("mutant" + fs::path(original.name).extension().string());
         std::ofstream(file, std::ios::binary) << mutate(original.bytes);
         const auto begin = std::chrono::steady_clock::now();
         try {

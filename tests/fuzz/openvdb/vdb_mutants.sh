@@ -1,5 +1,5 @@
 #!/bin/bash
-# Mutants of OpenVDB's files, under AddressSanitizer and UndefinedBehaviorSanitizer.
+# Mutants of OpenVDB's and NanoVDB's files, under AddressSanitizer and UndefinedBehaviorSanitizer.
 #   vdb_mutants.sh CASES FOLDER        one process a core; the seed is the clock's unless SEED gives it
 set -euo pipefail
 cases="$1"
@@ -10,9 +10,10 @@ seed="${SEED:-$(date +%s)}"
 
 sources=(tests/fuzz/openvdb/vdb_mutants.cpp methods/contract/errors.cpp
     methods/kit/files/{input_log,machine_error,printable,whole_text}.cpp
-    methods/kit/volumes/{vdb_pipe,vdb_process,vector_file,vti_file,vti_numbers,xml_scan,openvdb/vdb_reader}.cpp)
+    methods/kit/volumes/{vdb_pipe,vdb_process,vector_file,volume_file,vti_file,vti_numbers,xml_scan}.cpp
+    methods/kit/volumes/openvdb/{vdb_reader,volume_answer,nano_volume_answer}.cpp tests/fuzz/nano_ball.cpp)
 g++ -std=c++20 -O1 -g1 -I. -DDUSTBENCH_API= -fsanitize=address,undefined -fno-sanitize-recover=all -isystem /usr/include/Imath \
-    -Wl,--wrap=waitpid,--wrap=_exit "${sources[@]}" -o "$folder/vdb_mutants" -lopenvdb -ltbb -lImath-3_1 -lfmt -lz -llz4
+    -Wl,--wrap=waitpid,--wrap=_exit "${sources[@]}" -o "$folder/vdb_mutants" -lopenvdb -ltbb -lImath-3_1 -lfmt -lz -llz4 -lblosc
 
 # What reads is a worker that ends often: what it says is not read, and it counts its memory itself. This process may hold
 # a box of 89 million cells while its vector grows.
