@@ -175,7 +175,7 @@ def refuse(project):
     (old / "old.c").write_text("struct entry { unsigned api; const char *a, *b; void (*c)(void*); };\n"
                                "const struct entry* dustbenchMethodEntry(void) { static struct entry e; return &e; }\n")
     call("cc", "-shared", "-fPIC", "old.c", "-o", "old.dustmethod.so", where=old)
-    refused(old, "old", "built for version 0 of the interface, expected 2")
+    refused(old, "old", "built for version 0 of the interface, expected 3")
     broken = place / "broken"
     broken.mkdir()
     (broken / "text.dustmethod.so").write_text("no library\n")
