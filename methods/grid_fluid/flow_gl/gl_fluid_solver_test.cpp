@@ -1,3 +1,4 @@
+// The flow on the GPU against that on the CPU. Over 400 lines: all tests share the worlds that both solve.
 // The GPU solver, compared with the CPU solver and with itself.
 #include "methods/grid_fluid/flow_gl/gl_fluid_solver.h"
 

@@ -1,5 +1,7 @@
 #include "methods/kit/raycast/packet_composite.h"
 
+#include <algorithm>
+#include <bit>
 #include <map>
 #include <string>
 
@@ -7,11 +9,22 @@
 #include "raycast_shaders.h"
 
 namespace dustbench::raycast {
+namespace {
+
+/// In steps of an eighth of a power of two, so that a picture that grows and shrinks keeps its buffer.
+std::size_t roomFor(std::size_t bytes) {
+    constexpr std::size_t least = std::size_t{1} << 16;
+    const std::size_t step = std::bit_floor(std::max(bytes, least)) / 8;
+    return std::max((bytes + step - 1) / step * step, least);
+}
+
+}  // namespace
 
 PacketPicture PacketComposite::map(const PixelRectangle& rectangle, int channels) {
     picture_ = {rectangle, channels, {}};
     const std::size_t floats = picture_.floats(), bytes = floats * sizeof(float);
-    if (values_.bytes() < bytes) values_ = gpu::Buffer(device_, "ray cast picture", bytes + bytes / 8);
+    const std::size_t room = roomFor(bytes);
+    if (values_.bytes() < room || values_.bytes() > 2 * room) values_ = gpu::Buffer(device_, "ray cast picture", room);
     picture_.values = {static_cast<float*>(values_.mapForWriting(bytes)), floats};
     return picture_;
 }
