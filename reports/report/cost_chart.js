@@ -88,7 +88,7 @@ const costChart = (() => {
         const published = experiment.published.filter(item => item.column === column && (!item.axis || item.axis === load.name))
             .map(item => ({
                 x: item.axis ? item.x : null, min: item.min, max: item.max,
-                tip: { title: 'published', [info.name]: `${digits(item.min)} to ${withUnit(item.max, info.unit)}`, of: item.what },
+                tip: { title: 'published', [info.name]: `${digits(shown(item.min, info.unit), 6, true)} to ${withUnit(item.max, info.unit, 6, true)}`, of: item.what },
             }));
         const series = distinct(seen.map(point => point.series))
             .map(name => ({ name, method: cells.find(cell => theSeries(cell) === name).method }));
@@ -128,7 +128,7 @@ const costChart = (() => {
         if (labelled || series.length === 1) spec.legends = [];
         if (xs.length <= 10) spec.marks[0].axes[1].values = xs;
         const notes = [];
-        if (series.length === 1 && names[0]) notes.push(`${names[0]}.`);
+        if (series.length === 1 && names[0]) notes.push(`${alone ? 'World' : 'Method'}: ${names[0]}.`);
         if (published.length) notes.push(`Grey: numbers given in the paper's text. ${distinct(published.map(item => item.tip.of)).join('; ')}.`);
         if (curves.length) notes.push(`Wide pale lines: the fitted cost a + b·N^k${column === 'fps_avg' ? ' of the frame time, as a rate' : ''}.`);
         return { spec, notes, table: tableOf(report, experiment, cells, [column]), state: { x: load.name, column, xLog, yLog } };
