@@ -91,7 +91,7 @@ const claimList = (() => {
         const change = words.changeOf(report, claim);
         const lines = [['came out', came]];
         if (claim.measured !== null || claim.runs.length) lines.push(['tested', tested]);
-        if (claim.controls) lines.push(['control', element('dd', {}, marked(`${words.upper(controlTexts[claim.control] || '')}: ${claim.controls}.`))]);
+        if (claim.controls.length) lines.push(['control', element('dd', {}, marked(`${words.upper(controlTexts[claim.control] || '')}: ${words.controlsOf(report, claim)}.`))]);
         if (change) lines.push(['would change it', element('dd', { textContent: change })]);
         const more = element('div', { className: 'more' });
         if (claim.cells.length > 1) put(more, cellList(claim, unit));

@@ -36,8 +36,10 @@ const words = (() => {
     };
 
     /// `silhouette knee, mean of bunny, car and figure`: what the names have in common is said once.
-    const findingText = names => {
-        const parts = names.map(name => name.split('_'));
+    const findingText = ({ name, column }) => {
+        const names = column.split('|');
+        if (name) return name + (names.length > 1 ? `, mean of ${names.length} cells` : '');
+        const parts = names.map(item => item.split('_'));
         if (parts.length === 1) return parts[0].join(' ');
         let common = 0;
         while (parts.every(part => common < part.length - 1 && part[common] === parts[0][common])) ++common;
@@ -56,7 +58,7 @@ const words = (() => {
             slopes: () => [`slope of the ${name} over ${rule.against}, upper half of the loads / lower half, ${of}`, '×'],
             exponent: () => [`exponent k of the ${name} = a + b·${rule.against}^k, ${of}`, ''],
             value: () => [`${name}, ${of}`, columnOf(report, rule.column).unit],
-            finding: () => [`${findingText(rule.column.split('|'))} (experiment ${rule.experiment})`, ''],
+            finding: () => [`${findingText(rule)} (experiment ${rule.experiment})`, rule.unit],
         };
         return kinds[rule.quantity] ? kinds[rule.quantity]() : ['', ''];
     };
@@ -94,6 +96,17 @@ const words = (() => {
         const [min, max] = [claim.min, claim.max].map(value => limitText(claim, value, unit));
         if (claim.min !== null && claim.max !== null) return min === max ? min : `${min} to ${max}`;
         return claim.min !== null ? `${min} or more` : claim.max !== null ? `${max} or less` : '';
+    };
+    /// What each control gave: `refuted, as known (40×: forty times the particles)`.
+    const controlsOf = (report, claim) => {
+        const texts = claim.controls.map(control => {
+            if (control.verdict === 'not-tested') return `not run: ${control.why}`;
+            const value = { measured: control.measured, low: null, high: null };
+            const measured = control.measured === null ? 'nothing measured' : measuredText(value, quantityOf(report, control)[1], claim);
+            return `${control.verdict}, ${control.verdict === control.known ? 'as known' : `known: ${control.known}`} (${measured}: ${control.why})`;
+        });
+        if (claim.control === 'not-turned' && claim.controls.every(control => control.verdict === control.known)) texts.push('no control can give the opposite verdict');
+        return texts.join('; ');
     };
     const turnsOf = claim => Math.min(...claim.cells.map(cell => cell.turns || 0));
 
@@ -166,5 +179,5 @@ const words = (() => {
         const [head, detail] = verdicts[overall.verdict];
         return { head: shared ? `${head} (${shared})` : head, text: `${detail}; ${sure}.`, resolved: overall.verdict !== 'UNRESOLVED' };
     };
-    return { upper, plural, listOf, quantityOf, rangeOf, measuredText, hasInterval, resultOf, cellsOf, testedOf, changeOf, turnsOf, comparisonSentence, overText, readable, labelText };
+    return { upper, plural, listOf, quantityOf, controlsOf, rangeOf, measuredText, hasInterval, resultOf, cellsOf, testedOf, changeOf, turnsOf, comparisonSentence, overText, readable, labelText };
 })();

@@ -221,6 +221,7 @@ class ReportPage(page_case.PageCase):
         self.assertEqual(set(marks), {"chart-tiny-loads", "chart-tiny-loads-stages", "chart-frames"})
         self.assertTrue(all(marks.values()), marks)
         self.assertIn("✓ confirmed", self.browser.evaluate("document.getElementById('claims').textContent"))
+        self.assertRegex(self.browser.evaluate("document.getElementById('claims').textContent"), r"refuted, as known \(1\.\d+×: for each particle there is one\)")
         self.assertTrue(self.browser.evaluate("[...document.querySelectorAll('.picture-stage img')].every(image => image.naturalWidth === 96)"))
 
     def test_reproducing_all_papers_ends_with_an_index_of_them(self):
