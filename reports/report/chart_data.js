@@ -8,7 +8,12 @@ const chartData = (() => {
         const fact = factOf(report, name);
         return { name: name.replace(/_(median|bytes|ms)$/, '').replace(/_/g, ' '), unit: fact ? fact.unit.replace(/^1$/, '') : '', better: '' };
     };
-    const axisTitle = (name, unit) => name + (unit === 'bytes' ? ' [MB]' : unit.startsWith('share') ? ` [%${unit.slice('share'.length)}]` : unit ? ` [${unit}]` : '');
+    /// `primitives drawn` needs no unit behind it.
+    const axisTitle = (name, unit) => {
+        const text = name.replace(/_/g, ' ');
+        if (!unit || text.split(' ').includes(unit)) return text;
+        return text + (unit === 'bytes' ? ' [MB]' : unit.startsWith('share') ? ` [%${unit.slice('share'.length)}]` : ` [${unit}]`);
+    };
     const shown = (value, unit) => (unit === 'bytes' ? value / 1e6 : unit.startsWith('share') ? 100 * value : value);
     const isWhole = unit => ['particles', 'hits', 'parts', 'primitives', 'steps', 'systems'].includes(unit);
 

@@ -47,7 +47,7 @@ const pageHead = (() => {
         const items = [];
         const form = formOf(experiments);
         if (form) items.push([form, isQuick(experiments.find(experiment => experiment.suite))]);
-        items.push([[seeds > 1 ? plural(seeds, 'seed') : 'one seed', plural(repetitions, 'repetition')].join(', '), repetitions < 6 && seeds < 5]);
+        items.push([[plural(Math.max(seeds, 1), 'seed'), plural(repetitions, 'repetition')].join(', '), repetitions < 6 && seeds < 5]);
         items.push([warningsText(data), data.warnings.length > 0]);
         if (data.notDone.length) items.push([`${data.notDone.length} of ${data.runs.length} runs are not done`, true]);
         for (const renderer of new Set(data.machines.map(rendererText))) items.push([renderer, renderer.startsWith('software')]);

@@ -54,7 +54,7 @@ const qualityChart = (() => {
         setSignals(spec, {
             panelWidth: Math.max(each, 120), panelHeight: panels.length === 1 ? 320 : 240, panelColumns: columns, xTitle: axisTitle(cost.name, cost.unit),
             yTitle: axisTitle(info.name, info.unit), xFormat: ',.6~r', yFormat: ',.6~r', yStep: isWhole(info.unit) ? 1 : 0, frontColour: themes[theme].muted,
-            legendColumns: legendColumns(chart.width, Math.max(...series.map(({ name }) => name.length))),
+            legendColumns: legendColumns(chart.width, Math.max(...series.map(({ name }) => name.length)), series.length),
         });
         setData(spec, 'panels', panels.map(panel => ({ panel })));
         setData(spec, 'points', points);
