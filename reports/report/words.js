@@ -120,9 +120,8 @@ const words = (() => {
     /// How often each verdict came out, where there are several cells.
     const cellsOf = claim => {
         if (claim.cells.length < 2) return '';
-        const texts = { confirmed: 'true', refuted: 'false', unresolved: 'open' };
-        const counts = Object.keys(texts).map(verdict => [verdict, claim.cells.filter(cell => cell.verdict === verdict).length]).filter(([, count]) => count);
-        return `${counts.map(([verdict, count]) => `${texts[verdict]} in ${count}`).join(', ')} of ${claim.cells.length} cells`;
+        const counts = distinct(claim.cells.map(cell => cell.verdict)).map(verdict => [verdict, claim.cells.filter(cell => cell.verdict === verdict).length]);
+        return `${counts.map(([verdict, count]) => `${verdict} in ${count}`).join(', ')} of ${claim.cells.length} cells`;
     };
     /// The cells, what they share, and over what the interval is.
     const testedOf = (claim, experiment) => {
