@@ -46,7 +46,7 @@ const overview = (() => {
             return element('td', { className: 'number', textContent: value === null ? '' : digits(chartData.shown(value, unit)) });
         };
         const show = () => {
-            const asked = filter.value.toLowerCase().split(/\s+/).filter(Boolean);
+            const asked = chartData.sized(filter.value.toLowerCase()).split(/\s+/).filter(Boolean);
             const kept = all.filter(row => asked.every(word => `${row.variant} ${row.world} ${row.title} ${row.experiment.id}`.toLowerCase().includes(word)));
             if (sort) kept.sort((a, b) => compared(a, b, sort, down));
             const shown = whole ? kept : kept.slice(0, firstRows);

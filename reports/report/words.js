@@ -1,7 +1,7 @@
 // Claims and results as sentences: each number with its quantity and unit. Pure: nothing of the browser is used.
 const words = (() => {
     const { digits, said, withUnit } = chartStyle;
-    const { columnOf, distinct } = chartData;
+    const { columnOf, distinct, sized } = chartData;
     /// File names stay as they are.
     const upper = text => (/^\w+\.\w/.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1));
     const plural = (count, one, many) => `${digits(count)} ${count === 1 ? one : many || one + 's'}`;
@@ -9,8 +9,8 @@ const words = (() => {
     const nameOf = (report, column) => (column.startsWith('p.') ? column.slice(2) : columnOf(report, column).name);
 
     /// What the program says of cells and pictures, as the page says it: `p.grid=16x12 soft=off` → `grid 16×12, soft off`.
-    const readable = text => (/\bfinding[= ]/.test(text) ? text.replace(/\bfinding[= ]/g, '').replace(/_/g, ' ') : text)
-        .replace(/\bp\./g, '').replace(/(=\S+) (?=\w+=)/g, '$1, ').replace(/(\w)=(?=\S)/g, '$1 ').replace(/(\d)x(?=\d)/g, '$1×');
+    const readable = text => sized((/\bfinding[= ]/.test(text) ? text.replace(/\bfinding[= ]/g, '').replace(/_/g, ' ') : text)
+        .replace(/\bp\./g, '').replace(/(=\S+) (?=\w+=)/g, '$1, ').replace(/(\w)=(?=\S)/g, '$1 '));
     /// `billboard puff=texture` → `billboard, puff texture`.
     const labelText = label => readable(label.replace(/^((?:reference of )?\w+) (?=\w+=)/, '$1, '));
 

@@ -84,6 +84,7 @@ class ReportWords(page_case.PageCase):
         cases = [("p.particles=1000 p.system=thesis_aa_sprites", "particles 1000, system thesis_aa_sprites"), ("grid=16x12 soft=off", "grid 16×12, soft off"),
                  ("true for finding silhouette_kept_bunny, false with silhouette_kept_car", "true for silhouette kept bunny, false with silhouette kept car")]
         self.assertEqual(self.said(f"{json.dumps([case[0] for case in cases])}.map(words.readable)"), [case[1] for case in cases])
+        self.assertEqual(self.said("chartData.settingText({ name: 'grid', unit: '' }, '32x64x32')"), "grid 32×64×32")
         self.assertEqual(self.said("words.labelText('reference of billboard puff=texture soft=off')"), "reference of billboard, puff texture, soft off")
 
     def test_the_overview_has_rows_with_numbers_and_heads_that_paper_repeats(self):
