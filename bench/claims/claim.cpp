@@ -59,6 +59,8 @@ void readData(files::TomlReader& table, Rule& rule) {
         if (wanted("experiment", rule.experiment.empty()))
             rule.experiment = table.choice("experiment", experimentNames());
         if (wanted("column", rule.column.empty())) rule.column = table.text("column");
+        if (table.has("name")) rule.name = table.text("name");
+        if (table.has("unit")) rule.unit = table.text("unit");
         return;
     }
     if (wanted("suite", rule.suite.empty())) rule.suite = table.text("suite");

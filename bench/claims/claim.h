@@ -66,6 +66,7 @@ struct Rule {
     std::string suite;  ///< or, for a finding:
     std::string experiment;
     std::string column;              ///< for a finding: its quantity
+    std::string name, unit;          ///< for a finding: its quantity in words, and the unit; may be empty
     std::string per;                 ///< the column to divide by, row by row; empty: none
     std::vector<std::string> parts;  ///< for a share: the columns whose sum is the numerator
     std::string match;               ///< for a matched ratio: the column that is the same

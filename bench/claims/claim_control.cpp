@@ -5,11 +5,12 @@
 #include <cmath>
 
 namespace dustbench::bench {
-namespace {
 
 ClaimVerdict verdictOf(ControlOutcome outcome) {
     return outcome == ControlOutcome::refuted ? ClaimVerdict::refuted : ClaimVerdict::confirmed;
 }
+
+namespace {
 
 void append(std::string& text, const std::string& more) {
     text += (text.empty() ? "" : "; ") + more;
@@ -39,6 +40,7 @@ ClaimResult judgeWithControls(const Claim& claim, const RuleJudge& judge) {
     bool missing = false, failed = false, turned = false;
     for (const ControlRule& control : claim.controls) {
         const ClaimResult found = judge(control.rule);
+        result.controls.push_back({found.verdict, found.measured});
         if (found.verdict == ClaimVerdict::notTested) {
             missing = true;
             append(result.controlNote, "not run: " + control.why);

@@ -13,6 +13,9 @@ namespace dustbench::bench {
 /// Judges any rule by the data at hand.
 using RuleJudge = std::function<ClaimResult(const Rule&)>;
 
+/// The verdict that a control must give.
+[[nodiscard]] ClaimVerdict verdictOf(ControlOutcome outcome);
+
 /// Judges the claim and its controls.
 [[nodiscard]] ClaimResult judgeWithControls(const Claim& claim, const RuleJudge& judge);
 

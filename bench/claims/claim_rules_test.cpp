@@ -364,6 +364,9 @@ TEST(ClaimControls, OneThatTurnsLeavesTheVerdict) {
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
     EXPECT_EQ(result.control, ControlState::turned);
     EXPECT_EQ(result.controlNote, "refuted, as known (1.111: swapped)");
+    ASSERT_EQ(result.controls.size(), 1u);
+    EXPECT_EQ(result.controls[0].verdict, ClaimVerdict::refuted);
+    EXPECT_NEAR(result.controls[0].measured, 1 / 0.9, 1e-3);
 }
 
 TEST(ClaimControls, ARuleThatCannotFailIsUntestable) {

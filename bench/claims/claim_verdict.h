@@ -54,6 +54,12 @@ struct ClaimCell {
     ClaimVerdict ofAll = ClaimVerdict::unresolved;  ///< by the interval that holds for all cells together
 };
 
+/// What the rule gave on a control of the claim.
+struct ControlResult {
+    ClaimVerdict verdict = ClaimVerdict::notTested;  ///< not tested: its runs are missing
+    double measured = std::numeric_limits<double>::quiet_NaN();
+};
+
 struct ClaimResult {
     ClaimVerdict verdict = ClaimVerdict::notTested;
     double measured = std::numeric_limits<double>::quiet_NaN();  ///< mean over the cells
@@ -64,7 +70,8 @@ struct ClaimResult {
     std::vector<ClaimCell> cells{};
     std::vector<std::string> runs{};  ///< ids of all runs used
     ControlState control = ControlState::none;
-    std::string controlNote{};  ///< what each control gave
+    std::string controlNote{};              ///< what each control gave, in words
+    std::vector<ControlResult> controls{};  ///< the same, in the order of the claim's controls
 };
 
 /// Judges a rule whose quantity is computed from the rows of a summary.

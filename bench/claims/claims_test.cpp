@@ -79,6 +79,8 @@ TEST(Claims, EachHasAControlAndAReasonForItsRange) {
             if (claim.rule.quantity == Quantity::none) continue;
             EXPECT_FALSE(claim.controls.empty()) << id << " " << claim.id << " has no [[claim.control]]";
             EXPECT_GT(claim.reason.size(), 3u) << id << " " << claim.id;
+            if (claim.rule.quantity != Quantity::finding) continue;
+            EXPECT_FALSE(claim.rule.name.empty()) << id << " " << claim.id << ": its quantity has no name";
         }
 }
 

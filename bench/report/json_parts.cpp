@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/claims/claim_control.h"
 #include "methods/kit/files/csv.h"
 
 namespace dustbench::bench {
@@ -9,10 +10,20 @@ namespace {
 
 using nlohmann::json;
 
+json rounded(double value, int digits) {
+    const std::optional<double> number = files::numberOf(fmt::format("{:.{}g}", value, digits));
+    return number ? json(*number) : json(nullptr);
+}
+
+/// A number of a claim, which may be a whole number that is to be met exactly.
+json claimNumber(double value) {
+    return rounded(value, 10);
+}
+
 json claimCellJson(const ClaimCell& cell) {
-    return {{"text", textOf(cell.cell)}, {"measured", number(cell.measured)},
-            {"low", number(cell.low)},   {"high", number(cell.high)},
-            {"turns", cell.turns},       {"verdict", verdictName(cell.verdict)}};
+    return {{"text", textOf(cell.cell)},    {"measured", claimNumber(cell.measured)},
+            {"low", claimNumber(cell.low)}, {"high", claimNumber(cell.high)},
+            {"turns", cell.turns},          {"verdict", verdictName(cell.verdict)}};
 }
 
 /// The rule in parts, from which the page makes sentences with names and units.
@@ -20,6 +31,8 @@ json ruleJson(const Rule& rule) {
     return {{"quantity", quantityWords.wordOf(rule.quantity)},
             {"experiment", rule.experiment},
             {"column", rule.column},
+            {"name", rule.name},
+            {"unit", rule.unit},
             {"per", rule.per},
             {"parts", rule.parts},
             {"match", rule.match},
@@ -28,11 +41,21 @@ json ruleJson(const Rule& rule) {
             {"against", nameOf(rule.against)}};
 }
 
+json controlsJson(const Claim& claim, const ClaimResult& result) {
+    json list = json::array();
+    for (std::size_t i = 0; i < result.controls.size(); ++i)
+        list.push_back({{"why", claim.controls[i].why},
+                        {"rule", ruleJson(claim.controls[i].rule)},
+                        {"known", verdictName(verdictOf(claim.controls[i].gives))},
+                        {"verdict", verdictName(result.controls[i].verdict)},
+                        {"measured", claimNumber(result.controls[i].measured)}});
+    return list;
+}
+
 }  // namespace
 
 json number(double value) {
-    const std::optional<double> rounded = files::numberOf(fmt::format("{:.6g}", value));
-    return rounded ? json(*rounded) : json(nullptr);
+    return rounded(value, 6);
 }
 
 json claimJson(const JudgedClaim& judged) {
@@ -48,12 +71,12 @@ json claimJson(const JudgedClaim& judged) {
                                                  : "repetitions"},
             {"verdict", verdictName(result.verdict)},
             {"control", controlName(result.control)},
-            {"controls", result.controlNote},
-            {"measured", number(result.measured)},
-            {"low", number(result.low)},
-            {"high", number(result.high)},
-            {"min", rule.minimum ? number(*rule.minimum) : json()},
-            {"max", rule.maximum ? number(*rule.maximum) : json()},
+            {"controls", controlsJson(claim, result)},
+            {"measured", claimNumber(result.measured)},
+            {"low", claimNumber(result.low)},
+            {"high", claimNumber(result.high)},
+            {"min", rule.minimum ? claimNumber(*rule.minimum) : json()},
+            {"max", rule.maximum ? claimNumber(*rule.maximum) : json()},
             {"expected", rule.expected()},
             {"reason", claim.reason},
             {"condition", result.condition},

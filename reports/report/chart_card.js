@@ -1,6 +1,7 @@
 // Charts on the page: each with its controls, its note, and buttons that save it as picture or as numbers.
 //
-// chartCards(report, look) gives {add, drawAll, drawFirst}; `look` is {theme, hidden} and is read at each drawing.
+// chartCards(report, look) gives {add, drawAll, drawFirst}; `look` is {theme, hidden, paperWidth} and is read at each
+// drawing. paperWidth, while the page is printed, is the width of the paper in pixels.
 const chartCards = (report, look) => {
     const { element, put, paragraph, button, download, csv } = pageKit;
     const charts = [];
@@ -63,7 +64,7 @@ const chartCards = (report, look) => {
             if (view) view.finalize();
             view = null;
             if (!place.clientWidth) return;  // in a part that is folded away
-            const width = Math.max(Math.floor(place.clientWidth), 260);
+            const width = look.paperWidth || Math.max(Math.floor(place.clientWidth), 260);
             built = chartKit.build(report, { ...chart, ...settings, width, theme: look.theme, hidden: look.hidden });
             const { spec, config, notes, empty, state } = built;
             place.replaceChildren();

@@ -8,7 +8,12 @@ const chartData = (() => {
         const fact = factOf(report, name);
         return { name: name.replace(/_(median|bytes|ms)$/, '').replace(/_/g, ' '), unit: fact ? fact.unit.replace(/^1$/, '') : '', better: '' };
     };
-    const axisTitle = (name, unit) => name + (unit === 'bytes' ? ' [MB]' : unit.startsWith('share') ? ` [%${unit.slice('share'.length)}]` : unit ? ` [${unit}]` : '');
+    /// `primitives drawn` needs no unit behind it.
+    const axisTitle = (name, unit) => {
+        const text = name.replace(/_/g, ' ');
+        if (!unit || text.split(' ').includes(unit)) return text;
+        return text + (unit === 'bytes' ? ' [MB]' : unit.startsWith('share') ? ` [%${unit.slice('share'.length)}]` : ` [${unit}]`);
+    };
     const shown = (value, unit) => (unit === 'bytes' ? value / 1e6 : unit.startsWith('share') ? 100 * value : value);
     const isWhole = unit => ['particles', 'hits', 'parts', 'primitives', 'steps', 'systems'].includes(unit);
 
@@ -22,7 +27,8 @@ const chartData = (() => {
         return Array.isArray(value) ? value : [value, value, value];
     };
     const machineLabel = (report, cell) => (report.data.machines.length > 1 ? ` (machine ${cell.machine + 1})` : '');
-    const settingText = (axis, value) => `${axis.name} ${value}${axis.unit && axis.unit !== axis.name ? ' ' + axis.unit : ''}`;
+    const sized = text => text.replace(/(\d)x(?=\d)/g, '$1×');
+    const settingText = (axis, value) => `${axis.name} ${sized(value)}${axis.unit && axis.unit !== axis.name ? ' ' + axis.unit : ''}`;
     const settingsText = (axes, cell) => axes.filter(axis => cell.settings[axis.name])
         .map(axis => settingText(axis, cell.settings[axis.name])).join(', ');
     const variantOf = (report, experiment, cell, except) => {
@@ -97,5 +103,5 @@ const chartData = (() => {
     /// All that a chart can show: costs, metrics, and facts of methods.
     const quantitiesOf = (report, experiment) => distinct([...costsOf(report, experiment), ...known(report, experiment, 'metric'),
         ...(report.data.facts || []).map(fact => fact.name).filter(name => has(experiment, name))]);
-    return { columnOf, axisTitle, shown, isWhole, valueOf, settingText, variantOf, worldOf, inOrder, distinct, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf, chargesOf, factOf };
+    return { columnOf, axisTitle, shown, isWhole, valueOf, sized, settingText, variantOf, worldOf, inOrder, distinct, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf, chargesOf, factOf };
 })();

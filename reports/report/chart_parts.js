@@ -45,7 +45,11 @@ const chartParts = (() => {
         const columns = panels === 1 || width < 620 ? 1 : panels === 2 || panels === 4 || width < 900 ? 2 : 3;
         return { columns, each: Math.floor((width - 8 - (columns - 1) * 26) / columns - 66) };
     };
-    const legendColumns = (width, longest) => Math.max(Math.floor(width / (longest * 7.2 + 46)), 1);
+    /// As many as fit, but in so many rows that all are full: Vega fills them row by row.
+    const legendColumns = (width, longest, count) => {
+        const most = Math.max(Math.floor(width / (longest * 7.2 + 46)), 1);
+        return Math.ceil(count / Math.ceil(count / most));
+    };
     const domainOf = (values, log, zero) => {
         const finite = values.filter(value => Number.isFinite(value) && (!log || value > 0));
         if (!finite.length) return [log ? 1 : 0, 10];

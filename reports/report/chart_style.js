@@ -11,9 +11,10 @@ const chartStyle = (() => {
     /// The factor gives the delivered methods colours of their own.
     const colourOf = name => [...name].reduce((sum, letter) => (sum * 1947 + letter.codePointAt(0)) % 65521, 0) % methodColours.light.length;
     const stages = ['input', 'simulate', 'build', 'sort', 'upload', 'scene', 'draw', 'wait'];
+    /// No method's colours: paler than those on white, deeper on black.
     const stageColours = {
-        light: ['#5a5f66', '#56b4e9', '#007a5a', '#e2bd35', '#a3458b', '#b6bec7', '#d55e00', '#eda36f'],
-        dark: ['#d5d9de', '#58b0e8', '#2fa986', '#e2bd35', '#d487ba', '#5f6873', '#f07f3c', '#a8643c'],
+        light: ['#9aa1a9', '#7cc4f0', '#63cfa6', '#f2d04a', '#ea9fd2', '#d3d8dd', '#ff9450', '#f6c9a8'],
+        dark: ['#8b929a', '#2b76b3', '#1d8060', '#9c7a10', '#9a3f80', '#555d66', '#c2500f', '#7d4a2b'],
     };
     const themes = {
         light: { ink: '#1b1f24', muted: '#565e67', grid: '#e4e7ea', paper: '#ffffff' },
@@ -38,31 +39,41 @@ const chartStyle = (() => {
         };
     };
 
-    // Texts of numbers: three digits say all that a measurement holds.
+    // Texts of numbers: three digits say all that a measurement holds, the zeros at its end too; small whole numbers are whole.
+    // What somebody wrote, a limit or a tick, is as it was written: `written`.
     const grouped = text => text.replace(/^(-?\d+)/, whole => whole.replace(/\B(?=(\d{3})+$)/g, ','));
-    const digits = (value, count = 3) => {
+    const digits = (value, count = 3, written = false) => {
         if (value === null || value === undefined || !Number.isFinite(value)) return '–';
         const size = Math.abs(value);
-        const isCount = Number.isInteger(value) && size < 1e4;
         if (size !== 0 && (size < 1e-3 || size >= 1e9)) {
-            const [factor, power] = value.toExponential(count - 2).split('e');
+            const [factor, power] = (written ? Number(value.toPrecision(count)).toExponential() : value.toExponential(count - 2)).split('e');
             const raised = [...power.replace('+', '')].map(letter => '⁰¹²³⁴⁵⁶⁷⁸⁹'[letter] || '⁻').join('');
-            return `${factor}·10${raised}`.replace('-', '−');
+            return `${written && Math.abs(factor) === 1 ? factor.replace('1', '') : `${factor}·`}10${raised}`.replace('-', '−');
         }
-        return grouped(String(isCount ? value : Number(value.toPrecision(count)))).replace('-', '−');
+        const isWhole = Number.isInteger(value);
+        const text = isWhole && (written || size < 1e4) ? String(value) : value.toPrecision(count);
+        return grouped(isWhole || written || text.includes('e') ? String(Number(text)) : text).replace('-', '−');
+    };
+    /// The number that `digits` says.
+    const said = (value, count, written = false) => {
+        const size = Math.abs(value);
+        if (!written && size !== 0 && (size < 1e-3 || size >= 1e9)) return Number(value.toExponential(count - 2));
+        return Number.isInteger(value) && (written || size < 1e4) ? value : Number(value.toPrecision(count));
     };
     /// The unit of bytes that leaves one to three digits before the point.
-    const bytesText = value => {
+    const bytesText = (value, count, written) => {
         const step = Math.min(Math.max(Math.floor(Math.log10(Math.abs(value) || 1) / 3), 0), 3);
-        return `${digits(value / 1000 ** step)} ${['bytes', 'kB', 'MB', 'GB'][step]}`;
+        return `${digits(value / 1000 ** step, count, written)} ${['bytes', 'kB', 'MB', 'GB'][step]}`;
     };
-    const withUnit = (value, unit) => {
+    /// A number in another unit: without what the factor adds to it far behind the point.
+    const times = (value, factor) => Number((value * factor).toPrecision(12));
+    const withUnit = (value, unit, count = 3, written = false) => {
         if (value === null || value === undefined || !Number.isFinite(value)) return '–';
-        if (unit === 'bytes') return bytesText(value);
-        if (unit === 'ms' && value !== 0 && Math.abs(value) < 0.1) return `${digits(value * 1000)} µs`;
-        if (unit.startsWith('share')) return `${digits(100 * value)} %${unit.slice('share'.length)}`;
-        if (unit === '×') return `${digits(value)}×`;
-        return digits(value) + (unit && unit !== '1' ? ' ' + unit : '');
+        if (unit === 'bytes') return bytesText(value, count, written);
+        if (unit === 'ms' && value !== 0 && Math.abs(value) < 0.1) return `${digits(times(value, 1000), count, written)} µs`;
+        if (unit.startsWith('share')) return `${digits(times(value, 100), count, written)} %${unit.slice('share'.length)}`;
+        if (unit === '×') return `${digits(value, count, written)}×`;
+        return digits(value, count, written) + (unit && unit !== '1' ? ' ' + unit : '');
     };
 
     const mixed = (from, to, share) => {
@@ -70,5 +81,5 @@ const chartStyle = (() => {
         return '#' + [1, 3, 5].map(at => Math.round(part(from, at) + share * (part(to, at) - part(from, at)))
             .toString(16).padStart(2, '0')).join('');
     };
-    return { methodColours, baselineColour, baseline, colourOf, stages, stageColours, themes, shapes, dashes, configOf, digits, withUnit, mixed };
+    return { methodColours, baselineColour, baseline, colourOf, stages, stageColours, themes, shapes, dashes, configOf, digits, said, withUnit, mixed };
 })();

@@ -5,8 +5,8 @@
 // {x, column, metric, against, part, world, run, xLog, yLog, hidden, width, theme} set over it. `table` is
 // {columns: [[name, unit]…], rows}.
 const chartKit = (() => {
-    const { configOf, digits, withUnit } = chartStyle;
-    const { columnOf, valueOf, variantOf, worldOf, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf, chargesOf } = chartData;
+    const { configOf, baseline, digits, withUnit } = chartStyle;
+    const { columnOf, valueOf, variantOf, worldOf, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf } = chartData;
     const { methodColour, fresh, setSignals, setData, setScale, domainOf, missing } = chartParts;
 
     /// The cells of an experiment that charts and tables show: seeds are draws of the same, not settings.
@@ -19,7 +19,7 @@ const chartKit = (() => {
             if (!quantitiesOf(report, experiment).length) continue;
             if (experiment.cells.length > 1) charts.push({ id: experiment.id, kind: 'cost', experiment });
             if (experiment.cells.some(cell => valueOf(cell, 'frame_ms_median'))) charts.push({ id: experiment.id + '-stages', kind: 'stages', experiment });
-            if (metricsOf(report, experiment).length && chargesOf(report, experiment).length) charts.push({ id: experiment.id + '-quality', kind: 'quality', experiment });
+            if (metricsOf(report, experiment).length && qualityChart.chargesOf(report, experiment).length) charts.push({ id: experiment.id + '-quality', kind: 'quality', experiment });
         }
         if (report.data.frames.length) charts.push({ id: 'frames', kind: 'frames' });
         return charts;
@@ -28,7 +28,12 @@ const chartKit = (() => {
     const buildFrames = (report, chart) => {
         const frames = report.data.frames.filter(item => !chart.hidden.has(item.label.split(/[ ,]/)[0]));
         if (!frames.length) return missing;
-        const run = frames.find(item => item.run === chart.run) || frames[0];
+        // It opens on the longest run of a method that draws something.
+        const methodOf = item => item.label.split(/[ ,]/)[0];
+        const drawing = frames.filter(item => methodOf(item) !== baseline);
+        const longest = (drawing.length ? drawing : frames).reduce((most, item) => (item.frames > most.frames ? item : most));
+        const run = frames.find(item => item.run === chart.run) || longest;
+        const experiment = report.data.experiments.find(item => item.id === run.experiment);
         const trace = run.trace.map(([frame, ms]) => ({ frame, ms, tip: { title: `frame ${frame}`, time: `${digits(ms)} ms` } }));
         const width = run.binMs || 0.1;
         const low = run.binMs ? run.minimumMs : run.minimumMs - 0.05;
@@ -41,17 +46,20 @@ const chartKit = (() => {
         const spec = fresh(report.specifications.frames);
         const narrow = chart.width < 620;
         const both = chart.width - 2 * 58 - 30;
+        // So few frames are no distribution.
+        const isCounted = run.frames >= 10;
         setSignals(spec, {
-            panelWidth: narrow ? chart.width - 66 : Math.round(both * 0.72), sideWidth: narrow ? chart.width - 66 : Math.round(both * 0.28),
-            sideColumns: narrow ? 1 : 2, panelHeight: 220, colour: methodColour(report, run.label.split(/[ ,]/)[0], chart.theme),
+            panelWidth: narrow || !isCounted ? chart.width - 66 : Math.round(both * 0.72), sideWidth: narrow ? chart.width - 66 : Math.round(both * 0.28),
+            sideColumns: narrow ? 1 : 2, panelHeight: 220, colour: methodColour(report, methodOf(run), chart.theme),
             median: (median.low + median.high) / 2,
         });
         setData(spec, 'trace', trace);
         setData(spec, 'bins', bins);
+        if (!isCounted) spec.marks.pop();
         setScale(spec, 'ms', { domain: domainOf([low, low + width * run.bins.length], false, false) });
         const thinned = run.trace.length < run.frames ? ` Of ${run.frames} frames the trace shows the shortest and the longest of each stretch.` : '';
         return {
-            spec, notes: ['Dashed: the median.' + thinned], state: { run: run.run },
+            spec, notes: [`${words.labelText(run.label)}${experiment ? `; ${experiment.title}` : ''}. Dashed: the median.` + thinned], state: { run: run.run },
             table: { columns: [['frame', ''], ['frame_ms', 'ms']], rows: run.trace },
         };
     };
@@ -61,5 +69,5 @@ const chartKit = (() => {
         const asked = { width: 900, theme: 'light', hidden: new Set(), ...chart };
         return { config: configOf(asked.theme), ...builders[asked.kind](report, asked) };
     };
-    return { list, build, shownOf, loadsOf, costsOf, metricsOf, quantitiesOf, chargesOf, methodColour, digits, withUnit, columnOf, variantOf, worldOf };
+    return { list, build, shownOf, loadsOf, costsOf, metricsOf, quantitiesOf, methodColour, digits, withUnit, columnOf, variantOf, worldOf };
 })();

@@ -1,7 +1,7 @@
 // The claims of a paper, each as a reviewer's paragraph: claimed, tested how, came out, control, what would change it.
 const claimList = (() => {
     const { element, put, shape, plural } = pageKit;
-    const { digits, withUnit } = chartStyle;
+    const { withUnit } = chartStyle;
     const verdictMarks = { confirmed: '✓', refuted: '✗', depends: '±', unresolved: '?', untestable: '!', 'not-tested': '–' };
     const controlTexts = { turned: 'control turned', 'not-turned': 'control did not turn', 'not-run': 'control not run' };
 
@@ -14,12 +14,18 @@ const claimList = (() => {
             const within = ticks.filter(tick => tick >= low && tick <= high);
             if (within.length > 1) return within.filter((tick, index) => index % Math.ceil(within.length / 4) === 0);
         }
-        const raw = (high - low) / 3, power = 10 ** Math.floor(Math.log10(raw));
-        const step = [1, 2, 5, 10].find(factor => factor * power >= raw) * power;
-        const ticks = [];
-        for (let tick = Math.ceil(low / step) * step; tick <= high + step / 1e6; tick += step) ticks.push(Number(tick.toPrecision(6)));
-        return ticks;
+        // One tick alone is no scale: then the next finer step.
+        const stepOf = place => [1, 2, 5][(place % 3 + 3) % 3] * 10 ** Math.floor(place / 3);
+        let place = 3 * Math.floor(Math.log10((high - low) / 3));
+        while (stepOf(place) < (high - low) / 3) ++place;
+        for (;; --place) {
+            const step = stepOf(place), ticks = [];
+            for (let index = Math.ceil(low / step); index * step <= high + step / 1e6; ++index) ticks.push(Number((index * step).toPrecision(12)));
+            if (ticks.length > 1) return ticks;
+        }
     };
+    /// In the unit of the sentence beside it, which need not say more than % or × of it.
+    const tickText = (tick, unit) => withUnit(tick, unit.startsWith('share') ? 'share' : ['×', 'ms', 'bytes'].includes(unit) ? unit : '', 12, true);
     /// Where the measured interval lies to the values for which the claim is true, on a scale.
     const rangePicture = (claim, unit) => {
         if (claim.measured === null || (claim.min === null && claim.max === null)) return '';
@@ -43,11 +49,11 @@ const claimList = (() => {
         put(svg, shape('circle', { cx: at(claim.measured), cy: 11, r: 4, fill: 'var(--ink)' }), shape('line', { x1: edge, x2: width - edge, y1: 22.5, y2: 22.5, stroke: 'var(--muted)', 'stroke-width': 1 }));
         let end = -Infinity;
         for (const tick of ticksOf(unbend(low), unbend(high), log)) {
-            const text = withUnit(tick, unit === 'share' || unit === '×' ? unit : ''), x = at(tick), half = text.length * 2.7 + 2;
+            const text = tickText(tick, unit), x = at(tick), half = text.length * 3 + 2;
             put(svg, shape('line', { x1: x, x2: x, y1: 20, y2: 25, stroke: 'var(--muted)', 'stroke-width': 1 }));
             if (x - half < end) continue;
             end = x + half;
-            const label = shape('text', { x, y: 36, 'text-anchor': 'middle', 'font-size': 9.5, fill: 'var(--muted)' });
+            const label = shape('text', { x: Math.min(Math.max(x, half), width - half), y: 36, 'text-anchor': 'middle', 'font-size': 9.5, fill: 'var(--muted)' });
             label.textContent = text;
             put(svg, label);
         }
@@ -58,7 +64,7 @@ const claimList = (() => {
         element('summary', { textContent: `cell by cell: ${words.cellsOf(claim)}` }),
         element('ul', { className: 'cells' }, claim.cells.map(cell => element('li', {}, [
             element('span', { className: `verdict ${cell.verdict}`, textContent: verdictMarks[cell.verdict] }),
-            ` ${cell.text.replace(/p\./g, '').replace(/=/g, ' ').replace(/^finding (\w+)$/, (all, name) => name.replace(/_/g, ' '))}: ${words.measuredText(cell, unit)}`,
+            ` ${words.readable(cell.text)}: ${words.measuredText(cell, unit, claim)}`,
         ]))),
     ]);
     /// The experiments of a suite may be there in both forms: the one whose runs were used.
@@ -69,20 +75,23 @@ const claimList = (() => {
         return own.find(item => item.cells.some(cell => cell.runs.some(run => used.has(run)))) || own[0];
     };
 
+    /// What stands between backticks is code.
+    const marked = text => text.split('`').map((part, index) => (index % 2 ? element('code', { textContent: part }) : part));
+
     /// `runLinks(indices, text)` makes links to runs.
     const entry = (report, claim, runLinks) => {
         const unit = claim.rule ? words.quantityOf(report, claim)[1] : '';
         const experiment = experimentOf(report, claim);
         const tested = element('dd');
         if (experiment) put(tested, element('a', { href: `#experiment-${experiment.id}`, textContent: experiment.id }), '. ');
-        put(tested, words.upper(words.testedOf(claim, experiment)) || '–', claim.reason ? `. Limits: ${claim.reason}.` : '.');
+        put(tested, words.upper(words.testedOf(claim, experiment)) || '–', ...marked(claim.reason ? `. Limits: ${claim.reason}.` : '.'));
         const came = element('dd', { className: 'came-out' }, [words.resultOf(report, claim) || 'Not measured.']);
-        if (claim.condition) put(came, ` ${words.upper(claim.condition)}.`);
+        if (claim.condition) put(came, ` ${words.upper(words.readable(claim.condition))}.`);
         if (claim.note) put(came, element('span', { className: 'muted', textContent: ` ${words.upper(claim.note)}.` }));
         const change = words.changeOf(report, claim);
         const lines = [['came out', came]];
         if (claim.measured !== null || claim.runs.length) lines.push(['tested', tested]);
-        if (claim.controls) lines.push(['control', element('dd', { textContent: `${words.upper(controlTexts[claim.control] || '')}: ${claim.controls}.` })]);
+        if (claim.controls.length) lines.push(['control', element('dd', {}, marked(`${words.upper(controlTexts[claim.control] || '')}: ${words.controlsOf(report, claim)}.`))]);
         if (change) lines.push(['would change it', element('dd', { textContent: change })]);
         const more = element('div', { className: 'more' });
         if (claim.cells.length > 1) put(more, cellList(claim, unit));
@@ -94,12 +103,12 @@ const claimList = (() => {
                 element('span', { className: 'muted control-state', textContent: controlTexts[claim.control] || '' }),
             ]),
             element('div', { className: 'claim-text' }, [
-                element('p', { className: 'claimed', textContent: words.upper(claim.text) + '.' }),
+                element('p', { className: 'claimed' }, marked(words.upper(claim.text) + '.')),
                 element('dl', {}, lines.flatMap(([head, text]) => [element('dt', { textContent: head }), text])),
             ]),
             element('div', { className: 'claim-picture' }, [rangePicture(claim, unit)]),
             more,
         ]);
     };
-    return { entry, verdictMarks, ticksOf, digits };
+    return { entry, verdictMarks, ticksOf };
 })();

@@ -88,7 +88,7 @@ const costChart = (() => {
         const published = experiment.published.filter(item => item.column === column && (!item.axis || item.axis === load.name))
             .map(item => ({
                 x: item.axis ? item.x : null, min: item.min, max: item.max,
-                tip: { title: 'published', [info.name]: `${digits(item.min)} to ${withUnit(item.max, info.unit)}`, of: item.what },
+                tip: { title: 'published', [info.name]: `${digits(shown(item.min, info.unit), 6, true)} to ${withUnit(item.max, info.unit, 6, true)}`, of: item.what },
             }));
         const series = distinct(seen.map(point => point.series))
             .map(name => ({ name, method: cells.find(cell => theSeries(cell) === name).method }));
@@ -105,13 +105,15 @@ const costChart = (() => {
         const panelWidth = Math.max(each - labelRoom, 120);
         const panelHeight = single ? 320 : Math.max(170, Math.min(240, Math.round(panelWidth * 0.75)));
         const yDomain = domainOf(seen.flatMap(point => [point.y, point.low, point.high]).concat(published.flatMap(item => [item.min, item.max])), yLog, true);
-        const xRoom = (xs[xs.length - 1] - xs[0]) * 0.04 || 1;
+        // Room for the points that are drawn apart from their load.
+        const edge = Math.max(0.04, (gap * (series.length - 1) / 2 + 8) / panelWidth);
+        const xRoom = (xs[xs.length - 1] - xs[0]) * edge || 1, xFactor = (xs[xs.length - 1] / xs[0]) ** edge;
 
         const spec = fresh(report.specifications.cost);
         setSignals(spec, {
             panelWidth, panelHeight, panelColumns: columns, labelRoom, xTitle: axisTitle(load.name, load.unit === load.name ? '' : load.unit), yTitle: axisTitle(info.name, info.unit),
             xFormat: xs[xs.length - 1] >= 100000 ? '.4~s' : ',.6~r', yFormat: yDomain[1] >= 100000 ? '.4~s' : ',.6~r',
-            yStep: isWhole(info.unit) ? 1 : 0, legendColumns: legendColumns(chart.width, longest),
+            yStep: isWhole(info.unit) ? 1 : 0, legendColumns: legendColumns(chart.width, longest, series.length),
         });
         setData(spec, 'panels', shownPanels.map(panel => ({ panel })));
         setData(spec, 'points', seen);
@@ -119,7 +121,7 @@ const costChart = (() => {
         setData(spec, 'published', published);
         setData(spec, 'labels', labelled ? endLabels(seen, series, yDomain, yLog, panelHeight) : []);
         const names = series.map(({ name }) => name);
-        setScale(spec, 'x', xLog ? { type: 'log', domain: [xs[0] / 1.12, xs[xs.length - 1] * 1.08] } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
+        setScale(spec, 'x', xLog ? { type: 'log', domain: [xs[0] / Math.max(1.12, xFactor), xs[xs.length - 1] * Math.max(1.08, xFactor)] } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
         setScale(spec, 'y', { type: yLog ? 'log' : 'linear', domain: yDomain });
         setScale(spec, 'colour', { domain: names, range: styles.map(style => style.colour) });
         setScale(spec, 'shape', { domain: names, range: styles.map(style => style.shape) });
@@ -128,7 +130,7 @@ const costChart = (() => {
         if (labelled || series.length === 1) spec.legends = [];
         if (xs.length <= 10) spec.marks[0].axes[1].values = xs;
         const notes = [];
-        if (series.length === 1 && names[0]) notes.push(`${names[0]}.`);
+        if (series.length === 1 && names[0]) notes.push(`${alone ? 'World' : 'Method'}: ${names[0]}.`);
         if (published.length) notes.push(`Grey: numbers given in the paper's text. ${distinct(published.map(item => item.tip.of)).join('; ')}.`);
         if (curves.length) notes.push(`Wide pale lines: the fitted cost a + b·N^k${column === 'fps_avg' ? ' of the frame time, as a rate' : ''}.`);
         return { spec, notes, table: tableOf(report, experiment, cells, [column]), state: { x: load.name, column, xLog, yLog } };

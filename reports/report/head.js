@@ -28,10 +28,15 @@ const pageHead = (() => {
         }
         return [...kinds].sort((a, b) => b[1].size - a[1].size);
     };
+    /// Without what stands in brackets, and not longer than a line.
+    const shortOf = kind => {
+        const text = kind.replace(/ *\([^)]*\)/g, '');
+        return text.length > 75 ? text.slice(0, 72).replace(/\s+\S*$/, '') + ' …' : text;
+    };
     const warningsText = data => {
         if (!data.warnings.length) return 'no run has warnings';
         const touched = new Set(data.warnings.flatMap(item => item.runs)).size;
-        const short = kindsOf(data).slice(0, 3).map(([kind, runs]) => `${kind.length > 60 ? kind.slice(0, 57).replace(/\s+\S*$/, '') + ' …' : kind} (${runs.size})`);
+        const short = kindsOf(data).slice(0, 3).map(([kind, runs]) => `${shortOf(kind)} (${runs.size})`);
         return `${touched} of ${data.runs.length} runs with warnings: ${short.join(', ')}${kindsOf(data).length > 3 ? ' …' : ''}`;
     };
 
@@ -42,7 +47,7 @@ const pageHead = (() => {
         const items = [];
         const form = formOf(experiments);
         if (form) items.push([form, isQuick(experiments.find(experiment => experiment.suite))]);
-        items.push([[seeds > 1 ? plural(seeds, 'seed') : 'one seed', plural(repetitions, 'repetition')].join(', '), repetitions < 6 && seeds < 5]);
+        items.push([[plural(Math.max(seeds, 1), 'seed'), plural(repetitions, 'repetition')].join(', '), repetitions < 6 && seeds < 5]);
         items.push([warningsText(data), data.warnings.length > 0]);
         if (data.notDone.length) items.push([`${data.notDone.length} of ${data.runs.length} runs are not done`, true]);
         for (const renderer of new Set(data.machines.map(rendererText))) items.push([renderer, renderer.startsWith('software')]);
@@ -100,7 +105,7 @@ const pageHead = (() => {
         if (answers.length) {
             const machines = data.machines.length > 1 ? `${data.machines.length} machines` : data.machines.length ? machineText(data.machines[0]) : '';
             const lines = answers.map(({ head, text, experiment }) => element('li', {}, [
-                element('b', { textContent: head }), `: ${text} `, element('a', { href: `#experiment-${experiment.id}`, textContent: titleOf(experiment) }),
+                element('a', { href: `#experiment-${experiment.id}`, textContent: titleOf(experiment) }), ': ', element('b', { textContent: head }), `: ${text}`,
             ]));
             const box = element('section', { className: 'answers' }, [
                 element('b', { textContent: `Which is faster here${machines ? ` (${machines})` : ''}` }), element('ul', {}, lines.slice(0, mostAnswers)),
@@ -111,7 +116,7 @@ const pageHead = (() => {
         }
         const counts = facts(data);
         if (counts.length) put(here, element('p', { className: 'verdicts' }, [
-            element('a', { href: '#claims', textContent: plural(data.claims.length, 'claim') }), ': ',
+            element('span', {}, [element('a', { href: '#claims', textContent: plural(data.claims.length, 'claim') }), ':']),
             ...counts.map(([verdict, count]) => element('span', { className: `verdict ${verdict}`, textContent: `${count} ${verdict}` })),
         ]));
         const done = data.runs.length - data.notDone.length;

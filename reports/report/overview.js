@@ -7,14 +7,15 @@ const overview = (() => {
     const firstRows = 12;
 
     const valuesOf = cell => Object.fromEntries(wanted.map(name => [name, chartData.valueOf(cell, name)?.[0] ?? null]));
-    /// A row for each cell of the experiments, seeds taken together; without the null method, which draws nothing.
+    /// A row for each cell of the experiments with any of these numbers, seeds taken together; without the null method,
+    /// which draws nothing.
     const rowsOf = (report, experiments, titleOf) => experiments.flatMap(whole => {
         const experiment = shownOf(whole);
         return chartData.inOrder(experiment, experiment.cells.filter(cell => cell.method !== chartStyle.baseline && cell.runs.length)).map(cell => ({
             experiment, title: titleOf(whole), variant: variantOf(report, experiment, cell), world: worldOf(experiment, cell) || '–', method: cell.method, values: valuesOf(cell),
-        }));
+        })).filter(row => wanted.some(name => row.values[name] !== null));
     });
-    const unitText = unit => (unit.startsWith('share') ? '%' : unit === 'frames/s' ? '1/s' : unit === 'encoded value' || unit === 'parts' || unit === 'alpha per pixel' ? '' : unit);
+    const unitText = unit => (unit.startsWith('share') ? '%' : unit === 'encoded value' || unit === 'parts' || unit === 'alpha per pixel' ? '' : unit);
     const headOf = (report, name) => {
         const { name: text, unit } = columnOf(report, name);
         return text + (unitText(unit) ? ` [${unitText(unit)}]` : '');
@@ -35,7 +36,7 @@ const overview = (() => {
         all.sort((a, b) => filled(b) - filled(a));
         const heads = [['variant', 'method'], ['world', 'load'], ...columns.map(name => [name, headOf(report, name)]), ['experiment', 'experiment']];
         let [sort, down] = [pageState.get('sort').replace(/^-/, ''), pageState.get('sort').startsWith('-')];
-        let whole = false;
+        let whole = false, onPaper = false;
         const filter = element('input', { type: 'search', placeholder: 'octree particles 2000 …', value: pageState.get('filter'), className: 'filter', ariaLabel: 'show rows with these words' });
         const body = element('tbody'), headRow = element('tr'), note = element('p', { className: 'note' });
         const more = button('', () => { whole = !whole; show(); }, { className: 'more-rows' });
@@ -45,7 +46,7 @@ const overview = (() => {
             return element('td', { className: 'number', textContent: value === null ? '' : digits(chartData.shown(value, unit)) });
         };
         const show = () => {
-            const asked = filter.value.toLowerCase().split(/\s+/).filter(Boolean);
+            const asked = chartData.sized(filter.value.toLowerCase()).split(/\s+/).filter(Boolean);
             const kept = all.filter(row => asked.every(word => `${row.variant} ${row.world} ${row.title} ${row.experiment.id}`.toLowerCase().includes(word)));
             if (sort) kept.sort((a, b) => compared(a, b, sort, down));
             const shown = whole ? kept : kept.slice(0, firstRows);
@@ -58,7 +59,9 @@ const overview = (() => {
             headRow.replaceChildren(...heads.map(([key, text]) => {
                 const isSorted = key === sort;
                 const head = element('th', { className: columns.includes(key) ? 'number' : '', ariaSort: isSorted ? (down ? 'descending' : 'ascending') : 'none' });
-                put(head, button(text + (isSorted ? (down ? ' ↓' : ' ↑') : ''), () => {
+                const mark = isSorted ? (down ? ' ↓' : ' ↑') : '';
+                // Browsers repeat a head on each sheet of paper only if there is nothing to press in it.
+                put(head, onPaper ? text + mark : button(text + mark, () => {
                     down = isSorted ? !down : columnOf(report, key).better === 'high';
                     sort = key;
                     pageState.set('sort', (down ? '-' : '') + sort);
@@ -68,7 +71,7 @@ const overview = (() => {
             }));
             more.hidden = kept.length <= firstRows;
             more.textContent = whole ? 'Show fewer' : `Show all ${kept.length}`;
-            note.textContent = `${kept.length} of ${all.length} rows. Medians over repetitions and seeds; empty: not measured.`;
+            note.textContent = `${shown.length} of ${all.length} rows shown. Medians over repetitions and seeds; empty: not measured.`;
         };
         filter.addEventListener('input', () => {
             pageState.set('filter', filter.value);
@@ -76,8 +79,8 @@ const overview = (() => {
         });
         // On paper there is no button for the rest.
         let before = false;
-        window.addEventListener('beforeprint', () => { before = whole; whole = true; show(); });
-        window.addEventListener('afterprint', () => { whole = before; show(); });
+        window.addEventListener('beforeprint', () => { before = whole; whole = onPaper = true; show(); });
+        window.addEventListener('afterprint', () => { whole = before; onPaper = false; show(); });
         show();
         return element('article', { className: 'card overview' }, [
             element('div', { className: 'controls' }, [element('label', { className: 'control' }, [element('span', { textContent: 'Filter' }), filter])]),

@@ -131,14 +131,16 @@
         const here = section('quality');
         const own = chartKit.list(report).filter(chart => chart.kind === 'quality' && isMain(experimentOf(chart.experiment.id)));
         if (!own.length) {
-            put(here, paragraph('No run in this folder was compared with exact pictures. Use run --metrics, or metrics = true in a suite.', 'muted'));
+            const judged = experiments.some(experiment => chartKit.metricsOf(report, experiment).length);
+            put(here, paragraph(judged ? 'No chart: no two settings whose pictures were judged differ in what they cost.'
+                : 'No run in this folder was compared with exact pictures. Use run --metrics, or metrics = true in a suite.', 'muted'));
             return;
         }
         put(here, element('p', { className: 'muted' }, ['The error of a picture against its cost. ', element('a', { href: '#metrics', textContent: 'Image metrics' }), ' defines every metric.']));
         for (const chart of own) {
             const card = element('article', { className: 'card' }, [element('h3', { textContent: titleOf(chart.experiment) })]);
             put(here, card);
-            const costs = chartKit.chargesOf(report, chart.experiment);
+            const costs = qualityChart.chargesOf(report, chart.experiment);
             cards.add(card, chart, [
                 ['metric', 'Metric', columnOptions(chartKit.metricsOf(report, chart.experiment))], ['against', 'against', columnOptions(costs)],
                 ['xLog', 'across', scales], ['yLog', 'upwards', scales],
@@ -176,7 +178,7 @@
 
     const addOverview = () => {
         const rows = overview.rowsOf(report, experiments, shortTitle);
-        put(section('overview'), rows.length ? overview.build(report, experiments, shortTitle, colourOf) : paragraph('No run is done.', 'muted'));
+        put(section('overview'), rows.length ? overview.build(report, experiments, shortTitle, colourOf) : paragraph('No run has numbers for this table.', 'muted'));
     };
 
     const addMachine = () => {
@@ -267,13 +269,20 @@
         pageState.set('theme', look.theme);
     });
     asked.addEventListener('change', () => setTheme(asked.matches ? 'dark' : 'light'));
-    // Ink on paper is dark.
-    let before = null;
+    // Ink on paper is dark, and charts are as wide as the paper: shrunk ones could not be read. Nothing can be unfolded there.
+    let before = null, folded = [];
     window.addEventListener('beforeprint', () => {
         before = look.theme;
+        look.paperWidth = 700;
+        folded = [...document.querySelectorAll('.answers details:not([open])')];
+        for (const part of folded) part.open = true;
         setTheme('light');
     });
-    window.addEventListener('afterprint', () => setTheme(before));
+    window.addEventListener('afterprint', () => {
+        look.paperWidth = 0;
+        for (const part of folded) part.open = false;
+        setTheme(before);
+    });
     let lastWidth = window.innerWidth, resizing = null;
     window.addEventListener('resize', () => {
         if (window.innerWidth === lastWidth) return;

@@ -2,7 +2,7 @@
 const pictureViewer = (() => {
     const { element: make } = pageKit;
     const { digits } = chartStyle;
-    const nameOf = picture => (picture.difference ? `difference: ${picture.label}` : picture.label);
+    const nameOf = picture => (picture.difference ? `difference: ${words.labelText(picture.label)}` : words.labelText(picture.label));
     const secondsPerTurn = 0.7;
     const isReference = picture => picture.label === 'exact' || picture.label.startsWith('reference of ');
     const isEmbedded = picture => picture.source.startsWith('data:');
@@ -26,7 +26,7 @@ const pictureViewer = (() => {
         const isJudged = set => set.pictures.some(picture => picture.label === 'exact');
         const sets = [...report.data.pictures].sort((a, b) => isJudged(b) - isJudged(a));
         const worlds = [...new Map(sets.map(set => [`${set.experiment}\n${set.world}`, set])).values()]
-            .map(set => ({ set, text: [titleOf(set.experiment), set.world].filter(Boolean).join(' · ') }))
+            .map(set => ({ set, text: [titleOf(set.experiment), words.readable(set.world)].filter(Boolean).join(' · ') }))
             .sort((a, b) => isJudged(b.set) - isJudged(a.set) || a.text.localeCompare(b.text, 'en', { numeric: true }));
         const worst = worstOf(sets.filter(set => isMain(set.experiment))) || worstOf(sets);
         const choice = (label, className) => {
@@ -47,11 +47,15 @@ const pictureViewer = (() => {
         const [leftName, rightName] = ['left-name', 'right-name'].map(className => make('figcaption', { className }));
         const line = make('div', { className: 'divider' });
         const slider = make('input', { type: 'range', min: 0, max: 1000, value: 500, className: 'wipe', ariaLabel: 'edge of the left picture' });
-        const stage = make('div', { className: 'picture-stage' }, [leftImage, rightImage, line, leftName, rightName]);
+        const stage = make('div', { className: 'picture-stage' }, [leftImage, rightImage, line]);
+        // Below, not in it: a dust cloud lies where the ground is.
+        const names = make('div', { className: 'picture-names' }, [leftName, rightName]);
+        // On paper nothing can be chosen, and the choice must be said.
+        const said = make('p', { className: 'picture-world muted' });
         const bar = colourBar(report.data.heat || []);
         const missing = make('p', { className: 'note missing', hidden: true });
         const place = make('div', { className: 'picture-viewer' }, [
-            make('div', { className: 'controls' }, [worldControl, frameControl, leftControl, rightControl, modeControl]), stage, slider, bar, missing,
+            make('div', { className: 'controls' }, [worldControl, frameControl, leftControl, rightControl, modeControl]), said, stage, names, slider, bar, missing,
         ]);
 
         let timer = null;
@@ -70,6 +74,7 @@ const pictureViewer = (() => {
             const { width } = setNow();
             const widest = mode.value === 'native' && width ? width : width ? Math.min(1280, Math.max(2 * width, 480)) : 960;
             stage.style.setProperty('--widest', `${widest}px`);
+            names.style.maxWidth = mode.value === 'both' ? '' : `${widest}px`;
             slider.style.maxWidth = `${widest}px`;
         };
         const showMode = () => {
@@ -105,6 +110,7 @@ const pictureViewer = (() => {
             missing.hidden = true;
             showSize();
             frameText.textContent = set.frame;
+            said.textContent = `${worlds[world.value].text}, frame ${set.frame}`;
         };
         /// The same names stay chosen from frame to frame and from world to world.
         const showNames = () => {
@@ -118,7 +124,7 @@ const pictureViewer = (() => {
             const { pictures } = setNow();
             const judged = pictures.findIndex(picture => worst && picture.label === worst.picture.label && !picture.difference);
             const other = judged >= 0 ? judged : Math.max(pictures.findIndex(picture => !isReference(picture)), 0);
-            const finer = names.indexOf(`reference of ${pictures[other].label}`);
+            const finer = pictures.findIndex(picture => picture.label === `reference of ${pictures[other].label}`);
             const exact = Math.max(finer >= 0 ? finer : pictures.findIndex(isReference), 0);
             pick(left, exact);
             pick(right, other !== exact ? other : names.findIndex((name, index) => index !== exact));

@@ -1,13 +1,19 @@
 // The chart of an image metric against a cost. Pure, as charts.js is.
 const qualityChart = (() => {
     const { themes, withUnit } = chartStyle;
-    const { columnOf, axisTitle, shown, isWhole, valueOf, variantOf, worldOf, inOrder, distinct, metricsOf, chargesOf } = chartData;
+    const { columnOf, axisTitle, shown, isWhole, valueOf, variantOf, worldOf, inOrder, distinct, metricsOf } = chartData;
     const { seriesStyles, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, domainOf, logTicks, spans, intervalText, missing, tableOf } = chartParts;
 
     /// The points which every other one, by intervals that do not overlap, costs more or errs more.
     const frontOf = (points, high) => {
         const errsMore = (other, point) => (high ? other.yHigh < point.yLow : other.yLow > point.yHigh);
         return points.filter(point => points.every(other => other === point || other.xLow > point.xHigh || errsMore(other, point)));
+    };
+
+    /// The costs in which the judged settings differ: against any other one all points would lie above each other.
+    const chargesOf = (report, experiment) => {
+        const judged = experiment.cells.filter(cell => metricsOf(report, { ...experiment, cells: [cell] }).length);
+        return chartData.chargesOf(report, experiment).filter(name => distinct(judged.map(cell => valueOf(cell, name)?.[0]).filter(value => value !== undefined)).length > 1);
     };
 
     const build = (report, chart) => {
@@ -35,8 +41,10 @@ const qualityChart = (() => {
             };
         });
         const panels = distinct(points.map(point => point.panel));
-        const front = panels.flatMap(panel => frontOf(points.filter(point => point.panel === panel), info.better === 'high'));
-        const budgets = against === 'method_ms_median' && experiment.budgetMs ? [{ x: experiment.budgetMs, text: `budget ${withUnit(experiment.budgetMs, cost.unit)}` }] : [];
+        // One point alone leads nobody.
+        const compared = panels.map(panel => points.filter(point => point.panel === panel)).filter(here => here.length > 1);
+        const front = compared.flatMap(here => frontOf(here, info.better === 'high'));
+        const budgets = against === 'method_ms_median' && experiment.budgetMs ? [{ x: experiment.budgetMs, text: `budget ${withUnit(experiment.budgetMs, cost.unit, 6, true)}` }] : [];
         const xLog = (chart.xLog ?? spans(points.map(point => point.x), 8)) && points.every(point => point.xLow > 0);
         const yLog = (chart.yLog ?? false) && points.every(point => point.yLow > 0);
         const series = distinct(points.map(point => point.series)).map(name => ({ name, method: points.find(point => point.series === name).method }));
@@ -46,7 +54,7 @@ const qualityChart = (() => {
         setSignals(spec, {
             panelWidth: Math.max(each, 120), panelHeight: panels.length === 1 ? 320 : 240, panelColumns: columns, xTitle: axisTitle(cost.name, cost.unit),
             yTitle: axisTitle(info.name, info.unit), xFormat: ',.6~r', yFormat: ',.6~r', yStep: isWhole(info.unit) ? 1 : 0, frontColour: themes[theme].muted,
-            legendColumns: legendColumns(chart.width, Math.max(...series.map(({ name }) => name.length))),
+            legendColumns: legendColumns(chart.width, Math.max(...series.map(({ name }) => name.length)), series.length),
         });
         setData(spec, 'panels', panels.map(panel => ({ panel })));
         setData(spec, 'points', points);
@@ -61,8 +69,8 @@ const qualityChart = (() => {
         setScale(spec, 'shape', { domain: names, range: styles.map(style => style.shape) });
         const hint = info.better === 'high' ? 'Upwards' : 'Downwards';
         const rings = front.length ? 'Ringed and joined: the Pareto front, where intervals separate: every other setting costs more or errs more.'
-            : 'No setting is ringed: the intervals of those that lead overlap.';
-        return { spec, notes: [`${hint} and to the left is better. ${rings}`], table: tableOf(report, experiment, cells, [metric, against]), state: { metric, against, xLog, yLog } };
+            : compared.length ? 'No setting is ringed: the intervals of those that lead overlap.' : '';
+        return { spec, notes: [`${hint} and to the left is better.`, ...(rings ? [rings] : [])], table: tableOf(report, experiment, cells, [metric, against]), state: { metric, against, xLog, yLog } };
     };
-    return { build, frontOf };
+    return { build, frontOf, chargesOf };
 })();

@@ -164,8 +164,8 @@ class ReportCharts(page_case.PageCase):
         self.assertEqual(len(set(colours[2])), 9)
 
     def test_numbers_have_few_digits_and_units(self):
-        cases = [(2175000, "bytes", "2.17 MB"), (999, "bytes", "999 bytes"), (5.4e9, "bytes", "5.4 GB"), (0.1243, "share of the trail", "12.4 % of the trail"),
-                 (1.2874, "×", "1.29×"), (113.4, "frames/s", "113 frames/s"), (0.00028, "ms", "0.28 µs"), (-0.5, "", "−0.5"), (57280, "particles", "57,300 particles"),
+        cases = [(2175000, "bytes", "2.17 MB"), (999, "bytes", "999 bytes"), (5.4e9, "bytes", "5.40 GB"), (0.1243, "share of the trail", "12.4 % of the trail"),
+                 (1.2874, "×", "1.29×"), (113.4, "frames/s", "113 frames/s"), (0.00028, "ms", "0.280 µs"), (-0.5, "", "−0.500"), (57280, "particles", "57,300 particles"),
                  (2000, "particles", "2,000 particles"), (2.85e-7, "", "2.9·10⁻⁷"), (None, "ms", "–")]
         self.assertEqual(self.browser.evaluate(f"{json.dumps([case[:2] for case in cases])}.map(([value, unit]) => chartStyle.withUnit(value, unit))"), [case[2] for case in cases])
 

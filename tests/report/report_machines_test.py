@@ -257,7 +257,7 @@ class PageOfSeveralMachines(MachinesCase):
 
     def test_the_table_has_ratios_and_whether_machines_agree(self):
         rows = self.browser.evaluate("[...document.querySelectorAll('#ratios tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))")
-        self.assertEqual(rows[0], ["haze", "differ", "0.5× [0.494, 0.506]faster", "2× [1.98, 2.02]slower", "0.52× [0.514, 0.526]faster"])
+        self.assertEqual(rows[0], ["haze", "differ", "0.500× [0.494, 0.506]faster", "2× [1.98, 2.02]slower", "0.520× [0.514, 0.526]faster"])
         self.assertEqual(rows[3][:2] + rows[3][4:], ["haze at particles 400", "differ", "–"])
         self.assertIn("haze against fog, frame time: faster on lab and cellar; slower on attic.", self.texts(".answers li")[0])
 
@@ -265,7 +265,7 @@ class PageOfSeveralMachines(MachinesCase):
         self.browser.evaluate("(() => { const select = document.querySelector('#ratios select[data-key=against]'); select.value = '1'; "
                               "select.dispatchEvent(new Event('change', { bubbles: true })); })()")
         self.browser.wait_for("document.querySelector('#ratios tbody td').textContent === 'fog'", 5)
-        self.assertEqual(self.texts("#ratios tbody tr:first-child td")[:4], ["fog", "differ", "2× [1.98, 2.02]slower", "0.5× [0.494, 0.506]faster"])
+        self.assertEqual(self.texts("#ratios tbody tr:first-child td")[:4], ["fog", "differ", "2× [1.98, 2.02]slower", "0.500× [0.494, 0.506]faster"])
 
     def test_a_machine_switched_off_leaves_the_charts(self):
         self.browser.evaluate("document.querySelector('.chip[data-machine=attic]').click()")

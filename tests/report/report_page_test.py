@@ -17,6 +17,7 @@ import page_case
 from report_charts_test import ReportCharts  # noqa: F401, found by unittest
 from report_machines_test import PageOfSeveralMachines, ReportOfSeveralMachines  # noqa: F401
 from report_names_test import ReportNames  # noqa: F401
+from report_words_test import ReportWords  # noqa: F401
 
 
 class ReportPage(page_case.PageCase):
@@ -112,11 +113,11 @@ class ReportPage(page_case.PageCase):
 
     def test_pictures_open_on_the_worst_with_its_numbers(self):
         said = self.browser.evaluate("document.querySelector('.right-name').textContent")
-        self.assertIn("levels=2", said)
+        self.assertIn("levels 2", said)
         self.assertIn("PSNR 33.5 dB, SSIM 0.982, FLIP 0.5", said)
         self.assertEqual(self.browser.evaluate("document.querySelector('.left-name').textContent"), "exact")
         self.assertEqual(self.browser.evaluate("document.querySelector('.frame-text').textContent"), "15")
-        self.assertIn("seed=4", self.browser.evaluate("document.querySelector('select.world').selectedOptions[0].text"))
+        self.assertIn("seed 4", self.browser.evaluate("document.querySelector('select.world').selectedOptions[0].text"))
         self.touch()
         self.assertTrue(self.browser.evaluate("document.querySelector('.colour-bar').hidden"))
         self.browser.evaluate("""(() => { const right = document.querySelector('select.right');
@@ -220,6 +221,7 @@ class ReportPage(page_case.PageCase):
         self.assertEqual(set(marks), {"chart-tiny-loads", "chart-tiny-loads-stages", "chart-frames"})
         self.assertTrue(all(marks.values()), marks)
         self.assertIn("✓ confirmed", self.browser.evaluate("document.getElementById('claims').textContent"))
+        self.assertRegex(self.browser.evaluate("document.getElementById('claims').textContent"), r"refuted, as known \(1\.\d+×: for each particle there is one\)")
         self.assertTrue(self.browser.evaluate("[...document.querySelectorAll('.picture-stage img')].every(image => image.naturalWidth === 96)"))
 
     def test_reproducing_all_papers_ends_with_an_index_of_them(self):

@@ -103,7 +103,7 @@ const chartKit = (() => {
         setSignals(spec, {
             panelWidth, panelHeight: panels.length === 1 ? 320 : Math.max(170, Math.min(240, Math.round(panelWidth * 0.75))), panelColumns: columns, labelRoom: 0,
             xTitle, yTitle, xFormat: xs[xs.length - 1] >= 100000 ? '.4~s' : ',.6~r', yFormat: yDomain[1] >= 100000 ? '.4~s' : ',.6~r',
-            legendColumns: legendColumns(chart.width, Math.max(...machines.map(machine => labels[machine].length))),
+            legendColumns: legendColumns(chart.width, Math.max(...machines.map(machine => labels[machine].length)), machines.length),
         });
         setData(spec, 'panels', panels.map(panel => ({ panel })));
         setData(spec, 'points', points);

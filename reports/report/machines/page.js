@@ -200,13 +200,17 @@
         pageState.set('theme', look.theme);
     });
     asked.addEventListener('change', () => setTheme(asked.matches ? 'dark' : 'light'));
-    // Ink on paper is dark.
+    // Ink on paper is dark, and charts are as wide as the paper.
     let before = null;
     window.addEventListener('beforeprint', () => {
         before = look.theme;
+        look.paperWidth = 700;
         setTheme('light');
     });
-    window.addEventListener('afterprint', () => setTheme(before));
+    window.addEventListener('afterprint', () => {
+        look.paperWidth = 0;
+        setTheme(before);
+    });
     let lastWidth = window.innerWidth, resizing = null;
     window.addEventListener('resize', () => {
         if (window.innerWidth === lastWidth) return;

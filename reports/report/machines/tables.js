@@ -51,11 +51,11 @@ const machineTables = (() => {
         return place;
     };
 
-    const claimCell = (claim, unit) => {
+    const claimCell = (claim, unit, limits) => {
         if (!claim) return element('span', { className: 'muted', textContent: 'not in this folder' });
         return element('span', {}, [
             element('span', { className: `verdict ${claim.verdict}`, textContent: `${verdictMarks[claim.verdict]} ${claim.verdict}` }),
-            element('span', { className: 'said', textContent: claim.measured === null ? '' : words.measuredText(claim, unit) }),
+            element('span', { className: 'said', textContent: claim.measured === null ? '' : words.measuredText(claim, unit, limits) }),
             claim.condition ? element('span', { className: 'said', textContent: claim.condition }) : '',
         ]);
     };
@@ -68,7 +68,7 @@ const machineTables = (() => {
                 element('span', {}, [element('b', { textContent: `${claim.id} ` }), `${words.upper(claim.text)}.`,
                     element('span', { className: 'said', textContent: quantity ? `${words.upper(quantity)}${expected ? `; true if ${expected}` : ''}.` : '' })]),
                 agreementMark(claim.agreement),
-                ...claim.folders.map(own => claimCell(own, unit)),
+                ...claim.folders.map(own => claimCell(own, unit, claim)),
             ];
         }), 'ratios claims-table');
 
