@@ -34,6 +34,7 @@ std::vector<std::string> heads(std::vector<std::string> first, const std::vector
 
 std::vector<std::string> labelsOf(const MachineComparison& comparison) {
     std::vector<std::string> labels;
+    labels.reserve(comparison.set.sides.size());
     for (const bench::MachineSide& side : comparison.set.sides) labels.push_back(side.label);
     return labels;
 }
@@ -62,6 +63,7 @@ std::vector<std::string> missingCells(const MachineComparison& comparison) {
             break;
         }
         std::vector<std::string> lacking;
+        lacking.reserve(missing.lacking.size());
         for (const auto& [side, why] : missing.lacking)
             lacking.push_back(fmt::format("{} on {}", why, comparison.set.sides[side].label));
         sentences.push_back(fmt::format("{}: {}", missing.cell, fmt::join(lacking, "; ")));

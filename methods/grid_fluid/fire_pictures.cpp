@@ -27,9 +27,9 @@ Picture pictureByRays(int width, const Colour& colourOf) {
     const double edge = widthMetres / width;
     parallel::forEachBlock(pixels, static_cast<std::size_t>(width), [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
-            const auto x = static_cast<double>(i % static_cast<std::size_t>(width)),
-                       y = static_cast<double>(i / static_cast<std::size_t>(width));
-            const glm::dvec4 seen = colourOf(glm::dvec2(x + 0.5, y + 0.5) * edge);
+            const std::size_t row = i / static_cast<std::size_t>(width), column = i % static_cast<std::size_t>(width);
+            const glm::dvec4 seen =
+                colourOf(glm::dvec2(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5) * edge);
             picture.colours[i] = glm::dvec3(seen);
             picture.alphas[i] = seen.a;
         }

@@ -89,12 +89,12 @@ inline ReportData readFolder(StoredRuns runs) {
 
 using LabelledRuns = std::pair<std::string, StoredRuns>;
 
-inline MachineComparison compared(std::vector<LabelledRuns> machines) {
+inline MachineComparison compared(const std::vector<LabelledRuns>& machines) {
     std::vector<ReportData> folders;
     folders.reserve(machines.size());
     std::vector<std::string> labels;
-    for (auto& [label, runs] : machines) {
-        folders.push_back(readFolder(std::move(runs)));
+    for (const auto& [label, runs] : machines) {
+        folders.push_back(readFolder(runs));
         labels.push_back(label);
     }
     return comparisonOf(machineSet(std::move(folders), std::move(labels)));

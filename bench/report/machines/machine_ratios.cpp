@@ -152,6 +152,7 @@ class Measured {
 
     void describe(MachineExperiment& experiment) const {
         std::vector<CellIdentity> identities;
+        identities.reserve(variants_.size());
         for (const auto& [identity, worlds] : variants_) identities.push_back(identity);
         const std::vector<std::string> names = tellingNames(identities);
         for (const CellIdentity& identity : identities)

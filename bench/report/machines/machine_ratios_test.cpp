@@ -62,6 +62,7 @@ TEST(MachineRatios, DoNotDependOnTheOrderOfTheMachines) {
     for (auto& [id, run] : machines[2].second) run.provenance["git_commit"] = "fedcba9876543210";
     const auto resultsOf = [&](const std::vector<std::size_t>& order) {
         std::vector<LabelledRuns> ordered;
+        ordered.reserve(order.size());
         for (const std::size_t index : order) ordered.push_back(machines[index]);
         const MachineComparison comparison = compared(ordered);
         std::map<std::string, std::vector<double>> results;

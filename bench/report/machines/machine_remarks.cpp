@@ -167,6 +167,7 @@ class Remarks {
         for (const HardwareRow& row : hardwareTable(set_)) {
             if (!asked.contains(row.name) || !row.differs()) continue;
             std::vector<std::string> texts;
+            texts.reserve(row.values.size());
             for (const std::string& value : row.values) texts.push_back(value.empty() ? "unknown" : value);
             result_.programs.push_back(fmt::format("{}: {}", row.name, bySide(texts)));
         }
