@@ -36,6 +36,7 @@ struct Named {
 
 void takeField(const VtiFile& vti, const std::vector<VtiArray>& arrays, const WantedField& wanted, VolumeGrid& grid) {
     std::vector<Named> present;
+    present.reserve(arrays.size());
     for (const VtiArray& array : arrays) present.push_back({array.name, array.components});
     const int at = chosenField<Clause>(wanted, present);
     if (at < 0) return;

@@ -59,7 +59,7 @@ InputError tooMuch(const std::filesystem::path& file, double bytes) {
 
 void placeInWorld(VolumeGrid& grid, const VolumeSetup& setup) {
     if (setup.zUp) {
-        const GridPlace from = grid;
+        const GridPlace from = static_cast<const GridPlace&>(grid);  // the place alone
         grid.cells = {from.cells.x, from.cells.z, from.cells.y};
         grid.origin = {from.origin.x, from.origin.z, -(from.origin.y + from.cells.y * from.spacing)};
         turn(grid.density, from, grid);

@@ -28,7 +28,7 @@ std::vector<Number> numbersIn(std::string_view text) {
         Number value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         const auto length = static_cast<std::size_t>(end - text.data());
-        if (error != std::errc() || (length < text.size() && trimmed(text.substr(length, 1)) != "")) return {};
+        if (error != std::errc() || (length < text.size() && !trimmed(text.substr(length, 1)).empty())) return {};
         list.push_back(value);
         text.remove_prefix(length);
     }
@@ -160,7 +160,7 @@ class VtiParser {
             throw VolumeFault{fmt::format("its version is '{}', allowed: 0.1 to 2.x", version.substr(0, 40))};
         file_.form_.isBigEndian = choice(tag, "byte_order", {"LittleEndian", "BigEndian"}) == 1;
         file_.form_.wordBytes = choice(tag, "header_type", {"UInt32", "UInt64"}) == 1 ? 8 : 4;
-        if (tag.has("compressor") && tag["compressor"] != "")
+        if (tag.has("compressor") && !tag["compressor"].empty())
             file_.form_.compressor = choice(tag, "compressor", {"vtkZLibDataCompressor", "vtkLZ4DataCompressor"}) == 0
                                          ? Compressor::zlib
                                          : Compressor::lz4;
