@@ -119,8 +119,8 @@ int compare(const CompareOptions& options) {
     if (!options.moments.empty()) base.judging->moments = bench::parseFrameRange("--moments", options.moments);
     bench::Suite suite = bench::sideBySideSuite(options.methods, singleValues(options.world.parameters), base,
                                                 static_cast<int>(options.repetitions));
-    suite.title +=
-        fmt::format(": {}{}, {} frames", base.scene, base.drive.empty() ? "" : ", " + base.drive, base.frames);
+    suite.title += fmt::format(": {}{}, {} frame{}", base.scene, base.drive.empty() ? "" : ", " + base.drive,
+                               base.frames, base.frames == 1 ? "" : "s");
     const auto plan = bench::planRuns(suite);
     checkWorlds(plan);
     requireOpenGl();
