@@ -1,4 +1,5 @@
-// The GPU solver, compared with the CPU solver and with itself. Over 400 lines: all tests share the worlds that both solve.
+// The GPU solver, compared with the CPU solver and with itself. Over 400 lines: all tests share the worlds that both
+// solve.
 #include "methods/grid_fluid/flow_gl/gl_fluid_solver.h"
 
 #include <gtest/gtest.h>
