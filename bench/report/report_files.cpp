@@ -90,12 +90,13 @@ std::string chartScript() {
 
 std::string pageScript() {
     return joined({"elements.js", "markdown.js", "pictures.js", "claims.js", "overview.js", "page_state.js",
-                   "chart_card.js", "head.js", "page.js"});
+                   "page_look.js", "chart_card.js", "head.js", "page.js"});
 }
 
 std::string machinesScript() {
     return joined({"chart_style.js", "chart_data.js", "chart_parts.js", "words.js", "machines/machine_charts.js",
-                   "elements.js", "page_state.js", "chart_card.js", "machines/tables.js", "machines/page.js"});
+                   "elements.js", "page_state.js", "page_look.js", "chart_card.js", "machines/tables.js",
+                   "machines/page.js"});
 }
 
 std::string vegaScript() {

@@ -158,7 +158,7 @@ void measureJet(Found& found, int cells, std::uint64_t seed) {
                      plainFiner = after(AdvectionScheme::semiLagrangian, 2),
                      corrected = after(AdvectionScheme::macCormack, 1);
     for (const auto& [scheme, advection] :
-         {std::pair{"sl", AdvectionScheme::semiLagrangian}, {"mc", AdvectionScheme::macCormack}}) {
+         {std::pair{"by_semi_lagrangian", AdvectionScheme::semiLagrangian}, {"by_maccormack", AdvectionScheme::macCormack}}) {
         const CoarseFlow reference = after(advection, 4);
         const Distance ofPlain = distanceOf(plain, reference, cells),
                        ofFiner = distanceOf(plainFiner, reference, cells),

@@ -29,6 +29,8 @@ const chartData = (() => {
     const machineLabel = (report, cell) => (report.data.machines.length > 1 ? ` (machine ${cell.machine + 1})` : '');
     const sized = text => text.replace(/(\d)x(?=\d)/g, '$1×');
     const settingText = (axis, value) => `${axis.name} ${sized(value)}${axis.unit && axis.unit !== axis.name ? ' ' + axis.unit : ''}`;
+    /// No line break between a number and its unit.
+    const tied = text => text.replace(/(\d) (?=[^\s,\d][^\s,]*(?:,|$))/g, '$1\u00a0');
     const settingsText = (axes, cell) => axes.filter(axis => cell.settings[axis.name])
         .map(axis => settingText(axis, cell.settings[axis.name])).join(', ');
     const variantOf = (report, experiment, cell, except) => {
@@ -103,5 +105,5 @@ const chartData = (() => {
     /// All that a chart can show: costs, metrics, and facts of methods.
     const quantitiesOf = (report, experiment) => distinct([...costsOf(report, experiment), ...known(report, experiment, 'metric'),
         ...(report.data.facts || []).map(fact => fact.name).filter(name => has(experiment, name))]);
-    return { columnOf, axisTitle, shown, isWhole, valueOf, sized, settingText, variantOf, worldOf, inOrder, distinct, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf, chargesOf, factOf };
+    return { columnOf, axisTitle, shown, isWhole, valueOf, sized, settingText, tied, variantOf, worldOf, inOrder, distinct, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf, chargesOf, factOf };
 })();

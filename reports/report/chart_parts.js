@@ -50,6 +50,16 @@ const chartParts = (() => {
         const most = Math.max(Math.floor(width / (longest * 7.2 + 46)), 1);
         return Math.ceil(count / Math.ceil(count / most));
     };
+    /// Names in lines that fit a legend of this width, broken after commas.
+    const legendLines = (names, width) => {
+        const most = Math.floor((width - 46) / 7.2);
+        return names.map(name => name.split(/(?<=,) /).reduce((lines, part) => {
+            const last = lines[lines.length - 1];
+            if (last !== undefined && last.length + 1 + part.length <= most) lines[lines.length - 1] = `${last} ${part}`;
+            else lines.push(part);
+            return lines;
+        }, []).join('\n'));
+    };
     const domainOf = (values, log, zero) => {
         const finite = values.filter(value => Number.isFinite(value) && (!log || value > 0));
         if (!finite.length) return [log ? 1 : 0, 10];
@@ -67,6 +77,8 @@ const chartParts = (() => {
         for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); ++power) ticks.push(...factors.map(factor => Number((factor * 10 ** power).toPrecision(1))));
         return ticks.filter(tick => tick >= low && tick <= high);
     };
+    /// All of these ticks, but those whose labels would overlap: of more than its count Vega leaves out every other.
+    const setTicks = (axis, values) => values && Object.assign(axis, { values, tickCount: values.length });
     const spans = (values, factor) => {
         const above = values.filter(value => value > 0);
         return above.length === values.length && Math.max(...above) / Math.min(...above) >= factor;
@@ -113,7 +125,7 @@ const chartParts = (() => {
             ...quantities.flatMap(name => valueOf(cell, name) || [null, null, null])]),
     });
     return {
-        methodColour, seriesStyles, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, domainOf, logTicks, spans, intervalText,
+        methodColour, seriesStyles, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, legendLines, domainOf, logTicks, setTicks, spans, intervalText,
         runsText, missing, mostRows, rowsOf, widestText, tableOf, digits,
     };
 })();

@@ -60,20 +60,22 @@ const chartStyle = (() => {
         if (!written && size !== 0 && (size < 1e-3 || size >= 1e9)) return Number(value.toExponential(count - 2));
         return Number.isInteger(value) && (written || size < 1e4) ? value : Number(value.toPrecision(count));
     };
+    /// Between a number and its unit: no line breaks there.
+    const gap = '\u00a0';
     /// The unit of bytes that leaves one to three digits before the point.
     const bytesText = (value, count, written) => {
         const step = Math.min(Math.max(Math.floor(Math.log10(Math.abs(value) || 1) / 3), 0), 3);
-        return `${digits(value / 1000 ** step, count, written)} ${['bytes', 'kB', 'MB', 'GB'][step]}`;
+        return `${digits(value / 1000 ** step, count, written)}${gap}${['bytes', 'kB', 'MB', 'GB'][step]}`;
     };
     /// A number in another unit: without what the factor adds to it far behind the point.
     const times = (value, factor) => Number((value * factor).toPrecision(12));
     const withUnit = (value, unit, count = 3, written = false) => {
         if (value === null || value === undefined || !Number.isFinite(value)) return '–';
         if (unit === 'bytes') return bytesText(value, count, written);
-        if (unit === 'ms' && value !== 0 && Math.abs(value) < 0.1) return `${digits(times(value, 1000), count, written)} µs`;
-        if (unit.startsWith('share')) return `${digits(times(value, 100), count, written)} %${unit.slice('share'.length)}`;
+        if (unit === 'ms' && value !== 0 && Math.abs(value) < 0.1) return `${digits(times(value, 1000), count, written)}${gap}µs`;
+        if (unit.startsWith('share')) return `${digits(times(value, 100), count, written)}${gap}%${unit.slice('share'.length)}`;
         if (unit === '×') return `${digits(value, count, written)}×`;
-        return digits(value, count, written) + (unit && unit !== '1' ? ' ' + unit : '');
+        return digits(value, count, written) + (unit && unit !== '1' ? gap + unit : '');
     };
 
     const mixed = (from, to, share) => {
@@ -81,5 +83,5 @@ const chartStyle = (() => {
         return '#' + [1, 3, 5].map(at => Math.round(part(from, at) + share * (part(to, at) - part(from, at)))
             .toString(16).padStart(2, '0')).join('');
     };
-    return { methodColours, baselineColour, baseline, colourOf, stages, stageColours, themes, shapes, dashes, configOf, digits, said, withUnit, mixed };
+    return { methodColours, baselineColour, baseline, colourOf, stages, stageColours, themes, shapes, dashes, configOf, digits, said, withUnit, gap, mixed };
 })();

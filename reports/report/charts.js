@@ -34,12 +34,12 @@ const chartKit = (() => {
         const longest = (drawing.length ? drawing : frames).reduce((most, item) => (item.frames > most.frames ? item : most));
         const run = frames.find(item => item.run === chart.run) || longest;
         const experiment = report.data.experiments.find(item => item.id === run.experiment);
-        const trace = run.trace.map(([frame, ms]) => ({ frame, ms, tip: { title: `frame ${frame}`, time: `${digits(ms)} ms` } }));
+        const trace = run.trace.map(([frame, ms]) => ({ frame, ms, tip: { title: `frame ${frame}`, time: withUnit(ms, 'ms') } }));
         const width = run.binMs || 0.1;
         const low = run.binMs ? run.minimumMs : run.minimumMs - 0.05;
         const bins = run.bins.map((count, index) => ({
             low: low + index * width, high: low + (index + 1) * width, count,
-            tip: { title: `${digits(low + index * width)} to ${digits(low + (index + 1) * width)} ms`, frames: String(count) },
+            tip: { title: `${withUnit(low + index * width, 'ms')} to ${withUnit(low + (index + 1) * width, 'ms')}`, frames: String(count) },
         }));
         let half = run.frames / 2;
         const median = (bins.find(bin => (half -= bin.count) <= 0) || bins[0]);

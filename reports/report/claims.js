@@ -64,7 +64,7 @@ const claimList = (() => {
         element('summary', { textContent: `cell by cell: ${words.cellsOf(claim)}` }),
         element('ul', { className: 'cells' }, claim.cells.map(cell => element('li', {}, [
             element('span', { className: `verdict ${cell.verdict}`, textContent: verdictMarks[cell.verdict] }),
-            ` ${words.readable(cell.text)}: ${words.measuredText(cell, unit, claim)}`,
+            ` ${words.cellText(claim, cell.text)}: ${words.measuredText(cell, unit, claim)}`,
         ]))),
     ]);
     /// The experiments of a suite may be there in both forms: the one whose runs were used.
@@ -86,7 +86,7 @@ const claimList = (() => {
         if (experiment) put(tested, element('a', { href: `#experiment-${experiment.id}`, textContent: experiment.id }), '. ');
         put(tested, words.upper(words.testedOf(claim, experiment)) || '–', ...marked(claim.reason ? `. Limits: ${claim.reason}.` : '.'));
         const came = element('dd', { className: 'came-out' }, [words.resultOf(report, claim) || 'Not measured.']);
-        if (claim.condition) put(came, ` ${words.upper(words.readable(claim.condition))}.`);
+        if (claim.condition) put(came, ` ${words.upper(words.cellText(claim, claim.condition))}.`);
         if (claim.note) put(came, element('span', { className: 'muted', textContent: ` ${words.upper(claim.note)}.` }));
         const change = words.changeOf(report, claim);
         const lines = [['came out', came]];

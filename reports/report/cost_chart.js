@@ -3,7 +3,7 @@
 const costChart = (() => {
     const { themes, digits, withUnit } = chartStyle;
     const { columnOf, axisTitle, shown, isWhole, valueOf, variantOf, worldOf, inOrder, distinct, loadsOf, quantitiesOf } = chartData;
-    const { seriesStyles, methodColour, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, domainOf, logTicks, spans, intervalText, runsText, missing, rowsOf, widestText, tableOf } = chartParts;
+    const { seriesStyles, methodColour, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, legendLines, domainOf, logTicks, setTicks, spans, intervalText, runsText, missing, rowsOf, widestText, tableOf } = chartParts;
     /// Instead of a load: each setting is a bar.
     const bars = 'bars';
 
@@ -112,7 +112,7 @@ const costChart = (() => {
         const spec = fresh(report.specifications.cost);
         setSignals(spec, {
             panelWidth, panelHeight, panelColumns: columns, labelRoom, xTitle: axisTitle(load.name, load.unit === load.name ? '' : load.unit), yTitle: axisTitle(info.name, info.unit),
-            xFormat: xs[xs.length - 1] >= 100000 ? '.4~s' : ',.6~r', yFormat: yDomain[1] >= 100000 ? '.4~s' : ',.6~r',
+            xFormat: ',.6~r', yFormat: yDomain[1] >= 1e6 ? '.4~s' : ',.6~r',
             yStep: isWhole(info.unit) ? 1 : 0, legendColumns: legendColumns(chart.width, longest, series.length),
         });
         setData(spec, 'panels', shownPanels.map(panel => ({ panel })));
@@ -124,11 +124,12 @@ const costChart = (() => {
         setScale(spec, 'x', xLog ? { type: 'log', domain: [xs[0] / Math.max(1.12, xFactor), xs[xs.length - 1] * Math.max(1.08, xFactor)] } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
         setScale(spec, 'y', { type: yLog ? 'log' : 'linear', domain: yDomain });
         setScale(spec, 'colour', { domain: names, range: styles.map(style => style.colour) });
+        setScale(spec, 'legendText', { domain: names, range: legendLines(names, chart.width) });
         setScale(spec, 'shape', { domain: names, range: styles.map(style => style.shape) });
         setScale(spec, 'dash', { domain: names, range: styles.map(style => style.dash) });
-        if (yLog) spec.marks[0].axes[0].values = logTicks(yDomain);
+        if (yLog) setTicks(spec.marks[0].axes[0], logTicks(yDomain));
         if (labelled || series.length === 1) spec.legends = [];
-        if (xs.length <= 10) spec.marks[0].axes[1].values = xs;
+        if (xs.length <= 10) setTicks(spec.marks[0].axes[1], xs);
         const notes = [];
         if (series.length === 1 && names[0]) notes.push(`${alone ? 'World' : 'Method'}: ${names[0]}.`);
         if (published.length) notes.push(`Grey: numbers given in the paper's text. ${distinct(published.map(item => item.tip.of)).join('; ')}.`);

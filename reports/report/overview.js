@@ -51,8 +51,8 @@ const overview = (() => {
             if (sort) kept.sort((a, b) => compared(a, b, sort, down));
             const shown = whole ? kept : kept.slice(0, firstRows);
             body.replaceChildren(...shown.map(row => element('tr', {}, [
-                element('td', { className: 'method' }, [element('span', { className: 'dot', style: `--colour: ${colourOf(row.method)}`, dataset: { method: row.method } }), row.variant]),
-                element('td', { textContent: row.world }),
+                element('td', { className: 'method' }, [element('span', { className: 'dot', style: `--colour: ${colourOf(row.method)}`, dataset: { method: row.method } }), chartData.tied(row.variant)]),
+                element('td', { textContent: chartData.tied(row.world) }),
                 ...columns.map(name => cellOf(row, name)),
                 element('td', {}, [element('a', { href: `#experiment-${row.experiment.id}`, textContent: row.experiment.id })]),
             ])));

@@ -31,20 +31,10 @@
     const experiments = data.experiments.filter(isMain);
 
     // Theme and methods, which all charts follow.
-    const asked = window.matchMedia('(prefers-color-scheme: dark)');
-    const look = { theme: pageState.get('theme') || (asked.matches ? 'dark' : 'light'), hidden: new Set(pageState.get('hidden').split(',').filter(Boolean)) };
+    const look = pageLook.make(pageState.get('hidden').split(',').filter(Boolean));
     const cards = chartCards(report, look);
     const colourOf = method => chartKit.methodColour(report, method, look.theme);
-    const showTheme = () => {
-        document.documentElement.dataset.theme = look.theme;
-        section('theme').textContent = look.theme === 'dark' ? 'Light' : 'Dark';
-        for (const marked of document.querySelectorAll('[data-method]')) marked.style.setProperty('--colour', colourOf(marked.dataset.method));
-    };
-    const setTheme = next => {
-        look.theme = next;
-        showTheme();
-        return cards.drawAll();
-    };
+    const showTheme = pageLook.painter(look, 'method', colourOf);
 
     const columnOptions = names => names.map(name => [name, chartKit.columnOf(report, name).name]);
     const scales = [['false', 'linear'], ['true', 'logarithmic']];
@@ -105,7 +95,7 @@
         const known = chartKit.list(report);
         const chartsOf = experiment => known.filter(chart => chart.experiment && chart.experiment.id === experiment.id);
         if (!known.length) put(here, paragraph('No run measured anything.', 'muted'));
-        else put(here, paragraph('Each point or bar is the median of a cell\'s runs, or of its seeds. The line through it is the interval that contains the true median with at least 95 % probability, from ' +
+        else put(here, paragraph('Each point or bar is the median of a cell\'s runs, or of its seeds. The line through it is the interval that contains the true median with at least 95\u00a0% probability, from ' +
             'the order of 6 or more values; with fewer it spans the minimum and maximum. Points with the same load are drawn slightly apart. Runs alternate in random order, each in its own process.', 'muted'));
         for (const experiment of experiments) if (chartsOf(experiment).length) addExperiment(here, experiment, chartsOf(experiment));
         const frames = known.find(chart => chart.kind === 'frames');
@@ -168,7 +158,7 @@
             put(here, element('article', { className: 'card' }, [
                 ...(data.papers.length > 1 ? [element('h3', { textContent: paper.title }), paragraph(pageHead.citationOf(paper), 'muted')] : []),
                 ...claims.map(claim => claimList.entry(report, claim, runLinks)),
-                paragraph('Confirmed: in every cell of the experiment the 95 % interval lies within the values for which the claim is true. Refuted: in every cell wholly outside. ' +
+                paragraph('Confirmed: in every cell of the experiment the 95\u00a0% interval lies within the values for which the claim is true. Refuted: in every cell wholly outside. ' +
                     'Depends: true in some cells, false in others. Unresolved: anything else, or fewer than 6 repetitions or 5 seeds. ' +
                     'A control is other data for which the outcome is known; if the rule does not find it, the claim is untestable. ' +
                     'In the small scales green is where the claim is true, the point what was measured, the line its interval.', 'note'),
@@ -262,37 +252,10 @@
     addPictures();
     addMachine();
     addDocuments();
-    showTheme();
-
-    section('theme').addEventListener('click', () => {
-        setTheme(look.theme === 'dark' ? 'light' : 'dark');
-        pageState.set('theme', look.theme);
-    });
-    asked.addEventListener('change', () => setTheme(asked.matches ? 'dark' : 'light'));
-    // Ink on paper is dark, and charts are as wide as the paper: shrunk ones could not be read. Nothing can be unfolded there.
-    let before = null, folded = [];
-    window.addEventListener('beforeprint', () => {
-        before = look.theme;
-        look.paperWidth = 700;
-        folded = [...document.querySelectorAll('.answers details:not([open])')];
+    // Nothing can be unfolded on paper.
+    pageLook.follow(look, cards, showTheme, () => {
+        const folded = [...document.querySelectorAll('.answers details:not([open])')];
         for (const part of folded) part.open = true;
-        setTheme('light');
-    });
-    window.addEventListener('afterprint', () => {
-        look.paperWidth = 0;
-        for (const part of folded) part.open = false;
-        setTheme(before);
-    });
-    let lastWidth = window.innerWidth, resizing = null;
-    window.addEventListener('resize', () => {
-        if (window.innerWidth === lastWidth) return;
-        lastWidth = window.innerWidth;
-        clearTimeout(resizing);
-        resizing = setTimeout(cards.drawAll, 200);
-    });
-
-    cards.drawFirst().then(() => {
-        pageState.scrollToAnchor();
-        document.documentElement.dataset.ready = String(Math.round(performance.now()));
+        return () => folded.forEach(part => { part.open = false; });
     });
 })();

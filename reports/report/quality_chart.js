@@ -2,7 +2,7 @@
 const qualityChart = (() => {
     const { themes, withUnit } = chartStyle;
     const { columnOf, axisTitle, shown, isWhole, valueOf, variantOf, worldOf, inOrder, distinct, metricsOf } = chartData;
-    const { seriesStyles, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, domainOf, logTicks, spans, intervalText, missing, tableOf } = chartParts;
+    const { seriesStyles, fresh, setSignals, setData, setScale, panelsWithin, legendColumns, legendLines, domainOf, logTicks, setTicks, spans, intervalText, missing, tableOf } = chartParts;
 
     /// The points which every other one, by intervals that do not overlap, costs more or errs more.
     const frontOf = (points, high) => {
@@ -63,9 +63,10 @@ const qualityChart = (() => {
         setScale(spec, 'x', { type: xLog ? 'log' : 'linear', domain: domainOf([...points.flatMap(point => [point.x, point.xLow, point.xHigh]), ...budgets.map(budget => budget.x)], xLog, false) });
         const yDomain = domainOf(points.flatMap(point => [point.y, point.yLow, point.yHigh]), yLog, info.better === 'low');
         setScale(spec, 'y', { type: yLog ? 'log' : 'linear', domain: yDomain });
-        if (yLog) spec.marks[0].axes[0].values = logTicks(yDomain);
+        if (yLog) setTicks(spec.marks[0].axes[0], logTicks(yDomain));
         const names = series.map(({ name }) => name);
         setScale(spec, 'colour', { domain: names, range: styles.map(style => style.colour) });
+        setScale(spec, 'legendText', { domain: names, range: legendLines(names, chart.width) });
         setScale(spec, 'shape', { domain: names, range: styles.map(style => style.shape) });
         const hint = info.better === 'high' ? 'Upwards' : 'Downwards';
         const rings = front.length ? 'Ringed and joined: the Pareto front, where intervals separate: every other setting costs more or errs more.'

@@ -1,6 +1,6 @@
 // The chart of where the time of a frame goes: the method's own stages, or the whole frame. Pure, as charts.js is.
 const stageChart = (() => {
-    const { stages, stageColours, themes, digits, withUnit } = chartStyle;
+    const { stages, stageColours, themes, withUnit } = chartStyle;
     const { valueOf, distinct, loadsOf } = chartData;
     const { fresh, setSignals, setData, setScale, missing, rowsOf, widestText, tableOf } = chartParts;
     /// Not the method's: the world and the harness share them.
@@ -40,7 +40,7 @@ const stageChart = (() => {
                 pieces.push({
                     place: row.place, stage, order, ms: value[0],
                     tip: {
-                        title: row.text, [stage]: withUnit(value[0], 'ms'), frame: withUnit(frameMs, 'ms'), 'of the frame': `${digits(100 * value[0] / frameMs)} %`,
+                        title: row.text, [stage]: withUnit(value[0], 'ms'), frame: withUnit(frameMs, 'ms'), 'of the frame': withUnit(value[0] / frameMs, 'share'),
                         ...(gpuMs ? { 'GPU time': withUnit(gpuMs[0], 'ms') } : {}),
                     },
                 });

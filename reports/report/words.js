@@ -1,6 +1,6 @@
 // Claims and results as sentences: each number with its quantity and unit. Pure: nothing of the browser is used.
 const words = (() => {
-    const { digits, said, withUnit } = chartStyle;
+    const { digits, said, withUnit, gap } = chartStyle;
     const { columnOf, distinct, sized } = chartData;
     /// File names stay as they are.
     const upper = text => (/^\w+\.\w/.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1));
@@ -35,14 +35,30 @@ const words = (() => {
         return `${a} / ${b}${shared ? ` (${shared})` : ''}`;
     };
 
+    /// How many parts the names of findings have in common before what tells them apart.
+    const commonParts = names => {
+        const parts = names.map(name => name.split('_'));
+        let common = 0;
+        while (parts.length > 1 && parts.every(part => common < part.length - 1 && part[common] === parts[0][common])) ++common;
+        return common;
+    };
+    /// Findings in a text about the cells of a claim, without what they have in common.
+    const cellText = (claim, text) => {
+        const names = claim.rule && claim.rule.quantity === 'finding' ? claim.rule.column.split('|') : [];
+        // A number alone says nothing.
+        const shared = commonParts(names);
+        const common = names.some(name => /^\d/.test(name.split('_')[shared])) ? 0 : shared;
+        const short = [...names].sort((a, b) => b.length - a.length)
+            .reduce((shown, name) => shown.replaceAll(name, name.split('_').slice(common).join('_')), text);
+        return readable(short);
+    };
     /// `silhouette knee, mean of bunny, car and figure`: what the names have in common is said once.
     const findingText = ({ name, column }) => {
         const names = column.split('|');
         if (name) return name + (names.length > 1 ? `, mean of ${names.length} cells` : '');
         const parts = names.map(item => item.split('_'));
         if (parts.length === 1) return parts[0].join(' ');
-        let common = 0;
-        while (parts.every(part => common < part.length - 1 && part[common] === parts[0][common])) ++common;
+        const common = commonParts(names);
         return `${parts[0].slice(0, common).join(' ')}, mean of ${listOf(parts.map(part => part.slice(common).join(' ')))}`;
     };
     /// What a claim's rule computes, and the unit of it.
@@ -84,7 +100,7 @@ const words = (() => {
         if (!hasInterval(item) && Number.isInteger(item.measured) && unit !== 'bytes') return withUnit(item.measured, unit, 12, true);
         const textOf = value => withUnit(value, unit, digitsFor(item, limits));
         if (!hasInterval(item)) return textOf(item.measured);
-        const texts = [item.measured, item.low, item.high].map(value => textOf(value).match(/^(\S+?)( .*)?$/));
+        const texts = [item.measured, item.low, item.high].map(value => textOf(value).match(/^(\S+?)(\s.*)?$/));
         const [value, low, high] = texts.map(([, number]) => number);
         const units = distinct(texts.map(([, , rest]) => rest || ''));
         if (units.length === 1) return `${value} [${low}, ${high}]${units[0]}`;
@@ -138,7 +154,7 @@ const words = (() => {
         }
         if (claim.rule.experiment) parts.push(`the experiment ${claim.rule.experiment}, which needs no runs`);
         const turns = turnsOf(claim);
-        if (turns > 1 && claim.over) parts.push(`95 % interval over ${plural(turns, claim.over.replace(/s$/, ''))}`);
+        if (turns > 1 && claim.over) parts.push(`95${gap}% interval over ${plural(turns, claim.over.replace(/s$/, ''))}`);
         else if (!claim.over) parts.push(hasInterval(claim) ? 'the same each time; the interval is that of the fit' : 'the same each time, no interval');
         return parts.join('; ');
     };
@@ -168,15 +184,15 @@ const words = (() => {
         const what = column.column.startsWith('fps') ? 'frame time' : nameOf(report, column.column);
         const of = cells.length > 1 ? `${cells.length} loads` : '';
         const tally = distinct(cells.map(cell => cell.verdict)).map(verdict => `${verdict.toLowerCase()} at ${cells.filter(cell => cell.verdict === verdict).length}`).join(', ');
-        const sure = `95 % interval ${digits(overall.low)}× to ${digits(overall.high)}×, ${plural(overall.pairs, 'paired round')}${of ? ` over ${of} (${tally})` : ''}`;
+        const sure = `95${gap}% interval ${digits(overall.low)}× to ${digits(overall.high)}×, ${plural(overall.pairs, 'paired round')}${of ? ` over ${of} (${tally})` : ''}`;
         const times = `${digits(overall.ratio)}×`;
         const verdicts = {
             FASTER: [`${a} has a shorter ${what} than ${b}`, `${times} that of ${b}`],
-            SAME: [`${a} and ${b} have the same ${what}`, `${times}, within 2 %`],
+            SAME: [`${a} and ${b} have the same ${what}`, `${times}, within 2${gap}%`],
             UNRESOLVED: [`${upper(what)} of ${a} and ${b} not resolved`, `${a} / ${b} ${times}`],
         };
         const [head, detail] = verdicts[overall.verdict];
         return { head: shared ? `${head} (${shared})` : head, text: `${detail}; ${sure}.`, resolved: overall.verdict !== 'UNRESOLVED' };
     };
-    return { upper, plural, listOf, quantityOf, controlsOf, rangeOf, measuredText, hasInterval, resultOf, cellsOf, testedOf, changeOf, turnsOf, comparisonSentence, overText, readable, labelText };
+    return { upper, plural, listOf, quantityOf, controlsOf, rangeOf, measuredText, hasInterval, resultOf, cellsOf, testedOf, changeOf, turnsOf, comparisonSentence, overText, readable, cellText, labelText };
 })();

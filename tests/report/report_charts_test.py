@@ -167,7 +167,16 @@ class ReportCharts(page_case.PageCase):
         cases = [(2175000, "bytes", "2.17 MB"), (999, "bytes", "999 bytes"), (5.4e9, "bytes", "5.40 GB"), (0.1243, "share of the trail", "12.4 % of the trail"),
                  (1.2874, "×", "1.29×"), (113.4, "frames/s", "113 frames/s"), (0.00028, "ms", "0.280 µs"), (-0.5, "", "−0.500"), (57280, "particles", "57,300 particles"),
                  (2000, "particles", "2,000 particles"), (2.85e-7, "", "2.9·10⁻⁷"), (None, "ms", "–")]
-        self.assertEqual(self.browser.evaluate(f"{json.dumps([case[:2] for case in cases])}.map(([value, unit]) => chartStyle.withUnit(value, unit))"), [case[2] for case in cases])
+        self.assertEqual(self.browser.evaluate(f"{json.dumps([case[:2] for case in cases])}.map(([value, unit]) => chartStyle.withUnit(value, unit))"),
+                         [case[2].replace(" ", "\u00a0", 1) for case in cases])
+
+    def test_long_names_break_in_a_narrow_legend(self):
+        name = "octree_recursive, layout faithful, render billboards, policy accumulate"
+        def lines(width):
+            return self.browser.evaluate(f"chartParts.legendLines([{json.dumps(name)}, 'billboard'], {width})")
+
+        self.assertEqual(lines(900), [name, "billboard"])
+        self.assertEqual(lines(380), ["octree_recursive, layout faithful,\nrender billboards, policy accumulate", "billboard"])
 
     def test_charts_come_as_files_without_a_browser(self):
         for ending, start in (("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF")):

@@ -62,12 +62,12 @@ class ReportPage(page_case.PageCase):
             self.assertIn(part, trust)
         answers = self.browser.evaluate("document.querySelector('.answers').textContent")
         self.assertIn("octree_recursive has a shorter build time than octree_search", answers)
-        self.assertRegex(answers, r"0\.\d+× that of octree_search; 95 % interval 0\.\d+× to 0\.\d+×, 6 paired rounds")
+        self.assertRegex(answers, r"0\.\d+× that of octree_search; 95\u00a0% interval 0\.\d+× to 0\.\d+×, 6 paired rounds")
 
     def test_a_claim_reads_like_a_review(self):
         said = self.browser.evaluate("document.querySelector('[data-claim=R2a]').innerText")
         for part in ("Build time, octree_recursive / octree_search (layout faithful): 0.8", "×]; true if 0.98× or less", "octree_recursive / octree_search",
-                     "95 % interval over 6 repetitions", "320×240 pixels", "Control", "would change it", "would refute it"):
+                     "95\u00a0% interval over 6 repetitions", "320×240 pixels", "Control", "would change it", "would refute it"):
             self.assertIn(part, said)
         ticks = self.browser.evaluate("[...document.querySelectorAll('[data-claim=R2a] .claim-range text')].map(text => text.textContent)")
         self.assertGreaterEqual(len(ticks), 2, ticks)

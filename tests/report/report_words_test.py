@@ -42,8 +42,8 @@ class ReportWords(page_case.PageCase):
             ((27, 27, 27, 0.996, 1.004), "", "27", "0.996 to 1.004"),
             ((0.523678, 0.523188, 0.524167, 0.5226, 0.5246), "", "0.5237 [0.5232, 0.5242]", "0.5226 to 0.5246"),
             ((1.90957, 1.90779, 1.91136, None, 2), "×", "1.910× [1.908×, 1.911×]", "2× or less"),
-            ((0.1234, 0.1111, 0.1357, 0.02, None), "share of the trail", "12.3 [11.1, 13.6] % of the trail", "2 % of the trail or more"),
-            ((36.96, 36.6, 37.14, None, 1e-5), "ms", "37.0 [36.6, 37.1] ms", "0.01 µs or less"),
+            ((0.1234, 0.1111, 0.1357, 0.02, None), "share of the trail", "12.3 [11.1, 13.6]\u00a0% of the trail", "2\u00a0% of the trail or more"),
+            ((36.96, 36.6, 37.14, None, 1e-5), "ms", "37.0 [36.6, 37.1]\u00a0ms", "0.01\u00a0µs or less"),
         ]
         for numbers, unit, text, limits in cases:
             shown = self.said(f"[words.measuredText({claim(*numbers)}, '{unit}'), words.rangeOf({claim(*numbers)}, '{unit}')]")
@@ -69,7 +69,7 @@ class ReportWords(page_case.PageCase):
         control = {"why": "known", "rule": rule | {"column": "c"}, "known": "refuted", "verdict": "refuted", "measured": 0.90744}
         claim = {"min": 0.9073, "max": None, "control": "turned", "controls": [control, control | {"verdict": "confirmed", "measured": 1e-7}, control | {"verdict": "not-tested", "measured": None}]}
         self.assertEqual(self.said(f"words.controlsOf({REPORT}, {json.dumps(claim)})"),
-                         "refuted, as known (90.74 % of all: known); confirmed, known: refuted (1.0·10⁻⁵ % of all: known); not run: known")
+                         "refuted, as known (90.74\u00a0% of all: known); confirmed, known: refuted (1.0·10⁻⁵\u00a0% of all: known); not run: known")
         self.assertEqual(self.said(f"words.quantityOf({REPORT}, {{ rule: {json.dumps(rule)} }})"), ["kept (experiment x)", "share of all"])
         self.assertEqual(self.said(f"words.quantityOf({REPORT}, {{ rule: {json.dumps(rule | {'column': 'a|b'})} }})[0]"), "kept, mean of 2 cells (experiment x)")
 
@@ -78,12 +78,18 @@ class ReportWords(page_case.PageCase):
         column = {"column": "frame_ms_median", "overall": cell, "cells": [cell, cell | {"verdict": "UNRESOLVED"}, cell | {"verdict": "FASTER"}]}
         said = self.said(f"words.comparisonSentence({REPORT}, {{ of: 'thick', with: 'thin' }}, {json.dumps(column)})")
         self.assertEqual(said["head"], "thin has a shorter frame time than thick")
-        self.assertEqual(said["text"], "0.800× that of thick; 95 % interval 0.769× to 0.833×, 6 paired rounds over 3 loads (faster at 1, unresolved at 1, slower at 1).")
+        self.assertEqual(said["text"], "0.800× that of thick; 95\u00a0% interval 0.769× to 0.833×, 6 paired rounds over 3 loads (faster at 1, unresolved at 1, slower at 1).")
 
     def test_cells_are_named_as_everywhere(self):
         cases = [("p.particles=1000 p.system=thesis_aa_sprites", "particles 1000, system thesis_aa_sprites"), ("grid=16x12 soft=off", "grid 16×12, soft off"),
                  ("true for finding silhouette_kept_bunny, false with silhouette_kept_car", "true for silhouette kept bunny, false with silhouette kept car")]
         self.assertEqual(self.said(f"{json.dumps([case[0] for case in cases])}.map(words.readable)"), [case[1] for case in cases])
+        rule = {"rule": {"quantity": "finding", "column": "kept_at_50_car|kept_at_50_old_car|kept_at_50_hare"}}
+        self.assertEqual(self.said(f"words.cellText({json.dumps(rule)}, 'true for finding kept_at_50_old_car, false with kept_at_50_car, kept_at_50_hare')"),
+                         "true for old car, false with car, hare")
+        rule["rule"]["column"] = "speed_5|speed_10"
+        self.assertEqual(self.said(f"words.cellText({json.dumps(rule)}, 'true for finding speed_10, false with speed_5')"), "true for speed 10, false with speed 5")
+        self.assertEqual(self.said("chartData.tied('octree, speed 0.01 m/s, resolution 50, grid 32×64×32')"), "octree, speed 0.01\u00a0m/s, resolution 50, grid 32×64×32")
         self.assertEqual(self.said("chartData.settingText({ name: 'grid', unit: '' }, '32x64x32')"), "grid 32×64×32")
         self.assertEqual(self.said("words.labelText('reference of billboard puff=texture soft=off')"), "reference of billboard, puff texture, soft off")
 

@@ -46,7 +46,7 @@ const machineData = (() => {
 const chartKit = (() => {
     const { methodColours, themes, shapes, dashes, configOf, digits, withUnit } = chartStyle;
     const { columnOf, axisTitle, shown, distinct } = chartData;
-    const { fresh, setSignals, setData, setScale, panelsWithin, legendColumns, domainOf, logTicks, spans, missing } = chartParts;
+    const { fresh, setSignals, setData, setScale, panelsWithin, legendColumns, legendLines, domainOf, logTicks, setTicks, spans, missing } = chartParts;
     const { together, hasInterval, ratiosAgainst, worldText, loadsOf, columnsOfRatios, columnsOfTimes, comparedVariants, shortLabels } = machineData;
     const rowsForm = 'rows';
     const margin = 1.02;
@@ -66,7 +66,7 @@ const chartKit = (() => {
     const ratioTip = (report, title, side, more = {}) => ({
         title, ...more, ratio: ratioText(side), pairs: String(side[3]), verdict: verdictText(side[4]) + (side[5] ? `: ${side[5]}` : ''),
     });
-    const band = { min: 1 / margin, max: margin, tip: { title: 'the same within 2 %' } };
+    const band = { min: 1 / margin, max: margin, tip: { title: 'the same within 2\u00a0%' } };
 
     const choose = (chart, columns) => {
         const { experiment } = chart;
@@ -102,7 +102,7 @@ const chartKit = (() => {
         const spec = fresh(report.specifications.cost);
         setSignals(spec, {
             panelWidth, panelHeight: panels.length === 1 ? 320 : Math.max(170, Math.min(240, Math.round(panelWidth * 0.75))), panelColumns: columns, labelRoom: 0,
-            xTitle, yTitle, xFormat: xs[xs.length - 1] >= 100000 ? '.4~s' : ',.6~r', yFormat: yDomain[1] >= 100000 ? '.4~s' : ',.6~r',
+            xTitle, yTitle, xFormat: ',.6~r', yFormat: yDomain[1] >= 1e6 ? '.4~s' : ',.6~r',
             legendColumns: legendColumns(chart.width, Math.max(...machines.map(machine => labels[machine].length)), machines.length),
         });
         setData(spec, 'panels', panels.map(panel => ({ panel })));
@@ -111,9 +111,10 @@ const chartKit = (() => {
         setScale(spec, 'x', xLog ? { type: 'log', domain: [xs[0] / 1.12, xs[xs.length - 1] * 1.08] } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
         setScale(spec, 'y', { type: yLog ? 'log' : 'linear', domain: yDomain });
         const names = machines.map(machine => labels[machine]), styles = machines.map(machine => styleOf(report, machine, chart.theme));
+        setScale(spec, 'legendText', { domain: names, range: legendLines(names, chart.width) });
         for (const key of ['colour', 'shape', 'dash']) setScale(spec, key, { domain: names, range: styles.map(style => style[key]) });
-        if (yLog) spec.marks[0].axes[0].values = logTicks(yDomain);
-        if (xs.length <= 10) spec.marks[0].axes[1].values = xs;
+        if (yLog) setTicks(spec.marks[0].axes[0], logTicks(yDomain));
+        if (xs.length <= 10) setTicks(spec.marks[0].axes[1], xs);
         return spec;
     };
     /// A row for each machine, under a heading for each variant.
@@ -131,12 +132,12 @@ const chartKit = (() => {
         const spec = fresh(report.specifications.rows);
         spec.width = chart.width - 24;
         const domain = domainOf(points.flatMap(point => [point.y, point.low, point.high]).concat(bands.flatMap(item => [item.min, item.max])), log, zero);
-        setSignals(spec, { xTitle, xFormat: domain[1] >= 100000 ? '.4~s' : ',.6~r', ink });
+        setSignals(spec, { xTitle, xFormat: domain[1] >= 1e6 ? '.4~s' : ',.6~r', ink });
         spec.height = list.length * spec.signals.find(signal => signal.name === 'rowHeight').value;
         setData(spec, 'rows', list);
         setData(spec, 'bands', bands);
         setScale(spec, 'x', { type: log ? 'log' : 'linear', domain });
-        if (log && logTicks(domain)) spec.axes[0].values = logTicks(domain);
+        if (log) setTicks(spec.axes[0], logTicks(domain));
         return spec;
     };
     const tableOf = (report, points, head, unit, load) => ({
@@ -181,7 +182,7 @@ const chartKit = (() => {
             : rows(report, chart, points, { ...shape, xTitle: 'ratio', log });
         spec.description = `${name}, within each machine`;
         return {
-            spec, notes: [`${words.upper(name)}: below 1 it takes less time. Each ratio is formed within one machine. Grey: the same within 2 %.`],
+            spec, notes: [`${words.upper(name)}: below 1 it takes less time. Each ratio is formed within one machine. Grey: the same within 2\u00a0%.`],
             table: tableOf(report, points, 'ratio', '', load),
             state: { column, against: String(reference), x: load ? load.name : rowsForm, worlds, world, xLog, yLog: load ? log : undefined },
         };

@@ -16,20 +16,9 @@
     const labels = data.machines.map(machine => machine.label);
 
     // Theme and machines, which all charts follow.
-    const asked = window.matchMedia('(prefers-color-scheme: dark)');
-    const look = { theme: pageState.get('theme') || (asked.matches ? 'dark' : 'light'), hidden: new Set() };
+    const look = pageLook.make([]);
     const cards = chartCards(report, look);
-    const showTheme = () => {
-        document.documentElement.dataset.theme = look.theme;
-        section('theme').textContent = look.theme === 'dark' ? 'Light' : 'Dark';
-        for (const marked of document.querySelectorAll('[data-machine]'))
-            marked.style.setProperty('--colour', chartKit.styleOf(report, labels.indexOf(marked.dataset.machine), look.theme).colour);
-    };
-    const setTheme = next => {
-        look.theme = next;
-        showTheme();
-        return cards.drawAll();
-    };
+    const showTheme = pageLook.painter(look, 'machine', machine => chartKit.styleOf(report, labels.indexOf(machine), look.theme).colour);
     const columnOptions = names => names.map(name => [name, columnOf(report, name).name]);
     const scales = [['false', 'linear'], ['true', 'logarithmic']];
     const againstLoads = experiment => [...loadsOf(experiment).map(axis => [axis.name, axis.name]), [chartKit.rowsForm, 'all settings (rows)']];
@@ -167,7 +156,7 @@
     const addDefinitions = () => {
         put(section('definitions'), element('article', { className: 'card' }, [
             paragraph('Ratio: the time of a method, with its settings, over that of another in the same folder on the same machine: run with run of the same world, parameters, seed and repetition. ' +
-                'Shown is the geometric mean with the 95 % interval of Student\'s t over the logarithms of the paired runs; where all machines share several seeds, over the seeds, each the mean of its repetitions. ' +
+                'Shown is the geometric mean with the 95\u00a0% interval of Student\'s t over the logarithms of the paired runs; where all machines share several seeds, over the seeds, each the mean of its repetitions. ' +
                 'Faster: the interval lies wholly below 1/1.02; slower: wholly above 1.02; same: between; unresolved: anything else, and always with fewer than 6 pairs.'),
             paragraph('All together: each repetition or seed gives one ratio, the geometric mean over the loads and worlds that every machine has which has the two methods at all.'),
             paragraph('Agree: all machines give one verdict, by intervals that overlap. By another factor: one verdict, but two intervals do not overlap. Differ: two verdicts. Open: unresolved on a machine, and none contradicts.'),
@@ -193,34 +182,6 @@
     addTimes();
     addMissing();
     addDefinitions();
-    showTheme();
 
-    section('theme').addEventListener('click', () => {
-        setTheme(look.theme === 'dark' ? 'light' : 'dark');
-        pageState.set('theme', look.theme);
-    });
-    asked.addEventListener('change', () => setTheme(asked.matches ? 'dark' : 'light'));
-    // Ink on paper is dark, and charts are as wide as the paper.
-    let before = null;
-    window.addEventListener('beforeprint', () => {
-        before = look.theme;
-        look.paperWidth = 700;
-        setTheme('light');
-    });
-    window.addEventListener('afterprint', () => {
-        look.paperWidth = 0;
-        setTheme(before);
-    });
-    let lastWidth = window.innerWidth, resizing = null;
-    window.addEventListener('resize', () => {
-        if (window.innerWidth === lastWidth) return;
-        lastWidth = window.innerWidth;
-        clearTimeout(resizing);
-        resizing = setTimeout(cards.drawAll, 200);
-    });
-
-    cards.drawFirst().then(() => {
-        pageState.scrollToAnchor();
-        document.documentElement.dataset.ready = String(Math.round(performance.now()));
-    });
+    pageLook.follow(look, cards, showTheme);
 })();
