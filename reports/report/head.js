@@ -1,12 +1,12 @@
 // The first screen: whose experiments these are, how far to trust them, what came out, what is faster.
 const pageHead = (() => {
     const { element, put, paragraph } = pageKit;
-    const { plural, listOf, comparisonSentence } = words;
+    const { plural, upper, listOf, comparisonSentence } = words;
     const { columnOf, shownOf, variantOf, worldOf } = chartKit;
     const verdicts = ['confirmed', 'refuted', 'depends', 'unresolved', 'untestable', 'not-tested'];
 
     const isQuick = experiment => Boolean(experiment.suite) && experiment.id !== experiment.suite;
-    const citationOf = paper => [[paper.authors, paper.year || ''].filter(Boolean).join(', '), paper.venue].filter(Boolean).join('. ');
+    const citationOf = paper => [[paper.authors, paper.year || ''].filter(Boolean).join(', '), paper.venue].filter(Boolean).map(upper).join('. ');
     const isSoftware = machine => /llvmpipe|softpipe|swrast|swiftshader/i.test(machine.gl_renderer || '');
     const machineText = machine => [machine.cpu || 'unknown CPU', plural(Number(machine.cores), 'core')].join(', ');
     const rendererText = machine => `${isSoftware(machine) ? 'software renderer: ' : ''}${machine.gl_renderer || 'unknown renderer'}`;
