@@ -10,7 +10,6 @@
 #include <cmath>
 #include <vector>
 
-#include "methods/kit/files/limits.h"
 #include "methods/kit/volumes/openvdb/answer.h"
 #include "methods/kit/volumes/openvdb/volume_answer.h"
 
@@ -160,8 +159,7 @@ void answerNanoVolume(const std::string& file, const VolumeFields& fields) {
     });
     const double cells = countOf(lattice.box);
     if (!(cells >= 1)) throw Refusal{"its density is zero everywhere"};
-    if (cells > static_cast<double>(files::limits::volumeCells))
-        throw Refusal{"the box of its density has more than 256 million cells (limit of volumes)"};
+    if (cells > static_cast<double>(maximumCells(fields))) throw Refusal{tooManyCells(fields)};
     std::erase_if(chosen, [&](const Chosen& each) {
         bool isThere = true;
         visit(each.handle, [&](const auto& grid) { isThere = latticeOf(grid) == lattice; });
