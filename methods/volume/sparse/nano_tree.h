@@ -65,8 +65,4 @@ class NanoTree {
     glm::ivec3 minimum_{0}, maximum_{0};
 };
 
-/// The bricks of a tree for these densities: a leaf for each, `source` its place in the list of `order`, and tiles where
-/// samples reach into them.
-[[nodiscard]] std::vector<TreeBrick> treeBricks(const Bricks& densities, std::vector<std::uint64_t>& order);
-
 }  // namespace dustbench::volume

@@ -137,8 +137,11 @@ class SparseProbe {
         const glm::ivec3 cell = firstThree(base + first_), within = cell & 7;
         const Four most = raycast::atLeast(raycast::atMost(high, last_), Four{}) - whole;
         Places at = raycast::placesOf(rays_, reach.middle, whole, 1);
-        const FourInts outside = (low < Four{}) | (high > last_);
-        if ((outside[0] | outside[1] | outside[2]) != 0) clamp(at, whole);
+        // Beyond the outermost middles, values are theirs; a ray that misses the box may be anywhere.
+        for (int axis = 0; axis < 3; ++axis) {
+            Floats& place = axis == 0 ? at.x : axis == 1 ? at.y : at.z;
+            place = raycast::atLeast(raycast::atMost(place, raycast::all(most[axis])), Floats{});
+        }
         if (raycast::CellWindow::useful && most[0] < 1.999f && most[1] < 2.999f && most[2] < 2.999f) {
             values.moveTo(cell >> 3);
             const Places turned{at.z, at.y, at.x};
@@ -164,24 +167,10 @@ class SparseProbe {
         });
     }
 
-    /// Keeps positions between the middles of the outermost cells.
-    void clamp(Places& at, const Four& base) const {
-        const auto within = [&](Floats& place, int axis) {
-            place = raycast::atLeast(raycast::atMost(place, raycast::all(last_[axis] - base[axis])),
-                                     raycast::all(-base[axis]));
-        };
-        within(at.x, 0);
-        within(at.y, 1);
-        within(at.z, 2);
-    }
-
     /// Linear between the eight neighbours of each lane; `value(x, y, z)` is that of a cell.
     template <typename Value>
     [[nodiscard]] static Floats lanewise(const Places& at, const Value& value) {
-        // Rounding may put a lane just below the packet's lower bound.
-        const Ints i = raycast::wholePart(raycast::atLeast(at.x, Floats{})),
-                   j = raycast::wholePart(raycast::atLeast(at.y, Floats{})),
-                   k = raycast::wholePart(raycast::atLeast(at.z, Floats{}));
+        const Ints i = raycast::wholePart(at.x), j = raycast::wholePart(at.y), k = raycast::wholePart(at.z);
         const Places share{at.x - raycast::toFloats(i), at.y - raycast::toFloats(j), at.z - raycast::toFloats(k)};
         return raycast::betweenEight(share, [&](int corner) {
             Floats values;

@@ -8,49 +8,19 @@
 #include "methods/kit/files/limits.h"
 #include "methods/kit/parallel/for_each_block.h"
 #include "methods/kit/volumes/file_series.h"
+#include "methods/volume/sparse/brick_trees.h"
 
 namespace dustbench::volume {
 namespace {
 
 constexpr std::size_t leavesPerBlock = 64;
 
-/// Makes the tree of these values; `rows` of temperatures are all kept, of densities what samples see.
-void plant(const Bricks& values, std::vector<TreeBrick> bricks, const std::vector<std::uint64_t>& order,
-           const SparseMoment& moment, std::size_t roomBytes, NanoTree& tree) {
-    const glm::dvec3 origin = moment.originMetres - moment.spacingMetres * glm::dvec3(moment.firstCell);
-    tree.lay(bricks, moment.spacingMetres, origin, roomBytes);
-    std::size_t leaf = 0;
-    for (const TreeBrick& brick : bricks)
-        if (brick.isLeaf) std::ranges::copy(*values.find(brickOf(order[brick.source])), tree.valuesOf(leaf++));
-}
-
-/// All of the values, whatever they are.
-void plantAll(const Bricks& values, const SparseMoment& moment, std::size_t roomBytes, NanoTree& tree) {
-    std::vector<std::uint64_t> order;
-    std::vector<TreeBrick> bricks;
-    for (const auto& [key, ignored] : values.all()) {
-        bricks.push_back({brickOf(key), true, {}, order.size()});
-        bricks.back().active.fill(~std::uint64_t{0});
-        order.push_back(key);
-    }
-    plant(values, std::move(bricks), order, moment, roomBytes, tree);
-}
-
-/// Whether a cell is active on the upper side of a brick, along the axes whose bits are set.
-bool touchesAbove(const CellMask& active, int axes) {
-    std::uint64_t cells = ~std::uint64_t{0};
-    if (axes & 2) cells &= 0xffull << 56;
-    if (axes & 4) cells &= 0x8080808080808080ull;
-    for (std::size_t x = axes & 1 ? 7 : 0; x < 8; ++x)
-        if (active[x] & cells) return true;
-    return false;
-}
-
-/// The bricks that samples with density read.
-void addSeen(const NanoTree& densities, BrickRows& rows) {
+/// Calls see(brick), more than once maybe, for the bricks that samples with density read.
+template <typename See>
+void forEachSeen(const NanoTree& densities, const See& see) {
     for (const TreeBrick& brick : densities.bricks())
         for (int n = 0; n < 8; ++n)
-            if (touchesAbove(brick.active, n)) rows.add(brick.at + glm::ivec3(n & 1, n >> 1 & 1, n >> 2));
+            if (touchesAbove(brick.active, n)) see(brick.at + glm::ivec3(n & 1, n >> 1 & 1, n >> 2));
 }
 
 void place(SparseMoment& moment, const volumes::GridPlace& place, const glm::ivec3& firstCell) {
@@ -58,6 +28,10 @@ void place(SparseMoment& moment, const volumes::GridPlace& place, const glm::ive
     moment.spacingMetres = place.spacing;
     moment.originMetres = place.origin;
     moment.firstCell = firstCell;
+}
+
+glm::dvec3 latticeOrigin(const SparseMoment& moment) {
+    return moment.originMetres - moment.spacingMetres * glm::dvec3(moment.firstCell);
 }
 
 }  // namespace
@@ -94,9 +68,7 @@ void SparseSeries::readDensities(std::vector<volumes::GridPlace>& places) {
         reader.readDensities();
         SparseMoment& moment = moments_.emplace_back(ledger_, "files");
         place(moment, reader.place(), reader.firstCell());
-        std::vector<std::uint64_t> order;
-        std::vector<TreeBrick> bricks = treeBricks(reader.bricks(), order);
-        plant(reader.bricks(), std::move(bricks), order, moment, roomBytes(), moment.density);
+        plantDensities(reader.bricks(), moment.spacingMetres, latticeOrigin(moment), roomBytes(), moment.density);
         places.push_back(reader.place());
         if (entry.timeSeconds) places.back().timeSeconds = entry.timeSeconds;
         names_.push_back(entry.file);
@@ -109,17 +81,18 @@ void SparseSeries::readTemperatures(const std::vector<volumes::GridPlace>& place
     for (std::size_t i = 0; i < moments_.size(); ++i) {
         BrickRows rows;
         for (std::size_t beside = i > 0 ? i - 1 : 0; beside < std::min(i + 2, moments_.size()); ++beside)
-            addSeen(moments_[beside].density, rows);
+            forEachSeen(moments_[beside].density, [&](const glm::ivec3& brick) { rows.add(brick); });
         rows.close();
         BrickReader reader(names_[i], setup_, &places.front());
         reader.readTemperatures(rows);
         if (reader.place().cells != places[i].cells || reader.place().origin != places[i].origin)
             throw InputError(names_[i].string() + ": it changed while it was read");
-        plantAll(reader.bricks(), moments_[i], roomBytes(), moments_[i].reaction);
+        SparseMoment& moment = moments_[i];
+        plantAll(reader.bricks(), moment.spacingMetres, latticeOrigin(moment), roomBytes(), moment.reaction);
     }
 }
 
-SparseSeries::Sources SparseSeries::join(const NanoTree& before, const NanoTree& after, NanoTree& joined) const {
+SparseSeries::Sources SparseSeries::join(const NanoTree& before, const NanoTree& after, const std::vector<TreeBrick>& others, NanoTree& joined) const {
     std::vector<TreeBrick> bricks = before.bricks();
     std::unordered_map<std::uint64_t, std::size_t> places;
     places.reserve(2 * bricks.size());
@@ -129,7 +102,7 @@ SparseSeries::Sources SparseSeries::join(const NanoTree& before, const NanoTree&
         if (bricks[i].isLeaf) found[i][0] = before.valuesOf(bricks[i].source);
         bricks[i].source = i;
     }
-    for (const TreeBrick& brick : after.bricks()) {
+    const auto add = [&](const TreeBrick& brick) -> std::size_t {
         const auto [at, isNew] = places.emplace(keyOf(brick.at), bricks.size());
         if (isNew) {
             bricks.push_back({brick.at, false, {}, bricks.size()});
@@ -138,8 +111,13 @@ SparseSeries::Sources SparseSeries::join(const NanoTree& before, const NanoTree&
         TreeBrick& own = bricks[at->second];
         own.isLeaf |= brick.isLeaf;
         for (std::size_t x = 0; x < own.active.size(); ++x) own.active[x] |= brick.active[x];
-        if (brick.isLeaf) found[at->second][1] = after.valuesOf(brick.source);
+        return at->second;
+    };
+    for (const TreeBrick& brick : after.bricks()) {
+        const std::size_t at = add(brick);
+        if (brick.isLeaf) found[at][1] = after.valuesOf(brick.source);
     }
+    for (const TreeBrick& brick : others) (void)add(brick);
     const SparseMoment& lead = moments_.front();
     joined.lay(bricks, lead.spacingMetres, lead.originMetres, std::numeric_limits<std::size_t>::max());
     Sources sources;
@@ -152,8 +130,14 @@ void SparseSeries::prepare(std::size_t before, std::size_t after) {
     if (joined_ == std::pair(before, after)) return;
     const volumes::GridPlace both = volumes::together(series_->places()[before], series_->places()[after]);
     place(between_, both, volumes::firstCell(series_->places().front(), both));
-    densities_ = join(moments_[before].density, moments_[after].density, between_.density);
-    if (!setup_.fire.empty()) temperatures_ = join(moments_[before].reaction, moments_[after].reaction, between_.reaction);
+    densities_ = join(moments_[before].density, moments_[after].density, {}, between_.density);
+    if (!setup_.fire.empty()) {
+        // Beyond the boxes of both moments, but in one around both, the temperature is 0, which may be warm.
+        std::vector<TreeBrick> beyond;
+        if (freshness(0) > 0)
+            forEachSeen(between_.density, [&](const glm::ivec3& brick) { beyond.push_back({brick, true, {}, 0}); });
+        temperatures_ = join(moments_[before].reaction, moments_[after].reaction, beyond, between_.reaction);
+    }
     joined_ = {before, after};
 }
 

@@ -39,7 +39,9 @@ class SparseSeries {
     /// Bytes that further trees may take.
     [[nodiscard]] std::size_t roomBytes() const;
     void prepare(std::size_t before, std::size_t after);
-    [[nodiscard]] Sources join(const NanoTree& before, const NanoTree& after, NanoTree& joined) const;
+    /// Lays out a tree of the bricks of both moments and of others.
+    [[nodiscard]] Sources join(const NanoTree& before, const NanoTree& after, const std::vector<TreeBrick>& others,
+                               NanoTree& joined) const;
     [[nodiscard]] float freshness(float temperature) const;
 
     volumes::VolumeSetup setup_;
