@@ -73,12 +73,12 @@ void BrickReader::begin(const volumes::GridPlace& place) {
                                       place_.cells[axis], files::limits::sparseVolumeEdge));
     if (!lead_) return;
     // Room for all of the box, and for a series that wanders.
-    constexpr double farthest = (farthestBrick - 2) * brickEdge - files::limits::sparseVolumeEdge;
+    constexpr double farthest = (farthestBrick - 4) * brickEdge - files::limits::sparseVolumeEdge;
     const glm::dvec3 apart = glm::abs(place_.origin - lead_->origin) / lead_->spacing;
     if (!(std::max({apart.x, apart.y, apart.z}) < farthest))
         throw refused(fmt::format("it lies {:.3g} cells from the first of its series, allowed: {:.3g}",
                                   std::max({apart.x, apart.y, apart.z}), farthest));
-    first_ = volumes::firstCell(*lead_, place_);
+    first_ = volumes::firstCell(*lead_, place_) + leadCell;
 }
 
 bool BrickReader::beginField(std::string_view field) {

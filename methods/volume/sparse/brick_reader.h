@@ -1,7 +1,6 @@
 // Keeps the bricks of a volume that have density while its file is read, and the temperatures that are seen with them.
 //
-// Cells come out on the lattice of a series: (0, 0, 0) is the first cell of its first file, +Y up. Memory grows with
-// what has density alone. Units and frame: the file's own, but for places, which are in the world.
+// Cells come out on the lattice of a series, +Y up. Memory grows with what has density alone. Units and frame: the file's own, but for places, which are in the world.
 // Source: Museth2013. Departs: the file is read cell by cell.
 #pragma once
 
@@ -16,6 +15,10 @@
 #include "methods/volume/sparse/bricks.h"
 
 namespace dustbench::volume {
+
+/// The first cell of a series' first file on the lattice: a brick further than 0, so that what samples reach below it is
+/// in the same nodes of a tree.
+inline constexpr int leadCell = brickEdge;
 
 /// Bricks to keep, by their row: the places along x of those at (y, z), ascending.
 class BrickRows {
@@ -62,7 +65,7 @@ class BrickReader final : public volumes::VolumeSink {
     const volumes::GridPlace* lead_;
     const BrickRows* rows_ = nullptr;  ///< of temperatures; null: densities are read
     volumes::GridPlace stored_, place_;
-    glm::ivec3 first_{0};
+    glm::ivec3 first_{leadCell};
     glm::ivec3 next_{0};  ///< the cell that comes next, as the file is stored
     Bricks bricks_;
     float lowest_ = 0, highest_ = 0;

@@ -119,7 +119,7 @@ SparseSeries::Sources SparseSeries::join(const NanoTree& before, const NanoTree&
     }
     for (const TreeBrick& brick : others) (void)add(brick);
     const SparseMoment& lead = moments_.front();
-    joined.lay(bricks, lead.spacingMetres, lead.originMetres, std::numeric_limits<std::size_t>::max());
+    joined.lay(bricks, lead.spacingMetres, latticeOrigin(lead), std::numeric_limits<std::size_t>::max());
     Sources sources;
     for (const TreeBrick& brick : bricks)
         if (brick.isLeaf) sources.push_back(found[brick.source]);
@@ -129,7 +129,7 @@ SparseSeries::Sources SparseSeries::join(const NanoTree& before, const NanoTree&
 void SparseSeries::prepare(std::size_t before, std::size_t after) {
     if (joined_ == std::pair(before, after)) return;
     const volumes::GridPlace both = volumes::together(series_->places()[before], series_->places()[after]);
-    place(between_, both, volumes::firstCell(series_->places().front(), both));
+    place(between_, both, volumes::firstCell(series_->places().front(), both) + leadCell);
     densities_ = join(moments_[before].density, moments_[after].density, {}, between_.density);
     if (!setup_.fire.empty()) {
         // Beyond the boxes of both moments, but in one around both, the temperature is 0, which may be warm.
