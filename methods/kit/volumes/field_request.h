@@ -39,7 +39,7 @@ struct WantedField {
 }
 [[nodiscard]] inline std::string tooManyCells(const VolumeFields& fields) {
     return std::string("the box of its density has more than ") +
-           (fields.isSparse ? "4 billion cells (limit of sparse volumes)" : "256 million cells (limit of volumes)");
+           (fields.isSparse ? "2 billion cells (limit of sparse volumes)" : "256 million cells (limit of volumes)");
 }
 
 /// As one text, for the arguments of a program; and back.

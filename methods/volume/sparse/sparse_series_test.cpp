@@ -215,7 +215,7 @@ TEST(SparseSeries, RefusesBoxesBeyondItsOwnLimits) {
         MemoryLedger ledger;
         return inputError([&] { SparseSeries(setup, ledger); });
     };
-    EXPECT_THAT(refusal({1600, 1600, 1600}), HasSubstr("more than 4 billion cells (limit of sparse volumes)"));
+    EXPECT_THAT(refusal({1300, 1300, 1300}), HasSubstr("more than 2 billion cells (limit of sparse volumes)"));
     EXPECT_THAT(refusal({1, 1, 65'536}),
                 HasSubstr("it has 65537 cells along an axis, allowed: 65536 (limit of sparse volumes)"));
     // Moments that lie on other lattices, or too far apart for one.
@@ -232,7 +232,7 @@ TEST(SparseSeries, RefusesBoxesBeyondItsOwnLimits) {
     };
     EXPECT_THAT(moment({0.4, 0, 0}), HasSubstr("s1.vdb: lies on another grid than s0.vdb"));
     EXPECT_THAT(moment({9e6, 0, 0}), HasSubstr("s1.vdb: it lies 9e+06 cells from the first of its series"));
-    EXPECT_THAT(moment({2000, 2000, 2000}), HasSubstr("it has more than 4000000000 cells (limit of volumes)"));
+    EXPECT_THAT(moment({2000, 2000, 2000}), HasSubstr("it has more than 2000000000 cells (limit of volumes)"));
 }
 
 }  // namespace
