@@ -1,4 +1,5 @@
-// How a volume is kept and shown: as one box of cells (dense_storage.h) or as its bricks alone (sparse/sparse_storage.h).
+// How a volume is kept and shown: as one box of cells (dense_storage.h) or as its bricks alone
+// (sparse/sparse_storage.h).
 //
 // Units: metres, seconds, extinction per metre. Frame: world. Threads: the OpenGL thread.
 #pragma once

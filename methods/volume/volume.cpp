@@ -78,9 +78,10 @@ MethodInfo describe() {
                   files::listData("volumes", volumes::volumeExtensions),
                   "what is shown: one file, several by a *, a series that names them, or a .toml that says more")
         .real("extinction", asTheFileSays, asTheFileSays, 1e6, "1/m", "at a density of 1; -1: as the .toml says, or 1")
-        .choice("storage", Keeps::dense, keepings,
-                "every cell of the box around the density, or only bricks of 8x8x8 cells with density, which takes less "
-                "memory if most of the box is empty; sparse: renderer=raycast and filter=linear alone");
+        .choice(
+            "storage", Keeps::dense, keepings,
+            "every cell of the box around the density, or only bricks of 8x8x8 cells with density, which takes less "
+            "memory if most of the box is empty; sparse: renderer=raycast and filter=linear alone");
     raycast::declareRaycast(info.parameters);
     info.facts = {{"volume_mass", "m2", FactOver::lastFrame,
                    "integral of the extinction over the volume that is shown, after the last frame"},

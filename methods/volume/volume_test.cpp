@@ -187,11 +187,12 @@ TEST_F(ShownVolume, SparseTakesLessMemoryWhereMostOfTheBoxIsEmpty) {
     for (int i = 0; i < 64 * 64 * 64; ++i) values += i == 777 || i == 64 * 64 * 64 - 5 ? "1 " : "0 ";
     const std::string file =
         folder_
-            .write("two.vti", "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\"><ImageData "
-                              "WholeExtent=\"0 64 0 64 0 64\" Origin=\"-1 -1 -1\" Spacing=\"0.03 0.03 0.03\"><Piece "
-                              "Extent=\"0 64 0 64 0 64\"><CellData><DataArray type=\"Float32\" Name=\"density\" "
-                              "format=\"ascii\">" +
-                                  values + "</DataArray></CellData></Piece></ImageData></VTKFile>")
+            .write("two.vti",
+                   "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\"><ImageData "
+                   "WholeExtent=\"0 64 0 64 0 64\" Origin=\"-1 -1 -1\" Spacing=\"0.03 0.03 0.03\"><Piece "
+                   "Extent=\"0 64 0 64 0 64\"><CellData><DataArray type=\"Float32\" Name=\"density\" "
+                   "format=\"ascii\">" +
+                       values + "</DataArray></CellData></Piece></ImageData></VTKFile>")
             .string();
     const auto bytes = [&](const char* storage, const char* backend) {
         const auto method = made(file, {{"storage", storage}, {"backend", backend}});
@@ -200,7 +201,8 @@ TEST_F(ShownVolume, SparseTakesLessMemoryWhereMostOfTheBoxIsEmpty) {
         for (const auto& entry : method->memory()) sum += entry.cpuBytes + entry.gpuBytes;
         return sum;
     };
-    for (const char* backend : {"cpu", "gl"}) EXPECT_LT(2 * bytes("sparse", backend), bytes("dense", backend)) << backend;
+    for (const char* backend : {"cpu", "gl"})
+        EXPECT_LT(2 * bytes("sparse", backend), bytes("dense", backend)) << backend;
 }
 
 TEST_F(ShownVolume, SparseRefusesOtherRenderersAndFiltersWhenItIsMade) {

@@ -78,7 +78,6 @@ const std::vector<Product> products{
     {"grid_fluid", {{"scheme", "demo"}, {"fluid", "fire"}, {"solver", "opengl"}, {"backend", "gl"}}, {}},
     {"octree_search", {}, {"render", "crossfade"}, true},
     {"voxel_shape", {}, {"render", "blend"}},
-    {"volume", {{"storage", "sparse"}, {"backend", "gl"}}, {"shadow_cells", "jitter", "skip_empty"}},
     {"exact_tiles", {}, {}, true},
     {"weighted_oit", {}, {"weight"}, true},
     {"moment_oit", {}, {"moments", "profile", "samples", "warp"}, true},
@@ -245,28 +244,29 @@ void drawGrids(gpu::Device& device) {
             }
 }
 
-/// A volume with fire, kept sparse: no volume of ours has a temperature.
-void drawSparseFire(Stages& stages) {
+/// Smoke, and smoke with fire, that is kept sparse and so large that every camera is in it.
+void drawSparse(Stages& stages) {
     const auto info = std::ranges::find(methods(), "volume", &MethodInfo::id);
     if (info == methods().end()) return;
     const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / ("dustbench-sparse-fire-" + std::to_string(getpid()));
+        std::filesystem::temp_directory_path() / ("dustbench-sparse-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     const auto field = [](const std::string& name) {
         return "<DataArray type=\"Float32\" Name=\"" + name + "\" format=\"ascii\">1 1 1 1 1 1 1 1</DataArray>";
     };
     std::ofstream(folder / "fire.vti")
-        << "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\"><ImageData WholeExtent=\"0 2 0 2 0 2\" "
-           "Origin=\"-4 0 -4\" Spacing=\"4 4 4\"><Piece Extent=\"0 2 0 2 0 2\"><CellData>"
+        << "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\"><ImageData WholeExtent=\"0 2 0 2 0 "
+           "2\" "
+           "Origin=\"-500 -500 -500\" Spacing=\"500 500 500\"><Piece Extent=\"0 2 0 2 0 2\"><CellData>"
         << field("density") << field("temperature") << "</CellData></Piece></ImageData></VTKFile>";
     std::ofstream(folder / "flame.toml") << "[[row]]\nreaction = 0.0\nemission = [0, 0, 0]\n[[row]]\nreaction = 1.0\n"
                                             "emission = [9, 3, 0]\n";
     std::ofstream(folder / "fire.toml")
         << "files = \"fire.vti\"\n[look]\nfire = \"flame.toml\"\ncold = 0.0\nhot = 1.0\n";
-    const std::array<std::string, 2> parameters{"shadow_cells", "skip_empty"};
-    forEachCombination(
-        *info, {{"volume", (folder / "fire.toml").string()}, {"storage", "sparse"}, {"backend", "gl"}}, parameters,
-        [&](const Values& values) { stages.show(*info, values); });
+    const std::array<std::string, 3> parameters{"shadow_cells", "skip_empty", "jitter"};
+    for (const char* file : {"fire.vti", "fire.toml"})
+        forEachCombination(*info, {{"volume", (folder / file).string()}, {"storage", "sparse"}, {"backend", "gl"}},
+                           parameters, [&](const Values& values) { stages.show(*info, values); });
     std::filesystem::remove_all(folder);
 }
 
@@ -281,7 +281,7 @@ void drawEverything(gpu::Device& device) {
         for (const Parameter& parameter : info.parameters.all())
             for (const std::string& value : valuesOf(parameter)) stages.show(info, {{parameter.name, value}});
     }
-    drawSparseFire(stages);
+    drawSparse(stages);
     for (const Product& product : products) {
         const auto info = std::ranges::find(methods(), product.method, &MethodInfo::id);
         if (info == methods().end()) continue;

@@ -22,8 +22,8 @@ inline constexpr int imageEdge = 16'384;
 inline constexpr std::uintmax_t imageBytes = std::uintmax_t{1} << 30;
 /// Cells of a volume.
 inline constexpr std::int64_t volumeCells = 256'000'000;
-/// A volume that is kept sparse: cells of the box around its density, which no file need hold, cells along an edge of it,
-/// and bricks of 8 x 8 x 8 cells of one moment, 2 GB of floats.
+/// A volume that is kept sparse: cells of the box around its density, which no file need hold, cells along an edge of
+/// it, and bricks of 8 x 8 x 8 cells of one moment, 2 GB of floats.
 inline constexpr std::int64_t sparseVolumeCells = 2'000'000'000;
 inline constexpr int sparseVolumeEdge = 65'536;
 inline constexpr std::int64_t volumeBricks = 1'000'000;

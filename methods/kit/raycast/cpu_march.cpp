@@ -109,10 +109,10 @@ void CpuMarch::march(const PixelRays& rays, const SceneDepths& depths, const Ref
                   opaqueDepth(settings_)};
     if (light_) medium.light.emplace(light_->padded(), 1 / static_cast<float>(light_->texelCells()));
     const bool cubic = settings_.filter == Filter::cubic;
-    const auto all = channels() == 4
-                         ? (cubic ? marchPackets<DenseProbe<true>, true, Grid> : marchPackets<DenseProbe<false>, true, Grid>)
-                         : (cubic ? marchPackets<DenseProbe<true>, false, Grid>
-                                  : marchPackets<DenseProbe<false>, false, Grid>);
+    const auto all =
+        channels() == 4
+            ? (cubic ? marchPackets<DenseProbe<true>, true, Grid> : marchPackets<DenseProbe<false>, true, Grid>)
+            : (cubic ? marchPackets<DenseProbe<true>, false, Grid> : marchPackets<DenseProbe<false>, false, Grid>);
     all(medium, grid, rays, depths, settings_.jitter, picture);
 }
 

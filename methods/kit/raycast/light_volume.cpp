@@ -24,7 +24,8 @@ LightVolume::LightVolume(const RaycastSettings& settings, const glm::vec3& toSun
       light_(ledger.account("ray cast light")) {}
 
 void LightVolume::set(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving) {
-    set(grid, [&](std::span<float>) { average(grid, texelsOf(grid.cells)); }, arriving);
+    set(
+        grid, [&](std::span<float>) { average(grid, texelsOf(grid.cells)); }, arriving);
 }
 
 void LightVolume::set(const ShownGrid& grid, const std::function<void(std::span<float>)>& average,

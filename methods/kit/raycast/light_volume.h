@@ -38,8 +38,8 @@ class DUSTBENCH_API LightVolume {
     /// grid; it varies slowly. Empty: all of it. It is called from several threads.
     void set(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving = {});
 
-    /// The same where the grid's cells are elsewhere: `average` fills in the mean of each texel's densities, in which that
-    /// of a cell is multiplied by its fire's extinction factor, x fastest.
+    /// The same where the grid's cells are elsewhere: `average` fills in the mean of each texel's densities, in which
+    /// that of a cell is multiplied by its fire's extinction factor, x fastest.
     void set(const ShownGrid& place, const std::function<void(std::span<float>)>& average,
              const std::function<float(const glm::dvec3&)>& arriving = {});
 

@@ -4,7 +4,8 @@
 //
 // A `Probe` is made for each packet and says what the rays see. It has
 //     Floats density(const Reach&), Floats reaction(const Reach&)    at the steps' middles
-//     int clearChunks(float begin, float nearest, float farthest)    chunks from the step at `begin` on in which there is
+//     int clearChunks(float begin, float nearest, float farthest)    chunks from the step at `begin` on in which there
+//     is
 //         nothing; 0 if something may lie between the distances nearest and farthest, which cover the first of them
 // Units: cells; positions are relative to the grid's minimum corner. Internal to marches on the CPU.
 // Threads: marchPackets() runs in parallel. Source: Senger2009, ch. 4.

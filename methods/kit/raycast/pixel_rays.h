@@ -35,8 +35,8 @@ struct DUSTBENCH_API PixelRays {
 };
 
 /// All pixels that may see cells in [minimum, maximum).
-[[nodiscard]] DUSTBENCH_API PixelRectangle pixelsOf(const ShownGrid& grid, const glm::ivec3& minimum, const glm::ivec3& maximum,
-                                      const scene::View& view);
+[[nodiscard]] DUSTBENCH_API PixelRectangle pixelsOf(const ShownGrid& grid, const glm::ivec3& minimum,
+                                                    const glm::ivec3& maximum, const scene::View& view);
 
 /// Offset of a pixel's steps as a fraction of a step: the fractional part of x/g + y/g², where g is the plastic number.
 /// Neighbouring pixels get distant offsets, and all offsets are equally frequent.

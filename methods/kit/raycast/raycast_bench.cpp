@@ -1,5 +1,5 @@
-// Benchmarks ray casting of a plume and of a trail: upload and march separately. The CPU march includes the readback of the scene's
-// depths.
+// Benchmarks ray casting of a plume and of a trail: upload and march separately. The CPU march includes the readback of
+// the scene's depths.
 #include "methods/kit/raycast/raycast_bench_scene.h"
 
 namespace dustbench::raycast {
@@ -11,7 +11,8 @@ void march(benchmark::State& state, Backend backend, bool skipEmpty, Shown shown
     raycast.upload(benchGrid(shown).shown());
     draw::TestCanvas& canvas = benchCanvas(shown);
     const pictures::Image image = canvas.picture([&](const gpu::Layer& to) { raycast.draw(canvas.view, to); });
-    verifyPicture(state, [&](std::size_t i) { return image.pixels[i].a; }, shown);
+    verifyPicture(
+        state, [&](std::size_t i) { return image.pixels[i].a; }, shown);
     gpu::Layer& layer = canvas.layer();
     for (auto _ : state) {
         raycast.draw(canvas.view, layer);

@@ -56,8 +56,7 @@ Between SeriesPlaces::at(double seconds) const {
     const auto index = static_cast<std::size_t>(after - places_.begin());
     const double passed = time - *places_[index - 1].timeSeconds;
     if (after == places_.end() || passed <= sameMomentSeconds) return {index - 1, index - 1, 0};
-    return {index - 1, index,
-            static_cast<float>(passed / (*after->timeSeconds - *places_[index - 1].timeSeconds))};
+    return {index - 1, index, static_cast<float>(passed / (*after->timeSeconds - *places_[index - 1].timeSeconds))};
 }
 
 }  // namespace dustbench::volumes

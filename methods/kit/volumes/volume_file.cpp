@@ -99,7 +99,8 @@ void streamVti(const std::filesystem::path& file, const VolumeFields& fields, Vo
     const auto [place, arrays] = placeOf(vti, file);
     sink.begin(place);
     forEachField(*arrays, fields, file, [&](std::string_view what, const VtiArray& array) {
-        if (sink.beginField(what)) vti.streamNumbers(array, [&](std::span<const float> numbers) { sink.take(numbers); });
+        if (sink.beginField(what))
+            vti.streamNumbers(array, [&](std::span<const float> numbers) { sink.take(numbers); });
     });
 }
 

@@ -90,8 +90,7 @@ void BrickReader::take(std::span<const float> numbers) {
     while (!numbers.empty()) {
         const std::size_t count = std::min(numbers.size(), static_cast<std::size_t>(stored_.cells.x - next_.x));
         // A row along x stays one if the grid is turned.
-        const glm::ivec3 turned =
-            setup_.zUp ? glm::ivec3(next_.x, next_.z, stored_.cells.y - 1 - next_.y) : next_;
+        const glm::ivec3 turned = setup_.zUp ? glm::ivec3(next_.x, next_.z, stored_.cells.y - 1 - next_.y) : next_;
         if (rows_)
             takeTemperatures(numbers.first(count), first_ + turned);
         else
@@ -132,7 +131,8 @@ void BrickReader::takeTemperatures(std::span<const float> row, glm::ivec3 first)
     const std::vector<int>* const kept = rows_->find(first.y >> 3, first.z >> 3);
     if (!kept) return;
     const int end = first.x + static_cast<int>(row.size());
-    for (auto brick = std::ranges::lower_bound(*kept, first.x >> 3); brick != kept->end() && *brick * 8 < end; ++brick) {
+    for (auto brick = std::ranges::lower_bound(*kept, first.x >> 3); brick != kept->end() && *brick * 8 < end;
+         ++brick) {
         Bricks::Values& values = bricks_.at({*brick, first.y >> 3, first.z >> 3});
         for (int x = std::max(*brick * 8, first.x); x < std::min(*brick * 8 + 8, end); ++x)
             values[cellOf({x, first.y, first.z})] = row[static_cast<std::size_t>(x - first.x)];

@@ -1,7 +1,7 @@
 // Keeps the bricks of a volume that have density while its file is read, and the temperatures that are seen with them.
 //
-// Cells come out on the lattice of a series, +Y up. Memory grows with what has density alone. Units and frame: the file's own, but for places, which are in the world.
-// Source: Museth2013. Departs: the file is read cell by cell.
+// Cells come out on the lattice of a series, +Y up. Memory grows with what has density alone. Units and frame: the
+// file's own, but for places, which are in the world. Source: Museth2013. Departs: the file is read cell by cell.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,8 @@
 
 namespace dustbench::volume {
 
-/// The first cell of a series' first file on the lattice: a brick further than 0, so that what samples reach below it is
-/// in the same nodes of a tree.
+/// The first cell of a series' first file on the lattice: a brick further than 0, so that what samples reach below it
+/// is in the same nodes of a tree.
 inline constexpr int leadCell = brickEdge;
 
 /// Bricks to keep, by their row: the places along x of those at (y, z), ascending.

@@ -31,8 +31,7 @@ CellMask spreadY(const CellMask& mask, const CellMask& above) {
 }
 CellMask spreadZ(const CellMask& mask, const CellMask& above) {
     CellMask spread = mask;
-    for (std::size_t x = 0; x < 8; ++x)
-        spread[x] |= (mask[x] & ~firstOfRows) >> 1 | (above[x] & firstOfRows) << 7;
+    for (std::size_t x = 0; x < 8; ++x) spread[x] |= (mask[x] & ~firstOfRows) >> 1 | (above[x] & firstOfRows) << 7;
     return spread;
 }
 
@@ -76,8 +75,7 @@ std::vector<TreeBrick> treeBricks(const Bricks& densities, std::vector<std::uint
             };
             std::array<CellMask, 4> alongZ;  // of the four columns (x, y)
             for (int n = 0; n < 4; ++n)
-                alongZ[static_cast<std::size_t>(n)] =
-                    spreadZ(maskOf(n & 1, n >> 1, 0), maskOf(n & 1, n >> 1, 1));
+                alongZ[static_cast<std::size_t>(n)] = spreadZ(maskOf(n & 1, n >> 1, 0), maskOf(n & 1, n >> 1, 1));
             bricks[b].active = spreadX(spreadY(alongZ[0], alongZ[2]), spreadY(alongZ[1], alongZ[3]));
         }
     });

@@ -1,7 +1,7 @@
 // Bricks of 8×8×8 cells of a volume, those with something in them alone, while it is read or put together.
 //
-// A brick at (x, y, z) holds the cells from 8·(x, y, z) on, z fastest, as NanoVDB's leaves do. Units: cells of a lattice
-// that all moments of a series share. Owns: its values.
+// A brick at (x, y, z) holds the cells from 8·(x, y, z) on, z fastest, as NanoVDB's leaves do. Units: cells of a
+// lattice that all moments of a series share. Owns: its values.
 #pragma once
 
 #include <array>

@@ -22,9 +22,10 @@ void requireTreesFit(std::size_t treeBytes, std::size_t maximumBytes) {
     // PNanoVDB.h is used with addresses of 32 bits, whose differences are signed where the shader computes with them.
     const std::size_t allowed = std::min<std::size_t>(maximumBytes, std::numeric_limits<std::int32_t>::max());
     if (treeBytes > allowed)
-        throw InputError(fmt::format("storage=sparse: the volume takes {:.1f} MB on the GPU, allowed: {:.1f} MB, the largest "
-                                     "storage buffer of this OpenGL; backend=cpu has no such limit",
-                                     static_cast<double>(treeBytes) / 1e6, static_cast<double>(allowed) / 1e6));
+        throw InputError(
+            fmt::format("storage=sparse: the volume takes {:.1f} MB on the GPU, allowed: {:.1f} MB, the largest "
+                        "storage buffer of this OpenGL; backend=cpu has no such limit",
+                        static_cast<double>(treeBytes) / 1e6, static_cast<double>(allowed) / 1e6));
 }
 
 GlSparseMarch::GlSparseMarch(gpu::Device& device, const raycast::RaycastSettings& settings)
@@ -46,12 +47,12 @@ gpu::Program& GlSparseMarch::program() {
         std::map<std::string, std::string> definitions = optics_.definitions();
         if (settings_.jitter) definitions["JITTER"] = "";
         if (settings_.skipEmpty) definitions["SKIP"] = "";
-        made.emplace(device_, "sparse march",
-                     std::initializer_list<gpu::ShaderFile>{
-                         volume_sparse_shaders::sparse_buffer_glsl, pnanovdb, volume_sparse_shaders::sparse_cells_glsl,
-                         raycast_shaders::grid_optics_glsl, raycast_shaders::rectangle_vert,
-                         raycast_shaders::grid_march_frag},
-                     definitions);
+        made.emplace(
+            device_, "sparse march",
+            std::initializer_list<gpu::ShaderFile>{
+                volume_sparse_shaders::sparse_buffer_glsl, pnanovdb, volume_sparse_shaders::sparse_cells_glsl,
+                raycast_shaders::grid_optics_glsl, raycast_shaders::rectangle_vert, raycast_shaders::grid_march_frag},
+            definitions);
     }
     return *made;
 }

@@ -131,9 +131,10 @@ nanovdb::CoordBBox boxOf(const TreeBrick& brick) {
 }
 
 InputError tooMuch(std::size_t bytes, std::size_t maximumBytes) {
-    return InputError(fmt::format("storage=sparse: the tree of the volume takes {:.3g} GB, allowed: {:.3g} GB (limit of "
-                                  "volumes)",
-                                  static_cast<double>(bytes) / 1e9, static_cast<double>(maximumBytes) / 1e9));
+    return InputError(
+        fmt::format("storage=sparse: the tree of the volume takes {:.3g} GB, allowed: {:.3g} GB (limit of "
+                    "volumes)",
+                    static_cast<double>(bytes) / 1e9, static_cast<double>(maximumBytes) / 1e9));
 }
 
 }  // namespace

@@ -84,8 +84,8 @@ TEST(NanoTree, IsActiveJustWhereSamplesSeeDensity) {
             const glm::ivec3 cell(x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1);
             bool seesDensity = false;
             for (int corner = 0; corner < 8; ++corner)
-                seesDensity |= cells.contains(
-                    {cell.x + (corner & 1), cell.y + (corner >> 1 & 1), cell.z + (corner >> 2)});
+                seesDensity |=
+                    cells.contains({cell.x + (corner & 1), cell.y + (corner >> 1 & 1), cell.z + (corner >> 2)});
             const NanoWalk::Found found = walk.at(cell >> 3);
             EXPECT_EQ(found.values != nullptr, bricks.find(cell >> 3) != nullptr);
             if (seesDensity) {
@@ -114,7 +114,9 @@ TEST(NanoTree, TakesWhatItsLeavesTakeAndNoMoreThanItMay) {
     // A full node of 128³ cells; the tiles around it are in seven others of each kind.
     EXPECT_LT(static_cast<double>(tree.bytes().size()) / (4096 * 2144 + 8 * (270'400 + 33'856)), 1.01);
     EXPECT_GE(ledger.totalBytes(), tree.bytes().size());
-    EXPECT_THAT(inputError([&] { plantDensities(bricks, 1, {0, 0, 0}, 1'000'000, tree); }),
+    EXPECT_THAT(inputError([&] {
+                    plantDensities(bricks, 1, {0, 0, 0}, 1'000'000, tree);
+                }),
                 testing::HasSubstr("the tree of the volume takes 0.0112 GB, allowed: 0.001 GB"));
 }
 

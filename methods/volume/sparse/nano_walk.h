@@ -13,12 +13,14 @@ class NanoWalk {
  public:
     explicit NanoWalk(const NanoTree& tree)
         : root_(tree.empty() ? nullptr
-                             : &reinterpret_cast<const nanovdb::NanoGrid<float>*>(tree.bytes().data())->tree().root()) {}
+                             : &reinterpret_cast<const nanovdb::NanoGrid<float>*>(tree.bytes().data())->tree().root()) {
+    }
 
     struct Found {
         const float* values = nullptr;          ///< of a leaf, z fastest
         const std::uint64_t* active = nullptr;  ///< cells of a leaf, a word for each x
-        int emptyEdge = 0;  ///< cells along the edge of the node without density that the brick lies in; 0: it is active
+        int emptyEdge =
+            0;  ///< cells along the edge of the node without density that the brick lies in; 0: it is active
     };
 
     [[gnu::always_inline]] Found at(const glm::ivec3& brick) {

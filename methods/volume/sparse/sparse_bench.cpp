@@ -28,7 +28,8 @@ void sparse(benchmark::State& state, Backend backend, Shown shown) {
     picture.upload(benchMoment(shown));
     draw::TestCanvas& canvas = raycast::benchCanvas(shown);
     const pictures::Image image = canvas.picture([&](const gpu::Layer& to) { picture.draw(canvas.view, to); });
-    verifyPicture(state, [&](std::size_t i) { return image.pixels[i].a; }, shown);
+    verifyPicture(
+        state, [&](std::size_t i) { return image.pixels[i].a; }, shown);
     gpu::Layer& layer = canvas.layer();
     for (auto _ : state) {
         picture.draw(canvas.view, layer);

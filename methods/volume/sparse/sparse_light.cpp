@@ -58,13 +58,15 @@ void requireLightFits(const SparseMoment& moment, int texelCells, bool onGpu) {
     constexpr int textureEdge = 2048;  // that every OpenGL 4.5 supports
     const glm::dvec3 texels(((moment.cells - 1) / texelCells + 1));
     if (const double count = texels.x * texels.y * texels.z; count > mostTexels)
-        throw InputError(fmt::format("storage=sparse: the box has {:.4g} blocks of shadow_cells={} for its light, allowed: "
-                                     "{:.4g}; larger shadow_cells give fewer",
-                                     count, texelCells, mostTexels));
+        throw InputError(
+            fmt::format("storage=sparse: the box has {:.4g} blocks of shadow_cells={} for its light, allowed: "
+                        "{:.4g}; larger shadow_cells give fewer",
+                        count, texelCells, mostTexels));
     if (const double edge = std::max({texels.x, texels.y, texels.z}); onGpu && edge > textureEdge)
-        throw InputError(fmt::format("storage=sparse: the box has {} blocks of shadow_cells={} along an axis for its light, "
-                                     "allowed by OpenGL: {}; larger shadow_cells give fewer",
-                                     edge, texelCells, textureEdge));
+        throw InputError(
+            fmt::format("storage=sparse: the box has {} blocks of shadow_cells={} along an axis for its light, "
+                        "allowed by OpenGL: {}; larger shadow_cells give fewer",
+                        edge, texelCells, textureEdge));
 }
 
 }  // namespace dustbench::volume

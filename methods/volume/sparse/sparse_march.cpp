@@ -148,17 +148,15 @@ class SparseProbe {
             if (within.x <= 5 && within.y <= 4 && within.z <= 4)
                 return raycast::CellWindow(values.first() + (within.x << 6 | within.y << 3 | within.z), 8, 64)
                     .sample(turned);
-            return raycast::CellWindow([&](int k, int j) {
-                       return values.row(within.x + k, within.y + j, within.z);
-                   }).sample(turned);
+            return raycast::CellWindow([&](int k, int j) { return values.row(within.x + k, within.y + j, within.z); })
+                .sample(turned);
         }
         // All corners of all lanes lie in eight bricks.
         if (most[0] + static_cast<float>(within.x) < 14.999f && most[1] + static_cast<float>(within.y) < 14.999f &&
             most[2] + static_cast<float>(within.z) < 14.999f) {
             values.moveTo(cell >> 3);
-            return lanewise(at, [&](int x, int y, int z) {
-                return values.at(within.x + x, within.y + y, within.z + z);
-            });
+            return lanewise(at,
+                            [&](int x, int y, int z) { return values.at(within.x + x, within.y + y, within.z + z); });
         }
         return lanewise(at, [&](int x, int y, int z) {
             const glm::ivec3 there = cell + glm::ivec3(x, y, z);
@@ -175,8 +173,7 @@ class SparseProbe {
         return raycast::betweenEight(share, [&](int corner) {
             Floats values;
             for (int lane = 0; lane < laneCount; ++lane)
-                values[lane] =
-                    value(i[lane] + (corner & 1), j[lane] + (corner >> 1 & 1), k[lane] + (corner >> 2));
+                values[lane] = value(i[lane] + (corner & 1), j[lane] + (corner >> 1 & 1), k[lane] + (corner >> 2));
             return values;
         });
     }
@@ -191,7 +188,8 @@ class SparseProbe {
 
 }  // namespace
 
-SparseMarch::SparseMarch(const raycast::RaycastSettings& settings) : settings_(settings), fire_(settings.fire.table()) {}
+SparseMarch::SparseMarch(const raycast::RaycastSettings& settings)
+    : settings_(settings), fire_(settings.fire.table()) {}
 
 void SparseMarch::set(const SparseMoment& moment, const raycast::LightVolume* light) {
     moment_ = &moment;

@@ -15,8 +15,8 @@ void requireSparse(const raycast::RaycastSettings& settings) {
                          " with storage=sparse, allowed: linear");
 }
 
-SparsePicture::SparsePicture(gpu::Device& device, const raycast::RaycastSettings& settings,
-                             const scene::Lights& lights, MemoryLedger& ledger)
+SparsePicture::SparsePicture(gpu::Device& device, const raycast::RaycastSettings& settings, const scene::Lights& lights,
+                             MemoryLedger& ledger)
     : settings_(settings),
       reflected_(raycast::cloudColour(settings.smokeColour, lights, settings.asymmetry)),
       fire_(settings.fire.table()),
@@ -35,9 +35,8 @@ void SparsePicture::upload(const SparseMoment& moment) {
     if (moment.density.empty()) return;
     if (light_) {
         requireLightFits(moment, settings_.shadowCells, onGpu_.has_value());
-        light_->set(moment.place(), [&](std::span<float> averages) {
-            meanDensities(moment, fire_, settings_.shadowCells, averages);
-        });
+        light_->set(moment.place(),
+                    [&](std::span<float> averages) { meanDensities(moment, fire_, settings_.shadowCells, averages); });
     }
     const raycast::LightVolume* const light = light_ ? &*light_ : nullptr;
     if (onGpu_)

@@ -1,7 +1,7 @@
 // Draws a sparse volume by ray casting, on the CPU or by OpenGL: what GridRaycast is for a dense one.
 //
-// Units: metres, extinction per metre. Frame: world. Colours: linear RGB. Threads: the OpenGL thread; the CPU march runs
-// in parallel.
+// Units: metres, extinction per metre. Frame: world. Colours: linear RGB. Threads: the OpenGL thread; the CPU march
+// runs in parallel.
 #pragma once
 
 #include <optional>

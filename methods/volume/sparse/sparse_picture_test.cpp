@@ -29,7 +29,8 @@ TestGrid blobs(std::mt19937& random, const glm::ivec3& cells, bool burning) {
     };
     std::vector<Blob> all;
     for (int i = 0; i < 9; ++i)
-        all.push_back({glm::dvec3(share(random), share(random), share(random)) * glm::dvec3(cells), 1 + 4 * share(random)});
+        all.push_back(
+            {glm::dvec3(share(random), share(random), share(random)) * glm::dvec3(cells), 1 + 4 * share(random)});
     // A single cell, which eight samples around it see.
     all.push_back({glm::floor(glm::dvec3(cells) * glm::dvec3(share(random), share(random), share(random))) + 0.5, 0.4});
     TestGrid grid(cells, 0.1, glm::dvec3(cells) * -0.05, [](const glm::dvec3&) { return 0.0; });
@@ -45,7 +46,8 @@ TestGrid blobs(std::mt19937& random, const glm::ivec3& cells, bool burning) {
 
 class SparsePictureOn : public testing::TestWithParam<Backend> {
  protected:
-    pictures::Image sparse(Canvas& canvas, const TestGrid& grid, const glm::ivec3& firstCell, RaycastSettings settings) {
+    pictures::Image sparse(Canvas& canvas, const TestGrid& grid, const glm::ivec3& firstCell,
+                           RaycastSettings settings) {
         settings.backend = GetParam();
         MemoryLedger ledger;
         SparseMoment moment(ledger, "test");
@@ -106,16 +108,15 @@ TEST_P(SparsePictureOn, EqualsThePlainMarch) {
         const glm::dvec3 forward = glm::normalize(-eye);
         canvas.lookFrom(eye, forward);
         const pictures::Image image = sparse(canvas, grid, {-17, 3, -9}, settings);
-        const raycast::PlainVolume volume{grid.shown(), settings,
-                                          raycast::cloudColour(settings.smokeColour, canvas.lights), {}};
+        const raycast::PlainVolume volume{
+            grid.shown(), settings, raycast::cloudColour(settings.smokeColour, canvas.lights), {}};
         const double spacing = grid.spacingMetres;
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
                 const glm::dvec3 along = glm::normalize(glm::dvec3(canvas.view.rayDirection(x + 0.5, y + 0.5)));
-                const glm::dvec4 plain =
-                    plainMarch(volume, {(eye - grid.originMetres) / spacing, along,
-                                        canvas.wallAt(x) / glm::dot(along, forward) / spacing,
-                                        raycast::plainJitter(x, image.height - 1 - y)});
+                const glm::dvec4 plain = plainMarch(volume, {(eye - grid.originMetres) / spacing, along,
+                                                             canvas.wallAt(x) / glm::dot(along, forward) / spacing,
+                                                             raycast::plainJitter(x, image.height - 1 - y)});
                 for (int channel = 0; channel < 4; ++channel)
                     ASSERT_NEAR(image.at(x, y)[channel], plain[channel], 3e-5) << x << ',' << y;
             }
@@ -183,9 +184,10 @@ TEST(SparsePicture, RefusesWhatItDoesNotShow) {
     EXPECT_EQ(inputError([&] { requireSparse(cubic); }),
               "parameter filter: got cubic with storage=sparse, allowed: linear");
     EXPECT_NO_THROW(requireTreesFit(128'000'000, 128'000'000));
-    EXPECT_EQ(inputError([] { requireTreesFit(128'100'000, 128'000'000); }),
-              "storage=sparse: the volume takes 128.1 MB on the GPU, allowed: 128.0 MB, the largest storage buffer of this "
-              "OpenGL; backend=cpu has no such limit");
+    EXPECT_EQ(
+        inputError([] { requireTreesFit(128'100'000, 128'000'000); }),
+        "storage=sparse: the volume takes 128.1 MB on the GPU, allowed: 128.0 MB, the largest storage buffer of this "
+        "OpenGL; backend=cpu has no such limit");
 }
 
 TEST(SparsePicture, RefusesLightInTooManyBlocks) {

@@ -92,7 +92,8 @@ void SparseSeries::readTemperatures(const std::vector<volumes::GridPlace>& place
     }
 }
 
-SparseSeries::Sources SparseSeries::join(const NanoTree& before, const NanoTree& after, const std::vector<TreeBrick>& others, NanoTree& joined) const {
+SparseSeries::Sources SparseSeries::join(const NanoTree& before, const NanoTree& after,
+                                         const std::vector<TreeBrick>& others, NanoTree& joined) const {
     std::vector<TreeBrick> bricks = before.bricks();
     std::unordered_map<std::uint64_t, std::size_t> places;
     places.reserve(2 * bricks.size());
@@ -154,8 +155,8 @@ const SparseMoment& SparseSeries::at(double seconds) {
                         const auto [before, after] = sources[leaf];
                         float* const to = tree.valuesOf(leaf);
                         for (int i = 0; i < brickCells; ++i)
-                            to[i] = shown((before ? (1 - now.share) * before[i] : 0) +
-                                          (after ? now.share * after[i] : 0));
+                            to[i] =
+                                shown((before ? (1 - now.share) * before[i] : 0) + (after ? now.share * after[i] : 0));
                     }
                 });
             };

@@ -148,7 +148,8 @@ std::string farApart(const TestFolder& folder, double& sum) {
     for (const openvdb::Coord& middle : {openvdb::Coord(-5, 3, -40), openvdb::Coord(475, 483, 1260)})
         for (int i = 0; i < 17 * 17 * 17; ++i) {
             const glm::ivec3 from(i % 17 - 8, i / 17 % 17 - 8, i / 289 - 8);
-            const auto density = static_cast<float>(8 - std::sqrt(static_cast<double>(glm::dot(glm::dvec3(from), glm::dvec3(from)))));
+            const auto density =
+                static_cast<float>(8 - std::sqrt(static_cast<double>(glm::dot(glm::dvec3(from), glm::dvec3(from)))));
             if (!(density > 0)) continue;
             grid->getAccessor().setValue(middle.offsetBy(from.x, from.y, from.z), density);
             sum += static_cast<double>(density);

@@ -1,7 +1,6 @@
-// Reads mutants of OpenVDB's and NanoVDB's files as readVectors(), readVolume(), readVdbPoints() and a sparse volume do. The
-// program
-// dustbench_vdb_reader is replaced by a fork of this process, in which OpenVDB is loaded already and which reads file
-// after file, until one ends it.
+// Reads mutants of OpenVDB's and NanoVDB's files as readVectors(), readVolume(), readVdbPoints() and a sparse volume
+// do. The program dustbench_vdb_reader is replaced by a fork of this process, in which OpenVDB is loaded already and
+// which reads file after file, until one ends it.
 //
 //     vdb_mutants SEED CASES FOLDER
 //

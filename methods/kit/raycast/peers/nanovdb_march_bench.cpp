@@ -81,7 +81,8 @@ void nanoVdb(benchmark::State& state, Shown shown) {
     marchAll();
     // Pictures that are read back begin with the top row.
     const auto width = static_cast<std::size_t>(view.width), last = static_cast<std::size_t>(view.height) - 1;
-    verifyPicture(state, [&](std::size_t i) { return alphas[(last - i / width) * width + i % width]; }, shown);
+    verifyPicture(
+        state, [&](std::size_t i) { return alphas[(last - i / width) * width + i % width]; }, shown);
     for (auto _ : state) marchAll();
 }
 
