@@ -225,7 +225,8 @@ std::vector<TreeBrick> NanoTree::bricks() const {
     for (std::size_t i = 0; i < leaves_.size(); ++i) {
         TreeBrick& brick = bricks.emplace_back(TreeBrick{leaves_[i], true, {}, i});
         const auto* const leaf = reinterpret_cast<const Leaf*>(bytes_.data() + leafOffset_ + i * sizeof(Leaf));
-        std::memcpy(brick.active.data(), &leaf->mValueMask, sizeof brick.active);
+        for (int x = 0; x < brickEdge; ++x)
+            brick.active[static_cast<std::size_t>(x)] = leaf->mValueMask.getWord<std::uint64_t>(x);
     }
     for (const glm::ivec3& tile : tiles_) bricks.emplace_back(TreeBrick{tile, false, {}, 0}).active.fill(~0ull);
     return bricks;

@@ -28,6 +28,7 @@ TestGrid blobs(std::mt19937& random, const glm::ivec3& cells, bool burning) {
         double radius;
     };
     std::vector<Blob> all;
+    all.reserve(10);
     for (int i = 0; i < 9; ++i)
         all.push_back(
             {glm::dvec3(share(random), share(random), share(random)) * glm::dvec3(cells), 1 + 4 * share(random)});
