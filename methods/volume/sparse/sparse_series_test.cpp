@@ -10,10 +10,12 @@
 #include <cmath>
 #include <random>
 
+#include "methods/kit/draw/test_canvas.h"
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/testing/test_input_error.h"
 #include "methods/kit/volumes/volume_series.h"
 #include "methods/volume/sparse/nano_walk.h"
+#include "methods/volume/sparse/sparse_storage.h"
 
 namespace dustbench::volume {
 namespace {
@@ -170,6 +172,38 @@ TEST(SparseSeries, HoldsWhatADenseOneCannot) {
     EXPECT_DOUBLE_EQ(moment.density.sum(), sum);
     // A box of floats would take 1.2 GB.
     EXPECT_LT(ledger.totalBytes(), 3'000'000u);
+}
+
+struct Nobody final : VolumeVisitor {
+    void puffs(const Puffs&) override {}
+    void octree(const OctreeVolume&) override {}
+    void grid(const GridVolume&) override {}
+};
+
+TEST(SparseStorage, ShowsWhatADenseOneCannotHoldButDoesNotHandOverItsBox) {
+    const TestFolder folder;
+    double sum = 0;
+    VolumeSettings settings;
+    settings.setup = setupOf(farApart(folder, sum), false);
+    settings.picture.extinctionPerMetre = 0.5;
+    for (const raycast::Backend backend : {raycast::Backend::cpu, raycast::Backend::gl}) {
+        settings.picture.backend = backend;
+        // Through both balls, and 1,200 empty cells between them.
+        draw::TestCanvas canvas(32, 24, {-20, -12, -80}, {480, 480, 1300});
+        canvas.view.camera.verticalFieldOfView = 0.5;
+        SparseStorage storage(settings, {}, draw::TestCanvas::device());
+        storage.show(0, StageClock());
+        const pictures::Image image = canvas.picture([&](gpu::Layer& layer) { storage.draw(canvas.view, layer); });
+        float most = 0;
+        for (const glm::vec4& pixel : image.pixels) most = std::max(most, pixel.a);
+        EXPECT_GT(most, 0.9f);
+        EXPECT_NEAR(storage.massSquareMetres(), 0.5 * sum, 1e-9 * sum);
+        Nobody nobody;
+        EXPECT_THAT(
+            inputError([&] { storage.handOver(0, nobody); }),
+            HasSubstr("the whole box of the volume has 3.222e+08 cells, allowed where all of them are handed over: "
+                      "2.56e+08 (limit of volumes)"));
+    }
 }
 
 TEST(SparseSeries, RefusesWhatADenseOneRefuses) {
