@@ -2,46 +2,38 @@
 //
 // Frame 0 shows the first moment, which preroll and warm-up hold. Between two moments density and temperature change
 // evenly; the last one stays, which makes a run invalid. Temperature, if there is a transfer function for it, is shown
-// as fire.
+// as fire. It is kept as one box of cells, or sparse.
 #pragma once
 
-#include <optional>
-#include <vector>
+#include <memory>
 
-#include "methods/contract/method.h"
-#include "methods/kit/raycast/grid_raycast.h"
-#include "methods/kit/volumes/volume_series.h"
+#include "methods/volume/storage.h"
 
 namespace dustbench::volume {
 
-struct VolumeSettings {
-    volumes::VolumeSetup setup;
-    raycast::RaycastSettings picture;
+/// What of a volume is in memory.
+enum class Keeps {
+    dense,   ///< every cell of the box around its density
+    sparse,  ///< bricks with density alone
 };
+inline constexpr Choices<Keeps> keepings{{"dense", Keeps::dense}, {"sparse", Keeps::sparse}};
 
 class Volume final : public Method {
  public:
-    explicit Volume(VolumeSettings settings) : settings_(std::move(settings)) {}
+    Volume(VolumeSettings settings, Keeps keeps) : settings_(std::move(settings)), keeps_(keeps) {}
 
     void prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) override;
     void update(const Frame& frame) override;
     void draw(const Frame& frame, gpu::Layer& layer) override;
     void volume(const Frame& frame, VolumeVisitor& visitor) const override;
     void report(const Frame& frame, Facts& facts) const override;
-    [[nodiscard]] MemoryReport memory() const override;
-    [[nodiscard]] std::int64_t primitives() const override { return picture_ ? picture_->primitives() : 0; }
+    [[nodiscard]] MemoryReport memory() const override { return storage_ ? storage_->memory() : MemoryReport(); }
+    [[nodiscard]] std::int64_t primitives() const override { return storage_ ? storage_->primitives() : 0; }
 
  private:
-    /// Freshness of fire by temperature; empty without fire.
-    [[nodiscard]] std::span<const float> reactionOf(const volumes::VolumeGrid& grid);
-
     VolumeSettings settings_;
-    std::optional<volumes::VolumeSeries> series_;
-    volumes::VolumeGrid between_;                 ///< what is shown between two moments
-    const volumes::VolumeGrid* shown_ = nullptr;  ///< a moment, or `between_`
-    std::vector<float> reaction_;
-    MemoryLedger ledger_;
-    std::optional<raycast::GridRaycast> picture_;
+    Keeps keeps_;
+    std::unique_ptr<Storage> storage_;
 };
 
 /// What the method declares; the registry asks for it.

@@ -112,6 +112,108 @@ TEST_F(ShownVolume, EqualsTheClosedFormOfAPuffByEveryRenderer) {
     }
 }
 
+double difference(const pictures::Image& a, const pictures::Image& b) {
+    double maximum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        for (int channel = 0; channel < 4; ++channel)
+            maximum = std::max(maximum, static_cast<double>(std::abs(a.pixels[i][channel] - b.pixels[i][channel])));
+    return maximum;
+}
+
+/// Temperatures of 20³ cells, hot on one side; and what shows them as fire.
+std::string hotFile(const TestFolder& folder) {
+    std::string hot = "<DataArray type=\"Float32\" Name=\"temperature\" format=\"ascii\">";
+    for (int i = 0; i < 20 * 20 * 20; ++i) hot += i % 20 < 10 ? "300 " : std::to_string(900 + i % 600) + " ";
+    (void)puffFile(folder, "fire.vti", 20, 1, hot + "</DataArray>");
+    folder.write("flame.toml",
+                 "[[row]]\nreaction = 0.0\nemission = [0, 0, 0]\n[[row]]\nreaction = 1.0\nemission = [9, 3, 0]\n");
+    return folder
+        .write("v.toml",
+               "files = \"fire.vti\"\n[look]\nalbedo = [0.2, 0.3, 0]\nfire = \"flame.toml\"\ncold = 300\nhot = 1500\n"
+               "shadow_cells = 3\n")
+        .string();
+}
+
+TEST_F(ShownVolume, IsTheSameSparseAndDense) {
+    // A puff touches the faces of its box; an odd number of cells is no whole number of bricks.
+    moment_.setWall(6.2, 32);
+    const std::string hot = hotFile(folder_);
+    (void)puffFile(folder_, "a.vti", 27, 1);
+    (void)puffFile(folder_, "b.vti", 27, 3);
+    const auto series =
+        folder_.write("s.series", R"({"files": [{"name": "a.vti", "time": 7}, {"name": "b.vti", "time": 8}]})");
+    for (const std::string& file : {std::string("cloud"), puffFile(folder_, "puff.vti", 27), hot, series.string()})
+        for (const char* backend : {"cpu", "gl"}) {
+            const auto dense = made(file, {{"backend", backend}}),
+                       sparse = made(file, {{"backend", backend}, {"storage", "sparse"}});
+            for (const std::int64_t frame : {0, 15, 45, 90}) {
+                const pictures::Image expected = pictureOf(*dense, frame);
+                EXPECT_LT(difference(pictureOf(*sparse, frame), expected), 1e-5) << file << ' ' << backend << frame;
+                const double mass = real(*dense, "volume_mass", frame);
+                EXPECT_NEAR(real(*sparse, "volume_mass", frame), mass, 1e-6 * mass);
+                EXPECT_EQ(real(*sparse, "volume_held", frame), real(*dense, "volume_held", frame));
+                EXPECT_EQ(sparse->primitives() > 0, dense->primitives() > 0);
+            }
+        }
+}
+
+/// Keeps a grid that is handed over.
+struct Kept final : VolumeVisitor {
+    void puffs(const Puffs&) override {}
+    void octree(const OctreeVolume&) override {}
+    void grid(const GridVolume& volume) override {
+        place = volume;
+        extinction.assign(volume.extinctionPerMetre.begin(), volume.extinctionPerMetre.end());
+    }
+    GridVolume place{};
+    std::vector<float> extinction;
+};
+
+TEST_F(ShownVolume, IsHandedOverTheSameSparseAndDense) {
+    Kept kept[2];
+    for (const bool sparse : {false, true}) {
+        const auto method = made("cloud", {{"storage", sparse ? "sparse" : "dense"}, {"extinction", "3"}});
+        (void)pictureOf(*method);
+        method->volume(moment_.frame(), kept[sparse ? 1 : 0]);
+    }
+    EXPECT_EQ(kept[0].place.cells, kept[1].place.cells);
+    EXPECT_EQ(kept[0].place.originMetres, kept[1].place.originMetres);
+    EXPECT_EQ(kept[0].place.spacingMetres, kept[1].place.spacingMetres);
+    EXPECT_EQ(kept[0].extinction, kept[1].extinction);
+}
+
+TEST_F(ShownVolume, SparseTakesLessMemoryWhereMostOfTheBoxIsEmpty) {
+    std::string values;
+    for (int i = 0; i < 64 * 64 * 64; ++i) values += i == 777 || i == 64 * 64 * 64 - 5 ? "1 " : "0 ";
+    const std::string file =
+        folder_
+            .write("two.vti",
+                   "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\"><ImageData "
+                   "WholeExtent=\"0 64 0 64 0 64\" Origin=\"-1 -1 -1\" Spacing=\"0.03 0.03 0.03\"><Piece "
+                   "Extent=\"0 64 0 64 0 64\"><CellData><DataArray type=\"Float32\" Name=\"density\" "
+                   "format=\"ascii\">" +
+                       values + "</DataArray></CellData></Piece></ImageData></VTKFile>")
+            .string();
+    const auto bytes = [&](const char* storage, const char* backend) {
+        const auto method = made(file, {{"storage", storage}, {"backend", backend}});
+        (void)pictureOf(*method);
+        std::size_t sum = 0;
+        for (const auto& entry : method->memory()) sum += entry.cpuBytes + entry.gpuBytes;
+        return sum;
+    };
+    for (const char* backend : {"cpu", "gl"})
+        EXPECT_LT(2 * bytes("sparse", backend), bytes("dense", backend)) << backend;
+}
+
+TEST_F(ShownVolume, SparseRefusesOtherRenderersAndFiltersWhenItIsMade) {
+    for (const auto& [name, value] : {std::pair("renderer", "slices"), std::pair("renderer", "splat"),
+                                      std::pair("renderer", "isosurface"), std::pair("filter", "cubic")})
+        EXPECT_THAT(inputError([&] {
+                        (void)made("cloud", {{"storage", "sparse"}, {name, value}});
+                    }),
+                    HasSubstr(fmt::format("parameter {}: got {} with storage=sparse, allowed: ", name, value)));
+}
+
 TEST_F(ShownVolume, ErrsByTheSquareOfTheCellsEdge) {
     const auto error = [&](int cells) {
         return worst(

@@ -228,8 +228,19 @@ TEST(Fuzz, Volumes) {
         read);
 }
 
+/// Who keeps no whole box gets as many numbers as there are cells, or the file is refused.
+struct CellCount final : volumes::VolumeSink {
+    void begin(const volumes::GridPlace& place) override { expected = place.cellCount(); }
+    bool beginField(std::string_view field) override { return field == "density"; }
+    void take(std::span<const float> numbers) override { got += numbers.size(); }
+    std::size_t expected = 0, got = 0;
+};
+
 void readDensity(const fs::path& file) {
     (void)volumes::readVolume(file, {});
+    CellCount count;
+    volumes::streamVolume(file, {}, count);
+    EXPECT_EQ(count.got, count.expected);
 }
 
 TEST(Fuzz, Densities) {

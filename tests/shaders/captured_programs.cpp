@@ -1,13 +1,18 @@
 #include "tests/shaders/captured_programs.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -239,6 +244,32 @@ void drawGrids(gpu::Device& device) {
             }
 }
 
+/// Smoke, and smoke with fire, that is kept sparse and so large that every camera is in it.
+void drawSparse(Stages& stages) {
+    const auto info = std::ranges::find(methods(), "volume", &MethodInfo::id);
+    if (info == methods().end()) return;
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("dustbench-sparse-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    const auto field = [](const std::string& name) {
+        return "<DataArray type=\"Float32\" Name=\"" + name + "\" format=\"ascii\">1 1 1 1 1 1 1 1</DataArray>";
+    };
+    std::ofstream(folder / "fire.vti")
+        << "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\"><ImageData WholeExtent=\"0 2 0 2 0 "
+           "2\" "
+           "Origin=\"-500 -500 -500\" Spacing=\"500 500 500\"><Piece Extent=\"0 2 0 2 0 2\"><CellData>"
+        << field("density") << field("temperature") << "</CellData></Piece></ImageData></VTKFile>";
+    std::ofstream(folder / "flame.toml") << "[[row]]\nreaction = 0.0\nemission = [0, 0, 0]\n[[row]]\nreaction = 1.0\n"
+                                            "emission = [9, 3, 0]\n";
+    std::ofstream(folder / "fire.toml")
+        << "files = \"fire.vti\"\n[look]\nfire = \"flame.toml\"\ncold = 0.0\nhot = 1.0\n";
+    const std::array<std::string, 3> parameters{"shadow_cells", "skip_empty", "jitter"};
+    for (const char* file : {"fire.vti", "fire.toml"})
+        forEachCombination(*info, {{"volume", (folder / file).string()}, {"storage", "sparse"}, {"backend", "gl"}},
+                           parameters, [&](const Values& values) { stages.show(*info, values); });
+    std::filesystem::remove_all(folder);
+}
+
 void drawEverything(gpu::Device& device) {
     (void)gpu::timerQueriesAreTrue(device);
     const bench::SplitView twoPictures(device);
@@ -250,6 +281,7 @@ void drawEverything(gpu::Device& device) {
         for (const Parameter& parameter : info.parameters.all())
             for (const std::string& value : valuesOf(parameter)) stages.show(info, {{parameter.name, value}});
     }
+    drawSparse(stages);
     for (const Product& product : products) {
         const auto info = std::ranges::find(methods(), product.method, &MethodInfo::id);
         if (info == methods().end()) continue;

@@ -22,6 +22,11 @@ inline constexpr int imageEdge = 16'384;
 inline constexpr std::uintmax_t imageBytes = std::uintmax_t{1} << 30;
 /// Cells of a volume.
 inline constexpr std::int64_t volumeCells = 256'000'000;
+/// A volume that is kept sparse: cells of the box around its density, which no file need hold, cells along an edge of
+/// it, and bricks of 8 x 8 x 8 cells of one moment, 2 GB of floats.
+inline constexpr std::int64_t sparseVolumeCells = 2'000'000'000;
+inline constexpr int sparseVolumeEdge = 65'536;
+inline constexpr std::int64_t volumeBricks = 1'000'000;
 /// Cells of the box around the vectors of a `.vdb`, whose file need not hold them: 1 GB of vectors.
 inline constexpr std::int64_t sparseCells = 89'000'000;
 /// Particles of one moment of dust from a file, and bytes of all its moments, or a volume's, in memory: 4 GB.

@@ -57,6 +57,12 @@ class CellWindow {
         for (int k = 0; k < 3; ++k, from += slab) slabs_[k] = joined(from, from + row, from + 2 * row, from + 3 * row);
     }
 
+    /// `rowAt(k, j)`: the four cells of row j of slab k.
+    template <typename RowAt>
+    [[gnu::always_inline]] explicit CellWindow(const RowAt& rowAt) {
+        for (int k = 0; k < 3; ++k) slabs_[k] = joined(rowAt(k, 0), rowAt(k, 1), rowAt(k, 2), rowAt(k, 3));
+    }
+
     /// Positions relative to the middle of the first cell: less than (3, 3, 2).
     [[gnu::always_inline]] [[nodiscard]] Floats sample(const Places& at) const {
         const Ints i = wholePart(at.x), j = wholePart(at.y), k = wholePart(at.z);
@@ -70,8 +76,11 @@ class CellWindow {
 
  private:
     [[gnu::always_inline]] static Floats joined(const float* a, const float* b, const float* c, const float* d) {
-        const auto low = __builtin_shufflevector(lanes::load<Four>(a), lanes::load<Four>(b), 0, 1, 2, 3, 4, 5, 6, 7);
-        const auto high = __builtin_shufflevector(lanes::load<Four>(c), lanes::load<Four>(d), 0, 1, 2, 3, 4, 5, 6, 7);
+        return joined(lanes::load<Four>(a), lanes::load<Four>(b), lanes::load<Four>(c), lanes::load<Four>(d));
+    }
+    [[gnu::always_inline]] static Floats joined(const Four& a, const Four& b, const Four& c, const Four& d) {
+        const auto low = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+        const auto high = __builtin_shufflevector(c, d, 0, 1, 2, 3, 4, 5, 6, 7);
         return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     }
 
@@ -83,6 +92,8 @@ class CellWindow {
  public:
     static constexpr bool useful = false;
     CellWindow(const float*, std::ptrdiff_t, std::ptrdiff_t) {}
+    template <typename RowAt>
+    explicit CellWindow(const RowAt&) {}
     [[nodiscard]] static Floats sample(const Places&) { return Floats{}; }
 };
 #endif

@@ -6,8 +6,11 @@
 // cut to the part within the grid and before the scene. Each step is sampled in its middle.
 // Source: Senger2009, ch. 4. Departs: computes entry, length and cuts per pixel instead of drawing them first.
 layout(binding = 0) uniform sampler2D sceneDepth;
+// SPARSE: whoever defines it (grid_optics.glsl) defines stepsClear() as well, which then is the way to skip.
 #ifdef SKIP
+#ifndef SPARSE
 layout(binding = 2) uniform sampler3D bricks;  // 0: empty
+#endif
 uniform vec3 minimum, maximum;  // [minimum, maximum) contains all density
 #endif
 
@@ -53,7 +56,7 @@ vec2 within(vec3 low, vec3 high, vec3 perRay) {
     return vec2(max(max(enters.x, enters.y), max(enters.z, 0.0)), min(min(leaves.x, leaves.y), leaves.z));
 }
 
-#ifdef SKIP
+#if defined(SKIP) && !defined(SPARSE)
 // Distance that a ray travels through empty bricks, at most `length`.
 float clearAhead(vec3 start, vec3 ray, float length) {
     vec3 perRay = 1.0 / ray;
@@ -92,9 +95,11 @@ void main() {
     vec2 filled = within(minimum, maximum, perRay);
     float enter = filled.x, last = min(filled.y, end);
     if (enter >= last) return;
+#ifndef SPARSE
     enter += clearAhead(eye + enter * ray, ray, last - enter);
     if (enter >= last) return;
     last -= clearAhead(eye + last * ray, -ray, last - enter);
+#endif
 #else
     float enter = box.x, last = end;
 #endif
@@ -110,6 +115,16 @@ void main() {
         from = to;
         k += 1.0;
         next = k * stepLength + shift;
+#if defined(SKIP) && defined(SPARSE)
+        // Whole steps, so that those beyond are where they would be without it.
+        int clear = stepsClear(eye + from * ray, ray, stepLength);
+        if (clear > 0) {
+            steps -= clear;
+            k += float(clear);
+            next = k * stepLength + shift;
+            from = (k - 1.0) * stepLength + shift;
+        }
+#endif
     }
     float alpha = 1.0 - exp(-depth);
 #ifdef COLOURED

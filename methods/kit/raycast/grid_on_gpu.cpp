@@ -2,89 +2,34 @@
 
 namespace dustbench::raycast {
 
-void fitTexture(gpu::Texture& texture, gpu::Device& device, const char* label, gpu::Format format,
-                const glm::ivec3& size, gpu::Filter filter) {
-    if (texture.bytes() > 0 && glm::ivec3(texture.width(), texture.height(), texture.depth()) == size) return;
-    texture = gpu::Texture::make3D(device, label, format, size.x, size.y, size.z, filter);
-}
-
-gpu::Texture makeFireTable(gpu::Device& device, const RaycastSettings& settings) {
-    const std::vector<glm::vec4> table = settings.fire.table();
-    gpu::Texture texture = gpu::Texture::make2D(device, "ray cast transfer function", gpu::Format::rgba32F,
-                                                TransferFunction::texels, 1, gpu::Filter::linear);
-    texture.write(std::span<const float>(&table.data()->x, 4 * table.size()));
-    return texture;
-}
-
-std::map<std::string, std::string> fireDefinitions() {
-    return {{"FIRE", ""}, {"FIRE_TEXELS", std::to_string(TransferFunction::texels)}};
-}
-
-void dispatchForTexels(const gpu::Program& program, const glm::ivec3& texels) {
-    const glm::ivec3 groups = (texels + 3) / 4;
-    program.dispatch(groups.x, groups.y, groups.z);
-}
-
-void GridOnGpu::takePlace(const glm::ivec3& cells, double spacingMetres, bool burning) {
-    cells_ = cells;
-    extinctionPerCell_ = static_cast<float>(settings_.extinctionPerMetre * spacingMetres);
-    burning_ = burning;
-    takenDensity_ = takenReaction_ = takenLight_ = nullptr;
-    if (burning_ && fire_.bytes() == 0) fire_ = makeFireTable(device_, settings_);
-}
-
 void GridOnGpu::upload(const ShownGrid& grid, const LightVolume* light) {
-    takePlace(grid.cells, grid.spacingMetres, !grid.reaction.empty());
+    const bool burning = !grid.reaction.empty();
+    optics_.set(grid.spacingMetres, burning, light);
+    cells_ = grid.cells;
+    takenDensity_ = takenReaction_ = nullptr;
     fitTexture(density_, device_, "ray cast density", gpu::Format::r32F, cells_, gpu::Filter::linear);
     density_.write(grid.density);
-    if (light) {
-        fitTexture(light_, device_, "ray cast light", gpu::Format::r32F, light->texels(), gpu::Filter::linear);
-        light_.write(light->values());
-        lightCells_ = light->texels() * light->texelCells();
-    }
-    if (!burning_) return;
+    if (!burning) return;
     fitTexture(reaction_, device_, "ray cast reaction", gpu::Format::r32F, cells_, gpu::Filter::linear);
     reaction_.write(grid.reaction);
 }
 
 void GridOnGpu::take(const ShownTextures& grid, const LightOnGpu* light) {
-    takePlace(grid.cells, grid.spacingMetres, grid.reaction != nullptr);
+    optics_.take(grid.spacingMetres, grid.reaction != nullptr, light);
+    cells_ = grid.cells;
     takenDensity_ = grid.density;
     takenReaction_ = grid.reaction;
-    if (!light) return;
-    takenLight_ = &light->texture();
-    lightCells_ = light->cells();
-}
-
-std::map<std::string, std::string> GridOnGpu::definitions() const {
-    std::map<std::string, std::string> definitions;
-    if (burning_) definitions = fireDefinitions();
-    if (settings_.shadowCells > 0) definitions["SHADOW"] = "";
-    if (settings_.filter == Filter::cubic) definitions["CUBIC"] = "";
-    return definitions;
 }
 
 void GridOnGpu::bind(gpu::Program& program, const Reflected& reflected, float thickness) const {
+    optics_.bind(program, reflected, thickness);
     program.set("cells", glm::vec3(cells_));
-    program.set("extinction", extinctionPerCell_ * thickness);
     (takenDensity_ ? *takenDensity_ : density_).bind(1);
-    if (settings_.shadowCells > 0) {
-        program.set("reflectedSky", reflected.ambient);
-        program.set("reflectedSun", reflected.sun);
-        program.set("toSun", reflected.toSun);
-        program.set("asymmetry", reflected.asymmetry);
-        program.set("lightCells", glm::vec3(lightCells_));
-        (takenLight_ ? *takenLight_ : light_).bind(5);
-    } else {
-        program.set("reflected", reflected.all());
-    }
-    if (!burning_) return;
-    (takenReaction_ ? *takenReaction_ : reaction_).bind(3);
-    fire_.bind(4);
+    if (burning()) (takenReaction_ ? *takenReaction_ : reaction_).bind(3);
 }
 
 std::size_t GridOnGpu::gpuBytes() const {
-    return density_.bytes() + reaction_.bytes() + fire_.bytes() + light_.bytes();
+    return density_.bytes() + reaction_.bytes() + optics_.gpuBytes();
 }
 
 }  // namespace dustbench::raycast

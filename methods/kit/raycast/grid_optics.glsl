@@ -1,9 +1,14 @@
 // Optical properties of a grid of cells: density, light and fire at any position.
 //
 // Lengths are in cells; positions are relative to the grid's minimum corner.
+// SPARSE: the densities are elsewhere, and whoever defines it defines densityAt() and reactionAt() before this.
+#ifndef SPARSE
 layout(binding = 1) uniform sampler3D density;
+#endif
 #ifdef FIRE
+#ifndef SPARSE
 layout(binding = 3) uniform sampler3D reaction;
+#endif
 layout(binding = 4) uniform sampler2D fire;  // emission and extinction factor by reaction
 #endif
 #ifdef SHADOW
@@ -25,10 +30,14 @@ uniform vec3 reflected;  // light reflected by a thick cloud
 #define COLOURED
 #endif
 
+#ifndef SPARSE
 uniform vec3 cells;
+#endif
 uniform float extinction;  // of a density of 1, per cell
 
-#ifdef CUBIC
+#ifdef SPARSE
+// Nothing: see above.
+#elif defined(CUBIC)
 // Evaluates a cubic B-spline with eight linear samples instead of 64 cells, by merging the weights along each axis
 // into two pairs. Source: Sigg2005.
 float sampled(sampler3D field, vec3 at) {
@@ -53,6 +62,17 @@ float sampled(sampler3D field, vec3 at) {
 }
 #endif
 
+#ifndef SPARSE
+float densityAt(vec3 at) {
+    return sampled(density, at);
+}
+#ifdef FIRE
+float reactionAt(vec3 at) {
+    return sampled(reaction, at);
+}
+#endif
+#endif
+
 // Returns the extinction per cell; `source` receives the colour that smoke and fire show on a ray with this phase.
 float extinctionAt(vec3 at, float phase, out vec3 source) {
 #ifdef SHADOW
@@ -60,9 +80,9 @@ float extinctionAt(vec3 at, float phase, out vec3 source) {
 #else
     source = reflected;
 #endif
-    float found = sampled(density, at) * extinction;
+    float found = densityAt(at) * extinction;
 #ifdef FIRE
-    vec4 burning = texture(fire, vec2((sampled(reaction, at) * (FIRE_TEXELS - 1.0) + 0.5) / FIRE_TEXELS, 0.5));
+    vec4 burning = texture(fire, vec2((reactionAt(at) * (FIRE_TEXELS - 1.0) + 0.5) / FIRE_TEXELS, 0.5));
     found *= burning.a;
     source += burning.rgb;
 #endif

@@ -24,11 +24,17 @@ LightVolume::LightVolume(const RaycastSettings& settings, const glm::vec3& toSun
       light_(ledger.account("ray cast light")) {}
 
 void LightVolume::set(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving) {
-    const glm::ivec3 texels = (grid.cells + texelCells_ - 1) / texelCells_;
+    set(
+        grid, [&](std::span<float>) { average(grid, texelsOf(grid.cells)); }, arriving);
+}
+
+void LightVolume::set(const ShownGrid& grid, const std::function<void(std::span<float>)>& average,
+                      const std::function<float(const glm::dvec3&)>& arriving) {
+    const glm::ivec3 texels = texelsOf(grid.cells);
     const auto rows = static_cast<std::size_t>(texels.y * texels.z);
     density_.resize(rows * static_cast<std::size_t>(texels.x));
     values_.resize(density_.size());
-    average(grid, texels);
+    average(density_);
     paddedDensity_.set(texels, density_);
     parallel::forEachBlock(rows, 4, [&](std::size_t first, std::size_t count) {
         for (std::size_t r = first; r < first + count; ++r)

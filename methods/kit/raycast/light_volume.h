@@ -29,7 +29,7 @@ struct Reflected {
     }
 };
 
-class LightVolume {
+class DUSTBENCH_API LightVolume {
  public:
     /// `toSun`: unit vector in world coordinates.
     LightVolume(const RaycastSettings& settings, const glm::vec3& toSun, MemoryLedger& ledger);
@@ -38,6 +38,13 @@ class LightVolume {
     /// grid; it varies slowly. Empty: all of it. It is called from several threads.
     void set(const ShownGrid& grid, const std::function<float(const glm::dvec3&)>& arriving = {});
 
+    /// The same where the grid's cells are elsewhere: `average` fills in the mean of each texel's densities, in which
+    /// that of a cell is multiplied by its fire's extinction factor, x fastest.
+    void set(const ShownGrid& place, const std::function<void(std::span<float>)>& average,
+             const std::function<float(const glm::dvec3&)>& arriving = {});
+
+    /// Texels of a grid of so many cells.
+    [[nodiscard]] glm::ivec3 texelsOf(const glm::ivec3& cells) const { return (cells + texelCells_ - 1) / texelCells_; }
     /// Cells along a texel's edge.
     [[nodiscard]] int texelCells() const { return texelCells_; }
     [[nodiscard]] const glm::ivec3& texels() const { return light_.cells(); }

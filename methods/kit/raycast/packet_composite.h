@@ -15,7 +15,7 @@
 
 namespace dustbench::raycast {
 
-class PacketComposite {
+class DUSTBENCH_API PacketComposite {
  public:
     explicit PacketComposite(gpu::Device& device)
         : device_(device), vertices_(device), programs_(std::make_shared<Programs>()) {}

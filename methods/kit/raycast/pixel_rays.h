@@ -26,7 +26,7 @@ struct PixelRectangle {
 };
 
 /// The ray at image coordinates (x, y) has direction corner + x·right + y·up, of length 1 along the camera's axis.
-struct PixelRays {
+struct DUSTBENCH_API PixelRays {
     PixelRays(const ShownGrid& grid, const scene::View& view);
 
     glm::vec3 eye;
@@ -35,8 +35,8 @@ struct PixelRays {
 };
 
 /// All pixels that may see cells in [minimum, maximum).
-[[nodiscard]] PixelRectangle pixelsOf(const ShownGrid& grid, const glm::ivec3& minimum, const glm::ivec3& maximum,
-                                      const scene::View& view);
+[[nodiscard]] DUSTBENCH_API PixelRectangle pixelsOf(const ShownGrid& grid, const glm::ivec3& minimum,
+                                                    const glm::ivec3& maximum, const scene::View& view);
 
 /// Offset of a pixel's steps as a fraction of a step: the fractional part of x/g + y/g², where g is the plastic number.
 /// Neighbouring pixels get distant offsets, and all offsets are equally frequent.

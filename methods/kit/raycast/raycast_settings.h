@@ -53,9 +53,9 @@ struct RaycastSettings {
 };
 
 /// Throws InputError for values out of range.
-void check(const RaycastSettings& settings);
+DUSTBENCH_API void check(const RaycastSettings& settings);
 
 /// The optical depth at which a ray may end; infinite if it never may.
-[[nodiscard]] float opaqueDepth(const RaycastSettings& settings);
+[[nodiscard]] DUSTBENCH_API float opaqueDepth(const RaycastSettings& settings);
 
 }  // namespace dustbench::raycast

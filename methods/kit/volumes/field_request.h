@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "methods/kit/files/limits.h"
 #include "methods/kit/volumes/volume_setup.h"
 
 namespace dustbench::volumes {
@@ -32,10 +33,19 @@ struct WantedField {
          {"velocity", 3, or_(fields.velocity, {"velocity", "Velocity", "vel", "v"}), !fields.velocity.empty(), false}}};
 }
 
+/// Cells that the box of the density may have, and the reason to refuse more.
+[[nodiscard]] inline std::int64_t maximumCells(const VolumeFields& fields) {
+    return fields.isSparse ? files::limits::sparseVolumeCells : files::limits::volumeCells;
+}
+[[nodiscard]] inline std::string tooManyCells(const VolumeFields& fields) {
+    return std::string("the box of its density has more than ") +
+           (fields.isSparse ? "2 billion cells (limit of sparse volumes)" : "256 million cells (limit of volumes)");
+}
+
 /// As one text, for the arguments of a program; and back.
 [[nodiscard]] inline std::string textOf(const VolumeFields& fields) {
     return fields.density + '\x1f' + fields.temperature + '\x1f' + fields.velocity + '\x1f' +
-           (fields.wantsTemperature ? "1" : "");
+           (fields.wantsTemperature ? "1" : "") + '\x1f' + (fields.isSparse ? "1" : "");
 }
 [[nodiscard]] inline VolumeFields fieldsOf(std::string_view text) {
     const auto next = [&text] {
@@ -47,6 +57,7 @@ struct WantedField {
     VolumeFields fields;
     for (std::string* name : {&fields.density, &fields.temperature, &fields.velocity}) *name = next();
     fields.wantsTemperature = next() == "1";
+    fields.isSparse = next() == "1";
     return fields;
 }
 

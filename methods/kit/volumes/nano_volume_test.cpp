@@ -28,12 +28,27 @@ std::string written(const TestFolder& folder, const Handle& handle, Codec codec 
     return path;
 }
 
+/// Keeps what is streamed.
+struct Kept final : VolumeSink {
+    void begin(const GridPlace& at) override { place = at; }
+    bool beginField(std::string_view field) override { return field == "density"; }
+    void take(std::span<const float> more) override { numbers.insert(numbers.end(), more.begin(), more.end()); }
+    GridPlace place;
+    std::vector<float> numbers;
+};
+
 template <typename Build>
 void expectRead(const TestFolder& folder, Codec codec) {
     const auto handle = fog<Build>();
     const auto* const grid = handle.template grid<Build>();
     const VolumeGrid read = readVolume(written(folder, handle, codec), {});
     ASSERT_EQ(read.density.size(), read.cellCount());
+    Kept kept;
+    VolumeFields sparse;
+    sparse.isSparse = true;
+    streamVolume(folder.path() / "a.nvdb", sparse, kept);
+    EXPECT_EQ(kept.numbers, read.density);
+    EXPECT_EQ(kept.place.origin, read.origin);
     EXPECT_FALSE(read.timeSeconds);
     EXPECT_DOUBLE_EQ(read.spacing, 0.125);
     const auto values = grid->getAccessor();

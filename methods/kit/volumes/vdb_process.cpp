@@ -76,7 +76,7 @@ std::string readPlace(VdbPipe& pipe, std::int64_t maximumCells, VdbMessage& mess
 std::string readAnswer(const std::filesystem::path& file, const VolumeFields& fields, VolumeGrid& grid) {
     VdbPipe pipe = startVdbReader(volumeMode + textOf(fields), file);
     VdbMessage message;
-    if (const std::string why = readPlace(pipe, files::limits::volumeCells, message, grid); !why.empty()) return why;
+    if (const std::string why = readPlace(pipe, maximumCells(fields), message, grid); !why.empty()) return why;
     if (message.columns < 1 || message.columns > 3) return notWhole;
     for (std::int32_t i = 0; i < message.columns; ++i) {
         VdbColumn header;
@@ -91,6 +91,34 @@ std::string readAnswer(const std::filesystem::path& file, const VolumeFields& fi
     return pipe.ended() && !grid.density.empty() ? "" : notWhole;
 }
 
+/// The reason why there is no volume, or an empty text.
+std::string streamAnswer(const std::filesystem::path& file, const VolumeFields& fields, VolumeSink& sink) {
+    VdbPipe pipe = startVdbReader(volumeMode + textOf(fields), file);
+    VdbMessage message;
+    GridPlace place;
+    if (const std::string why = readPlace(pipe, maximumCells(fields), message, place); !why.empty()) return why;
+    if (message.columns < 1 || message.columns > 3) return notWhole;
+    sink.begin(place);
+    constexpr std::uint64_t atOnce = 1 << 18;
+    std::vector<float> numbers(atOnce);
+    bool hasDensity = false;
+    for (std::int32_t i = 0; i < message.columns; ++i) {
+        VdbColumn header;
+        if (!pipe.read(&header, sizeof header)) return notWhole;
+        header.name[sizeof header.name - 1] = 0;
+        const std::string_view name = header.name;
+        hasDensity |= name == "density";
+        const bool isWanted = sink.beginField(name);
+        for (std::uint64_t left = place.cellCount() * (name == "velocity" ? 3 : 1); left > 0;) {
+            const std::uint64_t count = std::min(left, atOnce);
+            if (!pipe.read(numbers.data(), count * sizeof(float))) return notWhole;
+            if (isWanted) sink.take({numbers.data(), count});
+            left -= count;
+        }
+    }
+    return pipe.ended() && hasDensity ? "" : notWhole;
+}
+
 }  // namespace
 
 std::string readVdb(const std::filesystem::path& file, const std::string& field, VectorGrid& grid) {
@@ -102,6 +130,11 @@ std::string readVdb(const std::filesystem::path& file, const std::string& field,
 
 std::string readVdbVolume(const std::filesystem::path& file, const VolumeFields& fields, VolumeGrid& grid) {
     const std::string why = readAnswer(file, fields, grid);
+    return why == notWhole ? notWholeOf(file.native()) : why;
+}
+
+std::string streamVdbVolume(const std::filesystem::path& file, const VolumeFields& fields, VolumeSink& sink) {
+    const std::string why = streamAnswer(file, fields, sink);
     return why == notWhole ? notWholeOf(file.native()) : why;
 }
 

@@ -11,6 +11,7 @@
 #include "methods/kit/volumes/vector_grid.h"
 #include "methods/kit/volumes/volume_grid.h"
 #include "methods/kit/volumes/volume_setup.h"
+#include "methods/kit/volumes/volume_sink.h"
 
 namespace dustbench::volumes {
 
@@ -21,6 +22,9 @@ namespace dustbench::volumes {
 /// The density of a `.vdb` or `.nvdb` within the box of its cells, and the other fields in the same cells. Likewise.
 [[nodiscard]] std::string readVdbVolume(const std::filesystem::path& file, const VolumeFields& fields,
                                         VolumeGrid& grid);
+/// The same, number by number as they arrive. Also throws what the sink throws.
+[[nodiscard]] std::string streamVdbVolume(const std::filesystem::path& file, const VolumeFields& fields,
+                                          VolumeSink& sink);
 
 /// The one grid of points; its positions in the world are the column `Points`. Time as above. Throws InputError with
 /// the file and what is wrong, in one line.

@@ -34,60 +34,97 @@ struct Named {
     int components = 1;
 };
 
-void takeField(const VtiFile& vti, const std::vector<VtiArray>& arrays, const WantedField& wanted, VolumeGrid& grid) {
-    std::vector<Named> present;
-    present.reserve(arrays.size());
-    for (const VtiArray& array : arrays) present.push_back({array.name, array.components});
-    const int at = chosenField<Clause>(wanted, present);
-    if (at < 0) return;
-    std::vector<float> numbers = vti.numbersOf(arrays[static_cast<std::size_t>(at)]);
-    if (wanted.components == 1) {
-        (wanted.what == "density" ? grid.density : grid.temperature) = std::move(numbers);
-        return;
-    }
-    grid.velocity.reserve(numbers.size() / 3);
-    for (std::size_t i = 0; i < numbers.size(); i += 3)
-        grid.velocity.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
-}
+/// Where the cells of a `.vti` lie, and the arrays that hold their numbers.
+struct VtiPlace {
+    GridPlace place;
+    const std::vector<VtiArray>* arrays;
+};
 
-VolumeGrid readVti(const std::filesystem::path& file, const VolumeFields& fields) {
-    const VtiFile vti(file);
-    VolumeGrid grid;
-    grid.cells = vti.cells();
-    grid.origin = vti.origin();
-    grid.spacing = vti.spacing().x;
+VtiPlace placeOf(const VtiFile& vti, const std::filesystem::path& file) {
+    GridPlace place;
+    place.cells = vti.cells();
+    place.origin = vti.origin();
+    place.spacing = vti.spacing().x;
     for (int axis = 0; axis < 3; ++axis)
-        if (!(vti.spacing()[axis] > 0) || std::abs(vti.spacing()[axis] / grid.spacing - 1) > cubeWithin)
+        if (!(vti.spacing()[axis] > 0) || std::abs(vti.spacing()[axis] / place.spacing - 1) > cubeWithin)
             throw refused(file, fmt::format("its cells are no cubes: {} x {} x {}", vti.spacing().x, vti.spacing().y,
                                             vti.spacing().z));
     const bool atPoints = vti.cellArrays().empty();
     if (atPoints) {
-        grid.cells += 1;
-        grid.origin -= grid.spacing / 2;
+        place.cells += 1;
+        place.origin -= place.spacing / 2;
     }
-    grid.timeSeconds = vti.fieldNumber("TimeValue");
+    place.timeSeconds = vti.fieldNumber("TimeValue");
+    return {place, atPoints ? &vti.pointArrays() : &vti.cellArrays()};
+}
+
+/// Calls take(what, array) for each field that is wanted and there.
+template <typename Take>
+void forEachField(const std::vector<VtiArray>& arrays, const VolumeFields& fields, const std::filesystem::path& file,
+                  const Take& take) {
+    std::vector<Named> present;
+    present.reserve(arrays.size());
+    for (const VtiArray& array : arrays) present.push_back({array.name, array.components});
+    std::vector<std::pair<std::string_view, const VtiArray*>> chosen;
     try {
         for (const WantedField& wanted : wantedFields(fields))
-            takeField(vti, atPoints ? vti.pointArrays() : vti.cellArrays(), wanted, grid);
+            if (const int at = chosenField<Clause>(wanted, present); at >= 0)
+                chosen.emplace_back(wanted.what, &arrays[static_cast<std::size_t>(at)]);
     } catch (const Clause& clause) {
         throw refused(file, clause.reason);
     }
+    for (const auto& [what, array] : chosen) take(what, *array);
+}
+
+VolumeGrid readVti(const std::filesystem::path& file, const VolumeFields& fields) {
+    const VtiFile vti(file);
+    const auto [place, arrays] = placeOf(vti, file);
+    VolumeGrid grid;
+    static_cast<GridPlace&>(grid) = place;
+    forEachField(*arrays, fields, file, [&](std::string_view what, const VtiArray& array) {
+        std::vector<float> numbers = vti.numbersOf(array);
+        if (what != "velocity") {
+            (what == "density" ? grid.density : grid.temperature) = std::move(numbers);
+            return;
+        }
+        grid.velocity.reserve(numbers.size() / 3);
+        for (std::size_t i = 0; i < numbers.size(); i += 3)
+            grid.velocity.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    });
     return grid;
 }
 
-VolumeGrid readSparse(const std::filesystem::path& file, const VolumeFields& fields) {
+void streamVti(const std::filesystem::path& file, const VolumeFields& fields, VolumeSink& sink) {
+    const VtiFile vti(file);
+    const auto [place, arrays] = placeOf(vti, file);
+    sink.begin(place);
+    forEachField(*arrays, fields, file, [&](std::string_view what, const VtiArray& array) {
+        if (sink.beginField(what))
+            vti.streamNumbers(array, [&](std::span<const float> numbers) { sink.take(numbers); });
+    });
+}
+
+void requireFile(const std::filesystem::path& file) {
     if (const std::string why = files::refusalOf(file, files::limits::geometryBytes); !why.empty())
         throw refused(file, why);
+}
+
+VolumeGrid readSparse(const std::filesystem::path& file, const VolumeFields& fields) {
+    requireFile(file);
     VolumeGrid grid;
     if (const std::string why = readVdbVolume(file, fields, grid); !why.empty()) throw refused(file, why);
     return grid;
 }
 
-void requireSound(VolumeGrid& grid, const std::filesystem::path& file, bool clampsDensity) {
+void requirePlace(const GridPlace& place, const std::filesystem::path& file) {
     for (const double number :
-         {grid.spacing, grid.origin.x, grid.origin.y, grid.origin.z, grid.timeSeconds.value_or(0)})
+         {place.spacing, place.origin.x, place.origin.y, place.origin.z, place.timeSeconds.value_or(0)})
         if (!std::isfinite(number) || std::abs(number) > farthest)
             throw refused(file, "its place or its time is no number up to 1e9");
+}
+
+void requireSound(VolumeGrid& grid, const std::filesystem::path& file, bool clampsDensity) {
+    requirePlace(grid, file);
     float maximum = 0;
     for (const float density : grid.density) {
         if (!std::isfinite(density)) throw refused(file, "it has a density that is no number");
@@ -95,9 +132,7 @@ void requireSound(VolumeGrid& grid, const std::filesystem::path& file, bool clam
     }
     for (float& density : grid.density) {
         if (density >= 0) continue;
-        if (density < -belowZero * maximum && !clampsDensity)
-            throw refused(
-                file, fmt::format("it has a density of {}, allowed: 0 or more, or clamp_density in a .toml", density));
+        requireDensity(density, maximum, file, clampsDensity);
         density = 0;
     }
     if (std::ranges::any_of(grid.temperature, [](float number) { return !std::isfinite(number); }))
@@ -107,13 +142,49 @@ void requireSound(VolumeGrid& grid, const std::filesystem::path& file, bool clam
             throw refused(file, "it has a velocity that is no number");
 }
 
-}  // namespace
-
-VolumeGrid readVolume(const std::filesystem::path& file, const VolumeFields& fields) {
+/// True for a `.vti`.
+bool isVti(const std::filesystem::path& file) {
     const std::string extension = file.extension();
     if (extension != ".vti" && extension != ".vdb" && extension != ".nvdb")
         throw refused(file, "expected a file that ends in .vdb, .nvdb or .vti");
-    VolumeGrid grid = extension == ".vti" ? readVti(file, fields) : readSparse(file, fields);
+    return extension == ".vti";
+}
+
+/// Holds back a place that is none.
+class SoundPlaces final : public VolumeSink {
+ public:
+    SoundPlaces(VolumeSink& sink, const std::filesystem::path& file) : sink_(sink), file_(file) {}
+
+    void begin(const GridPlace& place) override {
+        requirePlace(place, file_);
+        sink_.begin(place);
+    }
+    bool beginField(std::string_view field) override { return sink_.beginField(field); }
+    void take(std::span<const float> numbers) override { sink_.take(numbers); }
+
+ private:
+    VolumeSink& sink_;
+    const std::filesystem::path& file_;
+};
+
+}  // namespace
+
+void requireDensity(float density, float maximum, const std::filesystem::path& file, bool clampsDensity) {
+    if (!std::isfinite(density)) throw refused(file, "it has a density that is no number");
+    if (density < -belowZero * maximum && !clampsDensity)
+        throw refused(file,
+                      fmt::format("it has a density of {}, allowed: 0 or more, or clamp_density in a .toml", density));
+}
+
+void streamVolume(const std::filesystem::path& file, const VolumeFields& fields, VolumeSink& sink) {
+    SoundPlaces sound(sink, file);
+    if (isVti(file)) return streamVti(file, fields, sound);
+    requireFile(file);
+    if (const std::string why = streamVdbVolume(file, fields, sound); !why.empty()) throw refused(file, why);
+}
+
+VolumeGrid readVolume(const std::filesystem::path& file, const VolumeFields& fields) {
+    VolumeGrid grid = isVti(file) ? readVti(file, fields) : readSparse(file, fields);
     requireSound(grid, file, fields.clampsDensity);
     return grid;
 }

@@ -5,6 +5,7 @@
 
 #include "methods/kit/volumes/volume_grid.h"
 #include "methods/kit/volumes/volume_setup.h"
+#include "methods/kit/volumes/volume_sink.h"
 
 namespace dustbench::volumes {
 
@@ -13,5 +14,11 @@ namespace dustbench::volumes {
 /// the same without time. A density between 0 and −1e-3 of the maximum counts as 0. Throws InputError with the file
 /// and what is wrong, in one line.
 [[nodiscard]] DUSTBENCH_API VolumeGrid readVolume(const std::filesystem::path& file, const VolumeFields& fields);
+
+/// The same number by number, to a sink that checks them itself. Also throws what the sink throws.
+DUSTBENCH_API void streamVolume(const std::filesystem::path& file, const VolumeFields& fields, VolumeSink& sink);
+
+/// What a density may be, of which `maximum` is the highest: 0 or more. Throws InputError for another `density`.
+DUSTBENCH_API void requireDensity(float density, float maximum, const std::filesystem::path& file, bool clampsDensity);
 
 }  // namespace dustbench::volumes

@@ -58,17 +58,14 @@ InputError tooMuch(const std::filesystem::path& file, double bytes) {
 }  // namespace
 
 void placeInWorld(VolumeGrid& grid, const VolumeSetup& setup) {
+    const GridPlace from = static_cast<const GridPlace&>(grid);  // the place alone
+    static_cast<GridPlace&>(grid) = placedInWorld(from, setup);
     if (setup.zUp) {
-        const GridPlace from = static_cast<const GridPlace&>(grid);  // the place alone
-        grid.cells = {from.cells.x, from.cells.z, from.cells.y};
-        grid.origin = {from.origin.x, from.origin.z, -(from.origin.y + from.cells.y * from.spacing)};
         turn(grid.density, from, grid);
         turn(grid.temperature, from, grid);
         turn(grid.velocity, from, grid);
         for (glm::vec3& v : grid.velocity) v = {v.x, v.z, -v.y};
     }
-    grid.origin = grid.origin * setup.metresPerUnit + setup.position;
-    grid.spacing *= setup.metresPerUnit;
     for (glm::vec3& v : grid.velocity) v *= static_cast<float>(setup.metresPerUnit);
 }
 
@@ -85,34 +82,23 @@ VolumeSeries VolumeSeries::read(const VolumeSetup& setup) {
         if (bytes > static_cast<double>(files::limits::dustBytes)) throw tooMuch(entry.file, bytes);
         names.push_back(entry.file);
     }
-    const bool haveNone =
-        std::ranges::none_of(moments, [](const VolumeGrid& grid) { return grid.timeSeconds.has_value(); });
-    if (setup.secondsPerFile && haveNone)
-        for (std::size_t i = 0; i < moments.size(); ++i)
-            moments[i].timeSeconds = static_cast<double>(i) * *setup.secondsPerFile;
-    return {std::move(moments), std::move(names)};
+    return {std::move(moments), std::move(names), setup.secondsPerFile};
 }
 
-VolumeSeries::VolumeSeries(std::vector<VolumeGrid> moments, std::vector<std::filesystem::path> names)
-    : moments_(std::move(moments)), names_(std::move(names)) {
-    if (moments_.empty()) throw InputError("a series of volumes: got no file, expected one or more");
-    if (isStill()) return;
-    for (std::size_t i = 0; i < moments_.size(); ++i) {
-        if (!moments_[i].timeSeconds)
-            throw InputError(names_[i].string() +
-                             ": has no time, expected TimeValue (.vti), time_s (.vdb), a .pvd or .series that says "
-                             "it, or seconds_per_file in a .toml");
-        const std::size_t before = i > 0 ? i - 1 : 0;
-        requireGoesOn(moments_[i], names_[i], i > 0 ? &moments_[before] : nullptr, names_[before], moments_[0],
-                      names_[0], /*anyCells=*/true);
-        if (cellsOf(together(moments_[before], moments_[i])) > static_cast<double>(files::limits::volumeCells))
-            throw InputError(fmt::format("{}: with {} it has more than {} cells (limit of volumes)", names_[i].string(),
-                                         names_[before].filename().string(), files::limits::volumeCells));
-    }
+namespace {
+
+std::vector<GridPlace> placesOf(const std::vector<VolumeGrid>& moments) {
+    return {moments.begin(), moments.end()};  // the places alone
 }
 
-double VolumeSeries::seconds() const {
-    return isStill() ? 0 : *moments_.back().timeSeconds - *moments_.front().timeSeconds;
+}  // namespace
+
+VolumeSeries::VolumeSeries(std::vector<VolumeGrid> moments, std::vector<std::filesystem::path> names,
+                           std::optional<double> secondsPerFile)
+    : moments_(std::move(moments)),
+      names_(std::move(names)),
+      series_(placesOf(moments_), names_, secondsPerFile, files::limits::volumeCells) {
+    for (std::size_t i = 0; i < moments_.size(); ++i) moments_[i].timeSeconds = series_.places()[i].timeSeconds;
 }
 
 std::size_t VolumeSeries::bytes() const {
@@ -121,21 +107,15 @@ std::size_t VolumeSeries::bytes() const {
 }
 
 const VolumeGrid& VolumeSeries::at(double seconds, bool wantsVelocity, VolumeGrid& between) const {
-    if (isStill()) return moments_.front();
-    const double time = *moments_.front().timeSeconds + seconds;
-    const auto after = std::ranges::upper_bound(moments_, time + sameMomentSeconds, {},
-                                                [](const VolumeGrid& grid) { return *grid.timeSeconds; });
-    if (after == moments_.begin()) return moments_.front();
-    const VolumeGrid& from = *std::prev(after);
-    const double passed = time - *from.timeSeconds;
-    if (after == moments_.end() || passed <= sameMomentSeconds) return from;
-    const auto share = static_cast<float>(passed / (*after->timeSeconds - *from.timeSeconds));
-    static_cast<GridPlace&>(between) = together(from, *after);
-    between.timeSeconds = time;
-    blend(from, *after, &VolumeGrid::density, share, between);
-    blend(from, *after, &VolumeGrid::temperature, share, between);
+    const auto [before, next, share] = series_.at(seconds);
+    const VolumeGrid &from = moments_[before], &after = moments_[next];
+    if (share == 0) return from;
+    static_cast<GridPlace&>(between) = together(from, after);
+    between.timeSeconds = *moments_.front().timeSeconds + seconds;
+    blend(from, after, &VolumeGrid::density, share, between);
+    blend(from, after, &VolumeGrid::temperature, share, between);
     between.velocity.clear();
-    if (wantsVelocity) blend(from, *after, &VolumeGrid::velocity, share, between);
+    if (wantsVelocity) blend(from, after, &VolumeGrid::velocity, share, between);
     return between;
 }
 

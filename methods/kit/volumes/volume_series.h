@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "methods/kit/volumes/series_places.h"
 #include "methods/kit/volumes/volume_grid.h"
 #include "methods/kit/volumes/volume_setup.h"
 
@@ -21,12 +22,13 @@ class DUSTBENCH_API VolumeSeries {
     static VolumeSeries read(const VolumeSetup& setup);
     /// One moment or more, in the world; `names` are for messages. Throws InputError if times are missing or do not
     /// ascend, or the grids do not lie on one lattice.
-    VolumeSeries(std::vector<VolumeGrid> moments, std::vector<std::filesystem::path> names);
+    VolumeSeries(std::vector<VolumeGrid> moments, std::vector<std::filesystem::path> names,
+                 std::optional<double> secondsPerFile = {});
 
     /// One moment alone stands still and lasts.
-    [[nodiscard]] bool isStill() const { return moments_.size() == 1; }
+    [[nodiscard]] bool isStill() const { return series_.isStill(); }
     /// From the first moment to the last.
-    [[nodiscard]] double seconds() const;
+    [[nodiscard]] double seconds() const { return series_.seconds(); }
     [[nodiscard]] std::span<const VolumeGrid> moments() const { return moments_; }
     [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return names_; }
     [[nodiscard]] std::size_t bytes() const;
@@ -38,12 +40,10 @@ class DUSTBENCH_API VolumeSeries {
  private:
     std::vector<VolumeGrid> moments_;
     std::vector<std::filesystem::path> names_;
+    SeriesPlaces series_;
 };
 
 /// Turns a file's grid to +Y up, and places it in the world.
 void placeInWorld(VolumeGrid& grid, const VolumeSetup& setup);
-
-/// A time that misses a moment by less is that moment: files round their times.
-inline constexpr double sameMomentSeconds = 1e-5;
 
 }  // namespace dustbench::volumes

@@ -16,6 +16,7 @@ struct VolumeFields {
     std::string density, temperature, velocity;
     bool wantsTemperature = false;  ///< missing is then an error
     bool clampsDensity = false;     ///< below zero counts as zero, else is an error
+    bool isSparse = false;          ///< who reads keeps no whole box, which may have limits::sparseVolumeCells
 };
 
 struct VolumeSetup {

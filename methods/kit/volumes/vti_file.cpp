@@ -323,6 +323,14 @@ std::vector<float> VtiFile::numbersOf(const VtiArray& array) const {
     }
 }
 
+void VtiFile::streamNumbers(const VtiArray& array, const std::function<void(std::span<const float>)>& take) const {
+    try {
+        volumes::streamNumbers(array.stored, form_, take);
+    } catch (const VolumeFault& fault) {
+        throw refused(file_, {fmt::format("'{}': {}", array.name, fault.reason)});
+    }
+}
+
 std::optional<double> VtiFile::fieldNumber(std::string_view name) const {
     const auto found = std::ranges::find(fieldArrays_, name, &VtiArray::name);
     if (found == fieldArrays_.end() || found->stored.count != 1) return std::nullopt;

@@ -45,6 +45,8 @@ class DUSTBENCH_API VtiFile {
     [[nodiscard]] const VtiArray* cellArray(std::string_view name) const;
     /// Of one of the arrays, cell by cell.
     [[nodiscard]] std::vector<float> numbersOf(const VtiArray& array) const;
+    /// The same, a piece after the other. Also throws what `take` throws.
+    void streamNumbers(const VtiArray& array, const std::function<void(std::span<const float>)>& take) const;
     /// The number of a field array that holds just one.
     [[nodiscard]] std::optional<double> fieldNumber(std::string_view name) const;
 

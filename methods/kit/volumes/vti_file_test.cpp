@@ -171,6 +171,11 @@ TEST(VtiFile, GivesWhatVtkGivesInEveryWayOfWriting) {
             ASSERT_EQ(array.components, wanted.GetNumberOfComponents()) << way.name();
             const std::vector<float> got = vti.numbersOf(array);
             ASSERT_EQ(got.size(), static_cast<std::size_t>(wanted.GetNumberOfValues()));
+            std::vector<float> streamed;
+            vti.streamNumbers(array, [&](std::span<const float> piece) {
+                streamed.insert(streamed.end(), piece.begin(), piece.end());
+            });
+            EXPECT_EQ(streamed, got);
             for (std::size_t i = 0; i < got.size(); ++i)
                 ASSERT_EQ(got[i], static_cast<float>(wanted.GetComponent(static_cast<vtkIdType>(i) / array.components,
                                                                          static_cast<int>(i) % array.components)))

@@ -57,20 +57,44 @@ double parsed(std::string_view word, const NumberType& type) {
     return value;
 }
 
-template <typename Number>
-std::vector<Number> readText(const StoredNumbers& stored) {
-    std::vector<Number> numbers;
+/// Numbers on their way to who takes them.
+class Stream {
+ public:
+    using value_type = float;
+    explicit Stream(const std::function<void(std::span<const float>)>& take) : take_(take) { piece_.reserve(atOnce); }
+
+    void reserve(std::size_t) {}
+    void push_back(float number) {
+        piece_.push_back(number);
+        ++size_;
+        if (piece_.size() == atOnce) flush();
+    }
+    void flush() {
+        if (!piece_.empty()) take_(piece_);
+        piece_.clear();
+    }
+    [[nodiscard]] std::size_t size() const { return size_; }
+
+ private:
+    static constexpr std::size_t atOnce = 1 << 16;
+    const std::function<void(std::span<const float>)>& take_;
+    std::vector<float> piece_;
+    std::size_t size_ = 0;
+};
+
+/// `Numbers`, here and below: a vector of floats or doubles, or a Stream.
+template <typename Numbers>
+void readText(const StoredNumbers& stored, Numbers& numbers) {
     std::string_view rest = trimmed(stored.text);
     if (rest.size() / 2 + 1 < stored.count) failShort();
     numbers.reserve(stored.count);
     while (!rest.empty()) {
         const std::size_t end = std::min(rest.find_first_of(" \t\r\n"), rest.size());
         if (numbers.size() == stored.count) throw VolumeFault{"an array is longer than its extent"};
-        numbers.push_back(static_cast<Number>(parsed(rest.substr(0, end), *stored.type)));
+        numbers.push_back(static_cast<typename Numbers::value_type>(parsed(rest.substr(0, end), *stored.type)));
         rest = trimmed(rest.substr(end));
     }
     if (numbers.size() < stored.count) failShort();
-    return numbers;
 }
 
 // Bytes.
@@ -154,10 +178,11 @@ double numberOf(std::string_view bytes, const NumberType& type, bool isBigEndian
     return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
 }
 
-template <typename Number>
-void append(std::vector<Number>& numbers, std::string_view bytes, const NumberType& type, bool isBigEndian) {
+template <typename Numbers>
+void append(Numbers& numbers, std::string_view bytes, const NumberType& type, bool isBigEndian) {
     for (; !bytes.empty(); bytes.remove_prefix(type.bytes))
-        numbers.push_back(static_cast<Number>(numberOf(bytes.substr(0, type.bytes), type, isBigEndian)));
+        numbers.push_back(
+            static_cast<typename Numbers::value_type>(numberOf(bytes.substr(0, type.bytes), type, isBigEndian)));
 }
 
 // Blocks.
@@ -211,11 +236,10 @@ void decompress(std::string_view from, std::string& to, Compressor compressor) {
     if (result != Z_OK || got != to.size()) failDamaged();
 }
 
-template <typename Number>
-std::vector<Number> readCompressed(ByteSource& source, const StoredNumbers& stored, const BinaryForm& form) {
+template <typename Numbers>
+void readCompressed(ByteSource& source, const StoredNumbers& stored, const BinaryForm& form, Numbers& numbers) {
     const Blocks blocks = readBlocks(source, stored.count * stored.type->bytes, stored, form);
     const std::string compressed = source.take(blocks.total);
-    std::vector<Number> numbers;
     numbers.reserve(stored.count);
     std::string block;
     std::size_t at = 0;
@@ -225,20 +249,28 @@ std::vector<Number> readCompressed(ByteSource& source, const StoredNumbers& stor
         append(numbers, block, *stored.type, form.isBigEndian);
         at += blocks.lengths[i];
     }
-    return numbers;
 }
 
-template <typename Number>
-std::vector<Number> readUncompressed(ByteSource& source, const StoredNumbers& stored, const BinaryForm& form) {
+template <typename Numbers>
+void readUncompressed(ByteSource& source, const StoredNumbers& stored, const BinaryForm& form, Numbers& numbers) {
     const std::size_t bytes = stored.count * stored.type->bytes;
     const std::uint64_t said = wordOf(source.peek(form.wordBytes), 0, form);
     if (said != bytes) throw VolumeFault{fmt::format("an array has {} bytes, expected {} by its extent", said, bytes)};
     if (form.wordBytes + bytes > source.available()) failShort();
     const std::string unit = source.take(form.wordBytes + bytes);
-    std::vector<Number> numbers;
     numbers.reserve(stored.count);
     append(numbers, std::string_view(unit).substr(form.wordBytes), *stored.type, form.isBigEndian);
-    return numbers;
+}
+
+template <typename Numbers>
+void readInto(Numbers& numbers, const StoredNumbers& stored, const BinaryForm& form) {
+    if (stored.form == StoredNumbers::Form::ascii) return readText(stored, numbers);
+    ByteSource source(stored);
+    if (form.compressor == Compressor::none)
+        readUncompressed(source, stored, form, numbers);
+    else
+        readCompressed(source, stored, form, numbers);
+    if (stored.endsThere && !source.isAtEnd()) throw VolumeFault{"an array is longer than its extent"};
 }
 
 }  // namespace
@@ -260,12 +292,16 @@ const NumberType* findNumberType(std::string_view name) {
 
 template <typename Number>
 std::vector<Number> readNumbers(const StoredNumbers& stored, const BinaryForm& form) {
-    if (stored.form == StoredNumbers::Form::ascii) return readText<Number>(stored);
-    ByteSource source(stored);
-    std::vector<Number> numbers = form.compressor == Compressor::none ? readUncompressed<Number>(source, stored, form)
-                                                                      : readCompressed<Number>(source, stored, form);
-    if (stored.endsThere && !source.isAtEnd()) throw VolumeFault{"an array is longer than its extent"};
+    std::vector<Number> numbers;
+    readInto(numbers, stored, form);
     return numbers;
+}
+
+void streamNumbers(const StoredNumbers& stored, const BinaryForm& form,
+                   const std::function<void(std::span<const float>)>& take) {
+    Stream numbers(take);
+    readInto(numbers, stored, form);
+    numbers.flush();
 }
 
 template std::vector<float> readNumbers<float>(const StoredNumbers&, const BinaryForm&);

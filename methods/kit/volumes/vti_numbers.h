@@ -8,6 +8,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -43,5 +45,9 @@ struct StoredNumbers {
 /// All numbers, in order. Throws VolumeFault unless there are exactly as many.
 template <typename Number>  // float or double
 [[nodiscard]] std::vector<Number> readNumbers(const StoredNumbers& stored, const BinaryForm& form);
+
+/// The same, a piece after the other, none of which lasts.
+void streamNumbers(const StoredNumbers& stored, const BinaryForm& form,
+                   const std::function<void(std::span<const float>)>& take);
 
 }  // namespace dustbench::volumes

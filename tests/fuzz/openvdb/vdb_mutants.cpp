@@ -1,6 +1,6 @@
-// Reads mutants of OpenVDB's and NanoVDB's files as readVectors(), readVolume() and readVdbPoints() do. The program
-// dustbench_vdb_reader is replaced by a fork of this process, in which OpenVDB is loaded already and which reads file
-// after file, until one ends it.
+// Reads mutants of OpenVDB's and NanoVDB's files as readVectors(), readVolume(), readVdbPoints() and a sparse volume
+// do. The program dustbench_vdb_reader is replaced by a fork of this process, in which OpenVDB is loaded already and
+// which reads file after file, until one ends it.
 //
 //     vdb_mutants SEED CASES FOLDER
 //
@@ -34,6 +34,7 @@
 #include "methods/kit/volumes/vdb_process.h"
 #include "methods/kit/volumes/vector_file.h"
 #include "methods/kit/volumes/volume_file.h"
+#include "methods/volume/sparse/brick_reader.h"
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/nano_ball.h"
 
@@ -287,7 +288,14 @@ std::vector<Original> originalsIn(const fs::path& folder) {
     };
     const auto volume = [](const fs::path& file) { (void)dustbench::volumes::readVolume(file, {}); };
     std::vector<Original> originals;
-    for (const char* name : {"fog.vdb", "ball.nvdb"}) originals.push_back({name, bytesOf(folder / name), volume});
+    const auto sparse = [](const fs::path& file) {
+        const dustbench::volumes::VolumeSetup setup;
+        dustbench::volume::BrickReader(file, setup, nullptr).readDensities();
+    };
+    for (const char* name : {"fog.vdb", "ball.nvdb"}) {
+        originals.push_back({name, bytesOf(folder / name), volume});
+        originals.push_back({name, bytesOf(folder / name), sparse});
+    }
     for (const char* name : {"mask.vdb", "zip.vdb", "blosc.vdb"})
         originals.push_back({name, bytesOf(folder / name), vectors});
     for (const char* name : {"points.vdb", "more_points.vdb"})

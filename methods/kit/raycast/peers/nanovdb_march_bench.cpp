@@ -1,4 +1,4 @@
-// The same plume and picture with NanoVDB: its TreeMarcher skips empty space, its trilinear sampler evaluates the
+// The same grids and pictures with NanoVDB: its TreeMarcher skips empty space, its trilinear sampler evaluates the
 // steps.
 #include <nanovdb/NanoVDB.h>
 #include <nanovdb/util/GridBuilder.h>
@@ -59,11 +59,11 @@ float alphaAlong(const PixelRays& rays, const RaycastSettings& settings, float e
     return -std::expm1(-depth);
 }
 
-void nanoVdb(benchmark::State& state) {
-    const TestGrid& grid = benchPlume();
+void nanoVdb(benchmark::State& state, Shown shown) {
+    const TestGrid& grid = benchGrid(shown);
     const nanovdb::GridHandle<> handle = treeOf(grid);
     const nanovdb::NanoGrid<float>& tree = *handle.grid<float>();
-    const scene::View& view = benchCanvas().view;
+    const scene::View& view = benchCanvas(shown).view;
     const RaycastSettings settings = benchSettings(Backend::cpu, true);
     const auto extinction = static_cast<float>(settings.extinctionPerMetre * grid.spacingMetres);
     const PixelRays rays(grid.shown(), view);
@@ -81,11 +81,13 @@ void nanoVdb(benchmark::State& state) {
     marchAll();
     // Pictures that are read back begin with the top row.
     const auto width = static_cast<std::size_t>(view.width), last = static_cast<std::size_t>(view.height) - 1;
-    verifyPicture(state, [&](std::size_t i) { return alphas[(last - i / width) * width + i % width]; });
+    verifyPicture(
+        state, [&](std::size_t i) { return alphas[(last - i / width) * width + i % width]; }, shown);
     for (auto _ : state) marchAll();
 }
 
-BENCHMARK(nanoVdb)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(nanoVdb, plume, Shown::plume)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(nanoVdb, trail, Shown::trail)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
 
 }  // namespace
 }  // namespace dustbench::raycast

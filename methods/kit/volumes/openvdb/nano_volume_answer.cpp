@@ -7,10 +7,12 @@
 #include <nanovdb/util/IO.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <type_traits>
 #include <vector>
 
-#include "methods/kit/files/limits.h"
 #include "methods/kit/volumes/openvdb/answer.h"
 #include "methods/kit/volumes/openvdb/volume_answer.h"
 
@@ -110,25 +112,37 @@ float fogOf(float distance, float halfWidth) {
     return distance < 0 ? std::min(-distance / halfWidth, 1.0f) : 0.0f;
 }
 
+/// Where there is no leaf, eight cells along x have one value.
 template <typename Grid>
 void putValues(const Grid& grid, const nanovdb::CoordBBox& box) {
     using Value = typename Grid::ValueType;
+    using Shown = std::conditional_t<std::is_same_v<Value, nanovdb::Vec3f>, nanovdb::Vec3f, float>;
     const auto values = grid.getAccessor();
+    const auto shownAt = [&](const nanovdb::Coord& cell) {
+        Value value{};
+        [[maybe_unused]] const bool isActive = values.probeValue(cell, value);
+        if constexpr (std::is_same_v<Shown, float>) {
+            const auto number = static_cast<float>(value);
+            if (grid.isLevelSet()) return fogOf(number, static_cast<float>(grid.tree().background()));
+            return isActive || !grid.isFogVolume() ? number : 0.0f;
+        } else {
+            return value;
+        }
+    };
+    std::array<Shown, 8> run;
     for (int z = box.min()[2]; z <= box.max()[2]; ++z)
         for (int y = box.min()[1]; y <= box.max()[1]; ++y)
-            for (int x = box.min()[0]; x <= box.max()[0]; ++x) {
-                Value value{};
-                [[maybe_unused]] const bool isActive = values.probeValue({x, y, z}, value);
-                if constexpr (std::is_same_v<Value, nanovdb::Vec3f>) {
-                    const float vector[3]{value[0], value[1], value[2]};
-                    put(vector);
-                } else {
-                    const auto number = static_cast<float>(value);
-                    if (grid.isLevelSet())
-                        put(fogOf(number, static_cast<float>(grid.tree().background())));
-                    else
-                        put(isActive || !grid.isFogVolume() ? number : 0.0f);
-                }
+            for (std::int64_t x = box.min()[0]; x <= box.max()[0];) {
+                const std::int64_t end = std::min<std::int64_t>(x | 7, box.max()[0]) + 1;
+                const auto count = static_cast<std::size_t>(end - x);
+                const auto cellAt = [&](std::size_t i) {
+                    return nanovdb::Coord(static_cast<int>(x + static_cast<std::int64_t>(i)), y, z);
+                };
+                run[0] = shownAt(cellAt(0));
+                const bool isSame = values.probeLeaf(cellAt(0)) == nullptr;
+                for (std::size_t i = 1; i < count; ++i) run[i] = isSame ? run[0] : shownAt(cellAt(i));
+                put(run.data(), count * sizeof(Shown));
+                x = end;
             }
 }
 
@@ -160,8 +174,7 @@ void answerNanoVolume(const std::string& file, const VolumeFields& fields) {
     });
     const double cells = countOf(lattice.box);
     if (!(cells >= 1)) throw Refusal{"its density is zero everywhere"};
-    if (cells > static_cast<double>(files::limits::volumeCells))
-        throw Refusal{"the box of its density has more than 256 million cells (limit of volumes)"};
+    if (cells > static_cast<double>(maximumCells(fields))) throw Refusal{tooManyCells(fields)};
     std::erase_if(chosen, [&](const Chosen& each) {
         bool isThere = true;
         visit(each.handle, [&](const auto& grid) { isThere = latticeOf(grid) == lattice; });

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <vector>
 
-#include "methods/kit/files/limits.h"
 #include "methods/kit/volumes/openvdb/answer.h"
 #include "methods/kit/volumes/openvdb/dense_answer.h"
 
@@ -62,11 +61,10 @@ void requireUpright(const openvdb::GridBase& grid) {
     }
 }
 
-openvdb::CoordBBox boxOf(const FloatGrid& density) {
+openvdb::CoordBBox boxOf(const FloatGrid& density, const VolumeFields& fields) {
     const openvdb::CoordBBox box = density.evalActiveVoxelBoundingBox();
     if (box.empty()) throw Refusal{"its density is zero everywhere"};
-    if (countOf(box) > static_cast<double>(files::limits::volumeCells))
-        throw Refusal{"the box of its density has more than 256 million cells (limit of volumes)"};
+    if (countOf(box) > static_cast<double>(maximumCells(fields))) throw Refusal{tooManyCells(fields)};
     return box;
 }
 
@@ -105,7 +103,7 @@ void answerVolume(const std::string& file, const VolumeFields& fields) {
             throw Refusal{"its field '" + each.grid->getName() + "' lies on another grid than its density"};
         return true;
     });
-    const openvdb::CoordBBox box = boxOf(*density);
+    const openvdb::CoordBBox box = boxOf(*density, fields);
     VdbMessage message = messageOf(*density, box);
     message.columns = static_cast<std::int32_t>(chosen.size());
     put(message);

@@ -1,0 +1,242 @@
+#include "methods/volume/sparse/nano_tree.h"
+
+#include <fmt/format.h>
+#include <nanovdb/NanoVDB.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <tuple>
+
+#include "methods/contract/errors.h"
+#include "methods/kit/parallel/for_each_block.h"
+
+namespace dustbench::volume {
+namespace {
+
+using Root = nanovdb::NanoRoot<float>::DataType;
+using Upper = nanovdb::NanoUpper<float>::DataType;
+using Lower = nanovdb::NanoLower<float>::DataType;
+using Leaf = nanovdb::NanoLeaf<float>::DataType;
+
+nanovdb::Coord coordOf(const glm::ivec3& cell) {
+    return {cell.x, cell.y, cell.z};
+}
+
+/// Where a brick comes in the tree: its root key, then its places in the nodes below.
+struct Place {
+    std::uint64_t key;
+    std::uint32_t inUpper, inLower;
+    bool operator==(const Place&) const = default;
+};
+
+Place placeOf(const glm::ivec3& brick) {
+    const nanovdb::Coord first = coordOf(brick * brickEdge);
+    return {Root::CoordToKey(first), nanovdb::NanoUpper<float>::CoordToOffset(first),
+            nanovdb::NanoLower<float>::CoordToOffset(first)};
+}
+
+struct Counts {
+    std::size_t uppers = 0, lowers = 0, leaves = 0, tiles = 0;
+};
+
+Counts countNodes(const std::vector<TreeBrick>& bricks) {
+    Counts counts;
+    Place before{std::numeric_limits<std::uint64_t>::max(), 0, 0};
+    for (const TreeBrick& brick : bricks) {
+        const Place place = placeOf(brick.at);
+        if (place.key != before.key) ++counts.uppers;
+        if (place.key != before.key || place.inUpper != before.inUpper) ++counts.lowers;
+        ++(brick.isLeaf ? counts.leaves : counts.tiles);
+        before = place;
+    }
+    return counts;
+}
+
+/// Where the nodes of each kind begin.
+struct Layout {
+    explicit Layout(const Counts& counts)
+        : tree(sizeof(nanovdb::GridData)),
+          root(tree + sizeof(nanovdb::NanoTree<float>::DataType)),
+          upper(root + sizeof(Root) + counts.uppers * sizeof(Root::Tile)),
+          lower(upper + counts.uppers * sizeof(Upper)),
+          leaf(lower + counts.lowers * sizeof(Lower)),
+          end(leaf + counts.leaves * sizeof(Leaf)) {}
+    std::size_t tree, root, upper, lower, leaf, end;
+};
+
+template <typename Node>
+Node* nodeAt(std::byte* grid, std::size_t offset) {
+    return reinterpret_cast<Node*>(grid + offset);
+}
+
+void fillHeader(std::byte* bytes, const Layout& layout, const Counts& counts, double spacing,
+                const glm::dvec3& origin) {
+    auto* const grid = nodeAt<nanovdb::GridData>(bytes, 0);
+    grid->mMagic = NANOVDB_MAGIC_NUMBER;
+    grid->mChecksum = std::numeric_limits<std::uint64_t>::max();  // none
+    grid->mVersion = nanovdb::Version();
+    grid->setFlagsOff();
+    grid->setBBoxOn();
+    grid->setBreadthFirstOn();
+    grid->mGridCount = 1;
+    grid->mGridSize = layout.end;
+    std::strcpy(grid->mGridName, "density");
+    const glm::dvec3 middle = origin + spacing / 2;  // of cell (0, 0, 0)
+    grid->mMap.set(spacing, nanovdb::Vec3d(middle.x, middle.y, middle.z), 1.0);
+    grid->mVoxelSize = nanovdb::Vec3d(spacing);
+    grid->mGridClass = nanovdb::GridClass::FogVolume;
+    grid->mGridType = nanovdb::GridType::Float;
+    auto* const tree = nodeAt<nanovdb::NanoTree<float>::DataType>(bytes, layout.tree);
+    tree->mNodeOffset[0] = counts.leaves > 0 ? layout.leaf - layout.tree : 0;
+    tree->mNodeOffset[1] = layout.lower - layout.tree;
+    tree->mNodeOffset[2] = layout.upper - layout.tree;
+    tree->mNodeOffset[3] = layout.root - layout.tree;
+    tree->mNodeCount[0] = static_cast<std::uint32_t>(counts.leaves);
+    tree->mNodeCount[1] = static_cast<std::uint32_t>(counts.lowers);
+    tree->mNodeCount[2] = static_cast<std::uint32_t>(counts.uppers);
+    tree->mTileCount[0] = static_cast<std::uint32_t>(counts.tiles);
+    tree->mVoxelCount = 0;
+    nodeAt<Root>(bytes, layout.root)->mTableSize = static_cast<std::uint32_t>(counts.uppers);
+}
+
+/// Grows by a brick that lies in it.
+template <typename Node>
+void grow(Node& node, const nanovdb::CoordBBox& box) {
+    node.mBBox.expand(box.min());
+    node.mBBox.expand(box.max());
+}
+
+/// The cells that are active in a brick.
+nanovdb::CoordBBox boxOf(const TreeBrick& brick) {
+    nanovdb::CoordBBox box;
+    std::uint64_t any = 0;
+    int low = brickEdge, high = -1;
+    for (int x = 0; x < brickEdge; ++x) {
+        const std::uint64_t word = brick.active[static_cast<std::size_t>(x)];
+        if (word == 0) continue;
+        low = std::min(low, x);
+        high = x;
+        any |= word;
+    }
+    if (any == 0) return box;
+    std::uint64_t row = any;
+    for (int shift = 8; shift < 64; shift *= 2) row |= row >> shift;
+    row &= 0xff;
+    const int lowZ = std::countr_zero(row), highZ = 63 - std::countl_zero(row);
+    const int lowY = std::countr_zero(any) / 8, highY = (63 - std::countl_zero(any)) / 8;
+    const glm::ivec3 first = brick.at * brickEdge;
+    return {coordOf(first + glm::ivec3(low, lowY, lowZ)), coordOf(first + glm::ivec3(high, highY, highZ))};
+}
+
+InputError tooMuch(std::size_t bytes, std::size_t maximumBytes) {
+    return InputError(
+        fmt::format("storage=sparse: the tree of the volume takes {:.3g} GB, allowed: {:.3g} GB (limit of "
+                    "volumes)",
+                    static_cast<double>(bytes) / 1e9, static_cast<double>(maximumBytes) / 1e9));
+}
+
+}  // namespace
+
+void NanoTree::lay(std::vector<TreeBrick>& bricks, double spacingMetres, const glm::dvec3& originMetres,
+                   std::size_t maximumBytes) {
+    std::ranges::sort(bricks, {}, [](const TreeBrick& brick) {
+        const Place place = placeOf(brick.at);
+        return std::tuple(place.key, place.inUpper, place.inLower);
+    });
+    const Counts counts = countNodes(bricks);
+    const Layout layout(counts);
+    if (layout.end > maximumBytes) throw tooMuch(layout.end, maximumBytes);
+    bytes_.clear();
+    bytes_.shrink_to_fit();
+    bytes_.resize(layout.end);
+    leaves_.clear();
+    leaves_.reserve(counts.leaves);
+    tiles_.clear();
+    tiles_.reserve(counts.tiles);
+    leafOffset_ = layout.leaf;
+    std::byte* const grid = bytes_.data();
+    fillHeader(grid, layout, counts, spacingMetres, originMetres);
+    auto* const root = nodeAt<Root>(grid, layout.root);
+    auto* const tree = nodeAt<nanovdb::NanoTree<float>::DataType>(grid, layout.tree);
+    auto* upper = nodeAt<Upper>(grid, layout.upper) - 1;
+    auto* lower = nodeAt<Lower>(grid, layout.lower) - 1;
+    auto* leaf = nodeAt<Leaf>(grid, layout.leaf);
+    Root::Tile* tile = reinterpret_cast<Root::Tile*>(root + 1) - 1;
+    root->mBBox = nanovdb::CoordBBox();
+    Place before{std::numeric_limits<std::uint64_t>::max(), 0, 0};
+    for (const TreeBrick& brick : bricks) {
+        const Place place = placeOf(brick.at);
+        const nanovdb::Coord first = coordOf(brick.at * brickEdge);
+        if (place.key != before.key) {
+            ++upper;
+            (++tile)->setChild(first, reinterpret_cast<const nanovdb::NanoUpper<float>*>(upper), root);
+            upper->mBBox = nanovdb::CoordBBox();
+        }
+        if (place.key != before.key || place.inUpper != before.inUpper) {
+            ++lower;
+            upper->mChildMask.setOn(place.inUpper);
+            upper->setChild(place.inUpper, lower);
+            lower->mBBox = nanovdb::CoordBBox();
+        }
+        const nanovdb::CoordBBox box = boxOf(brick);
+        grow(*lower, box);
+        grow(*upper, box);
+        grow(*root, box);
+        if (brick.isLeaf) {
+            lower->mChildMask.setOn(place.inLower);
+            lower->setChild(place.inLower, leaf);
+            leaf->mBBoxMin = box.min();
+            for (int axis = 0; axis < 3; ++axis)
+                leaf->mBBoxDif[axis] = static_cast<std::uint8_t>(box.max()[axis] - box.min()[axis]);
+            leaf->mFlags = 2;  // it has a box
+            for (int x = 0; x < brickEdge; ++x)
+                leaf->mValueMask.getWord<std::uint64_t>(x) = brick.active[static_cast<std::size_t>(x)];
+            tree->mVoxelCount += leaf->mValueMask.countOn();
+            leaves_.push_back(brick.at);
+            ++leaf;
+        } else {
+            lower->mValueMask.setOn(place.inLower);
+            tree->mVoxelCount += brickCells;
+            tiles_.push_back(brick.at);
+        }
+        before = place;
+    }
+    minimum_ = maximum_ = glm::ivec3(0);
+    if (bricks.empty()) return;
+    for (int axis = 0; axis < 3; ++axis) {
+        minimum_[axis] = root->mBBox.min()[axis];
+        maximum_[axis] = root->mBBox.max()[axis] + 1;
+    }
+}
+
+float* NanoTree::valuesOf(std::size_t leaf) {
+    return nodeAt<Leaf>(bytes_.data(), leafOffset_ + leaf * sizeof(Leaf))->mValues;
+}
+
+const float* NanoTree::valuesOf(std::size_t leaf) const {
+    return reinterpret_cast<const Leaf*>(bytes_.data() + leafOffset_ + leaf * sizeof(Leaf))->mValues;
+}
+
+std::vector<TreeBrick> NanoTree::bricks() const {
+    std::vector<TreeBrick> bricks;
+    bricks.reserve(leaves_.size() + tiles_.size());
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+        TreeBrick& brick = bricks.emplace_back(TreeBrick{leaves_[i], true, {}, i});
+        const auto* const leaf = reinterpret_cast<const Leaf*>(bytes_.data() + leafOffset_ + i * sizeof(Leaf));
+        for (int x = 0; x < brickEdge; ++x)
+            brick.active[static_cast<std::size_t>(x)] = leaf->mValueMask.getWord<std::uint64_t>(x);
+    }
+    for (const glm::ivec3& tile : tiles_) bricks.emplace_back(TreeBrick{tile, false, {}, 0}).active.fill(~0ull);
+    return bricks;
+}
+
+double NanoTree::sum() const {
+    double sum = 0;
+    for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf)
+        for (const float value : std::span(valuesOf(leaf), brickCells)) sum += static_cast<double>(value);
+    return sum;
+}
+
+}  // namespace dustbench::volume

@@ -1,0 +1,39 @@
+// How a volume is kept and shown: as one box of cells (dense_storage.h) or as its bricks alone
+// (sparse/sparse_storage.h).
+//
+// Units: metres, seconds, extinction per metre. Frame: world. Threads: the OpenGL thread.
+#pragma once
+
+#include "methods/contract/method.h"
+#include "methods/kit/raycast/raycast_settings.h"
+#include "methods/kit/volumes/volume_setup.h"
+
+namespace dustbench::volume {
+
+struct VolumeSettings {
+    volumes::VolumeSetup setup;
+    raycast::RaycastSettings picture;
+};
+
+class Storage {
+ public:
+    virtual ~Storage() = default;
+
+    /// One moment alone stands still and lasts.
+    [[nodiscard]] virtual bool isStill() const = 0;
+    /// From the first moment to the last.
+    [[nodiscard]] virtual double seconds() const = 0;
+
+    /// The volume so many seconds after the first moment is what is drawn from now on.
+    virtual void show(double seconds, const StageClock& clock) = 0;
+    virtual void draw(const scene::View& view, gpu::Layer& layer) = 0;
+    /// Hands over the volume so many seconds after the first moment.
+    virtual void handOver(double seconds, VolumeVisitor& visitor) const = 0;
+    /// Integral of the extinction over the volume that is shown.
+    [[nodiscard]] virtual double massSquareMetres() const = 0;
+    [[nodiscard]] virtual MemoryReport memory() const = 0;
+    /// Rays cast, planes, splats or triangles drawn last.
+    [[nodiscard]] virtual std::int64_t primitives() const = 0;
+};
+
+}  // namespace dustbench::volume
