@@ -2,6 +2,7 @@
 // other solvers left in the same folder included.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <sstream>
 
 #include "methods/contract/choices.h"
@@ -64,7 +65,11 @@ auto listOf(const std::string& text, const Read& read) {
 Call callOf(std::span<const ToolArgument> arguments) {
     Call call;
     for (const auto& [name, value] : arguments) {
-        const auto count = [&](const std::string& text) { return countOf(name, text, 0, 256); };
+        const auto cellsOf = [&](const std::string& text) {
+            const int cells = countOf(name, text, 0, 256);
+            if (cells > 0) checkCells(cells);
+            return cells;
+        };
         if (name == "folder")
             call.folder = value;
         else if (name == "--problem")
@@ -72,9 +77,9 @@ Call callOf(std::span<const ToolArgument> arguments) {
         else if (name == "--scheme")
             call.schemes = listOf(value, [&](const std::string& word) { return schemes.parse(name, word); });
         else if (name == "--cells")
-            call.cells = listOf(value, count);
+            call.cells = listOf(value, cellsOf);
         else if (name == "--reference")
-            call.referenceCells = count(value);
+            call.referenceCells = cellsOf(value);
         else
             call.repetitions = countOf(name, value, 1, 100);
     }

@@ -109,10 +109,14 @@ void project(GridProblem& problem) {
 
 }  // namespace
 
-GridProblem problemOn(ProblemKind kind, int cellsAcross, const GridProblem::CarCells& car) {
+void checkCells(int cellsAcross) {
     if (cellsAcross < 8 || cellsAcross > 256 || cellsAcross % 8 != 0)
         throw InputError("cells: got " + std::to_string(cellsAcross) +
                          " across the box, allowed: multiples of 8 from 8 to 256");
+}
+
+GridProblem problemOn(ProblemKind kind, int cellsAcross, const GridProblem::CarCells& car) {
+    checkCells(cellsAcross);
     const Definition definition = definitionOf(kind);
     GridProblem problem;
     problem.settings.box = {definition.eighths * (cellsAcross / 8), widthMetres / cellsAcross, {0, 0, 0}};

@@ -40,7 +40,9 @@ struct GridProblem {
     [[nodiscard]] double seconds() const { return stepSeconds * steps; }
 };
 
-/// `cellsAcross`: a multiple of 8 from 8 to 256; throws InputError for others. `car` is asked for the car alone.
+/// Throws InputError unless it is a multiple of 8 from 8 to 256.
+void checkCells(int cellsAcross);
+/// Throws InputError as checkCells does. `car` is asked for the car alone.
 [[nodiscard]] GridProblem problemOn(ProblemKind kind, int cellsAcross, const GridProblem::CarCells& car);
 
 /// By how much a source of strength 1 changes each cell, x fastest; 0 in solids.
