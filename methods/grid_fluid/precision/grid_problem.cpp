@@ -25,7 +25,7 @@ struct Definition {
 Definition definitionOf(ProblemKind kind) {
     switch (kind) {
         case ProblemKind::plume:
-            return {{8, 12, 8}, 2.4, 15};
+            return {{8, 10, 8}, 1.92, 12};
         case ProblemKind::ring:
             return {{8, 8, 8}, 1.2, 15};
         case ProblemKind::car:
@@ -55,7 +55,7 @@ void addPlume(GridProblem& problem) {
     source.kelvinPerSecond = 80;
     problem.sources = {source};
     // Not above the source, so that the flow is not symmetric.
-    problem.solids = ballIn(problem.settings.box, {1.7, 2.4, 1.65}, 0.45);
+    problem.solids = ballIn(problem.settings.box, {1.7, 1.9, 1.65}, 0.45);
     problem.settings.forces.buoyancyPerKelvin = 0.1f;
 }
 

@@ -1,7 +1,7 @@
 // Three problems on which solvers of flows are compared by error and time (reports/guide/work-precision.md): all of
 // their numbers are here and in grid_problem.cpp.
 //
-//     plume   hot smoke rises past a ball in a closed box, 2.4 s
+//     plume   hot smoke rises past a ball in a closed box, 1.92 s
 //     ring    a vortex ring that carries smoke meets the wall of a closed box, 1.2 s
 //     car     wind parts around the car in a tunnel with walls, smoke before its nose, 0.75 s; air enters and leaves
 //             at the wind's speed, so that no open side has to be alike in two solvers

@@ -84,7 +84,7 @@ TEST(PrecisionProblem, ConvergesToItsFinestGrid) {
         const StaggeredFlow reference = after(32);
         const FlowDistance coarse = distanceOf(after(8), reference), fine = distanceOf(after(16), reference);
         EXPECT_LT(fine.density, 0.8 * coarse.density) << word;
-        EXPECT_LT(fine.velocity, 0.8 * coarse.velocity) << word;
+        EXPECT_LT(fine.velocity, 0.9 * coarse.velocity) << word;
         EXPECT_LT(fine.spectrum, coarse.spectrum) << word;
     }
 }
