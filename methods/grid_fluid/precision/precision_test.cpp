@@ -132,8 +132,8 @@ TEST(FlowDistance, AveragesKeepMassAndWhatFlowsThroughFaces) {
 
 class Folder : public testing::Test {
  protected:
-    Folder() { fs::remove_all(place_); }
-    ~Folder() override { fs::remove_all(place_); }
+    void SetUp() override { fs::remove_all(place_); }
+    void TearDown() override { fs::remove_all(place_); }
     fs::path place_ = fs::path(testing::TempDir()) / "dustbench-precision";
 };
 
