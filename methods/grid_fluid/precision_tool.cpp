@@ -152,12 +152,15 @@ ToolInfo describe() {
         "flow is there. Then compares all flows of the folder, those of other solvers included, and writes\n"
         "points.csv. Formats: methods/grid_fluid/precision/precision_folder.h, staggered_flow.h.\n"
         "Example: dustbench precision out/precision --cells 16,32";
-    info.options = {{"folder", "DIR", "of the flows, times.csv and points.csv; made if missing"},
-                    {"--problem", "LIST", "of plume, ring, car; `nothing` solves none; default: all"},
-                    {"--cells", "LIST", "across the box, multiples of 8; default: 16,32,64"},
-                    {"--scheme", "LIST", "of revert, clamp, unlimited, semi_lagrangian; default: all"},
-                    {"--reference", "CELLS", "grid of the references; 0: none, and nothing is compared; default: 128"},
-                    {"--repetitions", "N", "how often each is solved, for its time; default: 1"}};
+    info.options = {
+        {"folder", "DIR", "of the flows, times.csv and points.csv; made if missing"},
+        {"--problem", "LIST", "of plume, ring, car; `nothing` solves none; default: all"},
+        {"--cells", "LIST", "across the box, multiples of 8; default: 16,32,64"},
+        {"--scheme", "LIST", "of revert, clamp, unlimited, semi_lagrangian; default: all"},
+        {"--reference", "CELLS",
+         "grid of the references: the finest of each solver if it has so many; 0: none, and nothing is compared; "
+         "default: 128"},
+        {"--repetitions", "N", "how often each is solved, for its time; default: 1"}};
     info.run = compare;
     return info;
 }

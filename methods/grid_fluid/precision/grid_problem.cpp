@@ -31,7 +31,7 @@ Definition definitionOf(ProblemKind kind) {
         case ProblemKind::car:
             break;
     }
-    return {{16, 8, 8}, 0.75, 12};
+    return {{16, 8, 8}, 0.5, 8};
 }
 
 /// Cells whose centres are in a ball.

@@ -3,7 +3,7 @@
 //
 //     plume   hot smoke rises past a ball in a closed box, 1.92 s
 //     ring    a vortex ring that carries smoke meets the wall of a closed box, 1.2 s
-//     car     wind parts around the car in a tunnel with walls, smoke before its nose, 0.75 s; air enters and leaves
+//     car     wind parts around the car in a tunnel with walls, smoke before its nose, 0.5 s; air enters and leaves
 //             at the wind's speed, so that no open side has to be alike in two solvers
 //
 // A problem on a grid has a step in proportion to its cells. What it begins with is free of divergence on that grid.

@@ -22,7 +22,8 @@ using files::csvNumber;
 constexpr std::string_view timeColumns = "problem,cells,solver,scheme,computing_ms\n";
 constexpr std::string_view pointColumns =
     "problem,cells,solver,scheme,seconds,ms_per_second,ms_per_second_low,ms_per_second_high,repetitions,mass_m3,"
-    "energy_m5_per_s2,divergence_per_step,reference,reference_scheme,compared_cells,density_error,velocity_error,"
+    "energy_m5_per_s2,divergence_per_step,reference,reference_scheme,reference_cells,compared_cells,density_error,"
+    "velocity_error,"
     "enstrophy_error,spectrum_error\n";
 
 [[noreturn]] void cannotWrite(const fs::path& file) {
@@ -107,6 +108,11 @@ std::string timeCells(const std::vector<double>& sorted, double seconds) {
                        csvNumber(sorted.back() / seconds), n);
 }
 
+bool isFinest(const Run& run, const std::vector<Run>& runs) {
+    return std::ranges::none_of(
+        runs, [&](const Run& other) { return other.solver == run.solver && other.cells > run.cells; });
+}
+
 StaggeredFlow flowOn(const Run& run, int coarseCells) {
     StaggeredFlow flow = readFlow(run.file);
     const int refinement = run.cells / coarseCells;
@@ -188,7 +194,8 @@ std::size_t PrecisionFolder::writePoints(int referenceCells) const {
         const int coarsest = ofProblem.front().cells;
         std::vector<std::pair<Run, StaggeredFlow>> references;
         for (const Run& run : ofProblem)
-            if (run.cells == referenceCells) references.emplace_back(run, flowOn(run, coarsest));
+            if (run.cells >= referenceCells && isFinest(run, ofProblem))
+                references.emplace_back(run, flowOn(run, coarsest));
         for (const Run& run : ofProblem) {
             const Grid grid = gridOf(run.file.parent_path());
             const FlowSums sums = sumsOf(readFlow(run.file), grid.solids, grid.spacingMetres, grid.stepSeconds);
@@ -201,8 +208,9 @@ std::size_t PrecisionFolder::writePoints(int referenceCells) const {
                     "{},{},{},{},{},{},{},{},{},{},{},{}\n", run.key(), csvNumber(grid.seconds),
                     timeCells(found == times.end() ? std::vector<double>() : found->second, grid.seconds),
                     csvNumber(sums.massM3), csvNumber(sums.energyM5PerS2), csvNumber(sums.divergencePerStep),
-                    fmt::format("{},{}", reference.solver, reference.scheme), coarsest, csvNumber(distance.density),
-                    csvNumber(distance.velocity), csvNumber(distance.enstrophy), csvNumber(distance.spectrum));
+                    fmt::format("{},{},{}", reference.solver, reference.scheme, reference.cells), coarsest,
+                    csvNumber(distance.density), csvNumber(distance.velocity), csvNumber(distance.enstrophy),
+                    csvNumber(distance.spectrum));
                 ++rows;
             }
         }

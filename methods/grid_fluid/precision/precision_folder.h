@@ -33,8 +33,8 @@ class PrecisionFolder {
     [[nodiscard]] bool hasFlow(std::string_view problem, int cells, std::string_view scheme) const;
     void addRun(std::string_view problem, int cells, std::string_view scheme, const SolvedProblem& solved) const;
 
-    /// Compares every flow with those of the same problem on `referenceCells`, on the cells of the coarsest grid, and
-    /// writes points.csv. Returns the number of its rows.
+    /// Compares every flow with the finest of the same problem by each solver, if they have at least `referenceCells`,
+    /// on the cells of the coarsest grid, and writes points.csv. Returns the number of its rows.
     std::size_t writePoints(int referenceCells) const;
 
  private:

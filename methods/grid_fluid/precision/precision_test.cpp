@@ -172,6 +172,7 @@ TEST_F(Folder, ComparesFlowsOfOtherSolversWithBothReferences) {
     std::ofstream(place_ / "times.csv", std::ios::app)
         << "ring,8,other,any,30\nring,8,other,any,12\nring,8,other,any,18\n";
     // Two flows with two references, and each reference with the other.
+    EXPECT_EQ(folder.writePoints(8), 6u) << "only the finest flow of each solver is a reference";
     EXPECT_EQ(folder.writePoints(16), 6u);
     const files::CsvTable points = files::CsvTable::parseFile(place_ / "points.csv");
     ASSERT_EQ(points.rows(), 6u);
