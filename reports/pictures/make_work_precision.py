@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Draws work_precision.svg and work_precision_structure.svg from work_precision.csv, the points.csv of `dustbench precision`.
+"""Draws work_precision.svg and work_precision_structure.svg from work_precision.csv, the points.csv of `dustbench precision`,
+and prints the table of reports/guide/work-precision.md.
 
     python3 reports/pictures/make_work_precision.py
 
@@ -11,20 +12,20 @@ import math
 import pathlib
 
 HERE = pathlib.Path(__file__).parent
-REFERENCE_CELLS = 128
 PROBLEMS = {"plume": "plume past a ball", "ring": "vortex ring against a wall", "car": "car in a wind tunnel"}
 SOLVERS = {"dustbench": "#1f6fb4", "mantaflow": "#c8501e"}
 SCHEMES = {"revert": ("", "circle"), "clamp": ("7 3", "square"), "unlimited": ("2 3", "diamond"), "midpoint": ("9 3 2 3", "diamond"), "semi_lagrangian": ("4 4", "triangle")}
 CHARTS = {
     "work_precision": {"density_error": "error of the density", "velocity_error": "error of the velocity"},
-    "work_precision_structure": {"enstrophy_error": "|ln| of the enstrophy's ratio", "spectrum_error": "log-spectral distance"},
+    "work_precision_structure": {"enstrophy_error": "error of the enstrophy", "spectrum_error": "error of the spectrum"},
 }
 WIDTH, HEIGHT, LEFT, TOP, GAP_X, GAP_Y = 290, 230, 66, 66, 34, 66
 
 
 def points():
     rows = list(csv.DictReader((HERE / "work_precision.csv").open()))
-    return [row for row in rows if int(row["cells"]) < REFERENCE_CELLS and row["ms_per_second"]]
+    references = {(row["problem"], row["reference"], row["reference_cells"]) for row in rows}
+    return [row for row in rows if (row["problem"], row["solver"], row["cells"]) not in references and row["ms_per_second"]]
 
 
 def mark(shape, x, y, colour, filled):
@@ -34,10 +35,6 @@ def mark(shape, x, y, colour, filled):
         return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" {style}/>'
     corners = {"square": [(-4, -4), (4, -4), (4, 4), (-4, 4)], "diamond": [(0, -5), (5, 0), (0, 5), (-5, 0)], "triangle": [(0, -5), (5, 4), (-5, 4)]}[shape]
     return f'<polygon points="{" ".join(f"{x + a:.1f},{y + b:.1f}" for a, b in corners)}" {style}/>'
-
-
-def decades(low, high):
-    return range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
 
 
 class Panel:
@@ -124,8 +121,21 @@ def draw(name, measures, rows):
     (HERE / f"{name}.svg").write_text("\n".join(parts) + "\n")
 
 
+def table(rows):
+    """Errors against dustbench's reference / Mantaflow's."""
+    print("| Problem | Solver, scheme | Cells | ms per second | Density | Velocity | Enstrophy | Spectrum |\n|---|---|--:|--:|--:|--:|--:|--:|")
+    keys = dict.fromkeys((row["problem"], row["solver"], row["scheme"], int(row["cells"])) for row in rows if row["scheme"] in ("revert", "midpoint", "semi_lagrangian"))
+    for problem, solver, scheme, cells in sorted(keys, key=lambda key: (list(PROBLEMS).index(key[0]), key[1], key[2], key[3])):
+        found = {row["reference"]: row for row in rows if (row["problem"], row["solver"], row["scheme"], int(row["cells"])) == (problem, solver, scheme, cells)}
+        ms = float(next(iter(found.values()))["ms_per_second"])
+        errors = [" / ".join(f"{float(found[reference][measure]):.3f}" if reference in found else "–" for reference in SOLVERS) for measures in CHARTS.values() for measure in measures]
+        name = solver if solver == "dustbench" else "Mantaflow"
+        print(f"| `{problem}` | {name}, `{scheme}` | {cells} | {float(f'{ms:.3g}'):,.0f} | {' | '.join(errors)} |")
+
+
 def main():
     rows = points()
+    table(rows)
     for name, measures in CHARTS.items():
         draw(name, measures, [dict(row) for row in rows])
 
