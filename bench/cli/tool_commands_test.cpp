@@ -47,6 +47,29 @@ TEST_F(ToolCommands, ShapeIsEditedInTheOrderGivenAndRuns) {
     EXPECT_EQ(run.code, 0) << run.err;
 }
 
+TEST_F(ToolCommands, SolversAreComparedWithOnesThatLeftTheirFlows) {
+    if (std::ranges::find(tools(), "precision", &ToolInfo::id) == tools().end()) GTEST_SKIP() << "no such tool";
+    const std::string folder = "'" + (folder_ / "flows").string() + "'";
+    const std::string grids = " --problem ring,car --cells 8 --scheme revert,semi_lagrangian --reference 16";
+    const Called first = call("precision " + folder + grids);
+    EXPECT_EQ(first.code, 0) << first.err;
+    EXPECT_THAT(first.out, HasSubstr("semi_lagrangian"));
+    for (const char* file : {"ring_8/begin.flow", "car_8/solids.f32", "car_16/dustbench-revert.flow", "times.csv"})
+        EXPECT_TRUE(std::filesystem::exists(folder_ / "flows" / file)) << file;
+    const std::string points = contentOf(folder_ / "flows" / "points.csv");
+    EXPECT_EQ(std::ranges::count(points, '\n'), 5) << points;
+    std::filesystem::copy(folder_ / "flows/ring_8/dustbench-revert.flow", folder_ / "flows/ring_8/other-any.flow");
+    const Called again = call("precision " + folder + " --problem nothing --reference 16");
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_THAT(contentOf(folder_ / "flows" / "points.csv"), HasSubstr("ring,8,other,any,"));
+    for (const char* mistake : {"precision", "precision x --cells 12", "precision x --problem rings",
+                                "precision x --scheme mac", "precision x --repetitions 0"}) {
+        const Called called = call(mistake);
+        EXPECT_EQ(called.code, 3) << mistake;
+        EXPECT_EQ(std::ranges::count(called.err, '\n'), 1) << called.err;
+    }
+}
+
 TEST_F(ToolCommands, WrongUseIsOneLineAndExitCodeThree) {
     if (std::ranges::find(tools(), "shape", &ToolInfo::id) == tools().end()) GTEST_SKIP() << "no such tool";
     const std::vector<std::pair<std::string, std::string>> mistakes{

@@ -1,0 +1,177 @@
+#include "methods/grid_fluid/precision/grid_problem.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "methods/contract/errors.h"
+#include "methods/grid_fluid/flow/source_reach.h"
+#include "methods/grid_fluid/precision/vortex_ring.h"
+
+namespace dustbench::grid_fluid::precision {
+namespace {
+
+constexpr double widthMetres = 3.2;
+constexpr float windMetresPerSecond = 6;
+
+/// What a problem has on any grid.
+struct Definition {
+    glm::ivec3 eighths;  ///< of the width, along each axis
+    double seconds;
+    int stepsForEight;  ///< on a grid of 8 cells across; in proportion on others
+};
+
+Definition definitionOf(ProblemKind kind) {
+    switch (kind) {
+        case ProblemKind::plume:
+            return {{8, 10, 8}, 1.92, 12};
+        case ProblemKind::ring:
+            return {{8, 8, 8}, 1.2, 15};
+        case ProblemKind::car:
+            break;
+    }
+    return {{16, 8, 8}, 0.5, 8};
+}
+
+/// Cells whose centres are in a ball.
+std::vector<std::uint8_t> ballIn(const flow::FluidBox& box, const glm::dvec3& centreMetres, double radiusMetres) {
+    std::vector<std::uint8_t> inside;
+    inside.reserve(box.cellCount());
+    for (int k = 0; k < box.cells.z; ++k)
+        for (int j = 0; j < box.cells.y; ++j)
+            for (int i = 0; i < box.cells.x; ++i) {
+                const glm::dvec3 d = (glm::dvec3(i, j, k) + 0.5) * box.spacingMetres - centreMetres;
+                inside.push_back(glm::dot(d, d) < radiusMetres * radiusMetres ? 1 : 0);
+            }
+    return inside;
+}
+
+void addPlume(GridProblem& problem) {
+    flow::FluidSource source;
+    source.centreMetres = {1.6, 0.7, 1.6};
+    source.radiusMetres = 0.25;
+    source.densityPerSecond = 2;
+    source.kelvinPerSecond = 80;
+    problem.sources = {source};
+    // Not above the source, so that the flow is not symmetric.
+    problem.solids = ballIn(problem.settings.box, {1.7, 1.9, 1.65}, 0.45);
+    problem.settings.forces.buoyancyPerKelvin = 0.1f;
+}
+
+void addRing(GridProblem& problem) {
+    const flow::FluidBox& box = problem.settings.box;
+    const VortexRing ring{{0.9, 1.5, 1.65}, 0.6, 0.2, 6};
+    addRing(ring, box, problem.begin);
+    constexpr double smokeMetres = 0.2;
+    for (int k = 0; k < box.cells.z; ++k)
+        for (int j = 0; j < box.cells.y; ++j)
+            for (int i = 0; i < box.cells.x; ++i) {
+                const double d = ring.distanceMetres((glm::dvec3(i, j, k) + 0.5) * box.spacingMetres) / smokeMetres;
+                problem.begin.density[problem.begin.cell(i, j, k)] = static_cast<float>(std::exp(-d * d / 2));
+            }
+}
+
+void addCar(GridProblem& problem, const GridProblem::CarCells& car) {
+    using enum flow::Side;
+    problem.settings.sides = {inflow, inflow, wall, wall, wall, wall};
+    problem.settings.windMetresPerSecond = {-windMetresPerSecond, 0, 0};
+    std::ranges::fill(problem.begin.speeds[0], -windMetresPerSecond);
+    flow::FluidBox tunnel = problem.settings.box;
+    tunnel.originMetres = {-2.2, 0, -1.6};
+    problem.solids = car(tunnel);
+    flow::FluidSource source;
+    source.centreMetres = {5.85, 0.6, 1.7};
+    source.radiusMetres = 0.2;
+    source.densityPerSecond = 10;
+    problem.sources = {source};
+}
+
+void giveSolids(flow::FluidSolver& solver, const GridProblem& problem) {
+    solver.setSolids({problem.solids, {}});
+}
+
+/// Makes what a problem begins with free of divergence, by a step so short that nothing else changes.
+void project(GridProblem& problem) {
+    constexpr double momentSeconds = 1e-7, share = 1e-2;
+    flow::FluidSettings settings = problem.settings;
+    settings.forces = {.buoyancyPerKelvin = 0};
+    settings.divergencePerStep =
+        settings.divergencePerStep * static_cast<float>(share * momentSeconds / problem.stepSeconds);
+    MemoryLedger ledger;
+    flow::FluidSolver solver(settings, ledger);
+    giveTo(solver, problem.begin);
+    giveSolids(solver, problem);
+    (void)solver.step(momentSeconds, {});
+    const StaggeredFlow projected = storedBy(solver);
+    problem.begin.speeds = projected.speeds;
+}
+
+}  // namespace
+
+void checkCells(int cellsAcross) {
+    if (cellsAcross < 8 || cellsAcross > 256 || cellsAcross % 8 != 0)
+        throw InputError("cells: got " + std::to_string(cellsAcross) +
+                         " across the box, allowed: multiples of 8 from 8 to 256");
+}
+
+GridProblem problemOn(ProblemKind kind, int cellsAcross, const GridProblem::CarCells& car) {
+    checkCells(cellsAcross);
+    const Definition definition = definitionOf(kind);
+    GridProblem problem;
+    problem.settings.box = {definition.eighths * (cellsAcross / 8), widthMetres / cellsAcross, {0, 0, 0}};
+    problem.settings.sides = flow::closed;
+    problem.settings.forces.buoyancyPerKelvin = 0;
+    problem.settings.maximumCycles = 300;  // until the tolerance is met
+    problem.steps = definition.stepsForEight * cellsAcross / 8;
+    problem.stepSeconds = definition.seconds / problem.steps;
+    problem.begin = StaggeredFlow(problem.settings.box.cells);
+    switch (kind) {
+        case ProblemKind::plume:
+            addPlume(problem);
+            break;
+        case ProblemKind::ring:
+            addRing(problem);
+            break;
+        case ProblemKind::car:
+            addCar(problem, car);
+            break;
+    }
+    project(problem);
+    return problem;
+}
+
+std::vector<float> strengthsOf(const flow::FluidSource& source, const GridProblem& problem) {
+    const flow::FluidBox& box = problem.settings.box;
+    const flow::SourceReach reach = flow::reachOf(source, box);
+    std::vector<float> strengths(box.cellCount());
+    for (int k = reach.first.z; k <= reach.last.z; ++k)
+        for (int j = reach.first.y; j <= reach.last.y; ++j)
+            for (int i = reach.first.x; i <= reach.last.x; ++i) {
+                const std::size_t at = problem.begin.cell(i, j, k);
+                const glm::vec3 d = (glm::vec3(i, j, k) - glm::vec3(reach.centreCells)) * reach.perRadius;
+                if (problem.solids.empty() || problem.solids[at] == 0) strengths[at] = std::exp(-0.5f * glm::dot(d, d));
+            }
+    return strengths;
+}
+
+SolvedProblem solve(const GridProblem& problem, flow::AdvectionRule rule) {
+    flow::FluidSettings settings = problem.settings;
+    settings.advection = rule;
+    MemoryLedger ledger;
+    flow::FluidSolver solver(settings, ledger);
+    giveTo(solver, problem.begin);
+    giveSolids(solver, problem);
+    SolvedProblem solved;
+    const auto begin = std::chrono::steady_clock::now();
+    for (int step = 0; step < problem.steps; ++step) {
+        const flow::StepReport report = solver.step(problem.stepSeconds, problem.sources);
+        solved.divergencePerStep = std::max(solved.divergencePerStep, report.divergencePerStep);
+        solved.cellsPerStep = std::max(solved.cellsPerStep, report.cellsPerStep);
+    }
+    solved.computingSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    solved.end = storedBy(solver);
+    return solved;
+}
+
+}  // namespace dustbench::grid_fluid::precision

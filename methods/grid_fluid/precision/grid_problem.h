@@ -1,0 +1,59 @@
+// Three problems on which solvers of flows are compared by error and time (reports/guide/work-precision.md): all of
+// their numbers are here and in grid_problem.cpp.
+//
+//     plume   hot smoke rises past a ball in a closed box, 1.92 s
+//     ring    a vortex ring that carries smoke meets the wall of a closed box, 1.2 s
+//     car     wind parts around the car in a tunnel with walls, smoke before its nose, 0.5 s; air enters and leaves
+//             at the wind's speed, so that no open side has to be alike in two solvers
+//
+// A problem on a grid has a step in proportion to its cells. What it begins with is free of divergence on that grid.
+// Units: SI. Frame: the box's minimum corner is the origin.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "methods/contract/choices.h"
+#include "methods/grid_fluid/flow/fluid_settings.h"
+#include "methods/grid_fluid/flow/fluid_source.h"
+#include "methods/grid_fluid/precision/staggered_flow.h"
+
+namespace dustbench::grid_fluid::precision {
+
+enum class ProblemKind : std::uint8_t { plume, ring, car };
+inline constexpr Choices<ProblemKind> problemKinds{
+    {"plume", ProblemKind::plume}, {"ring", ProblemKind::ring}, {"car", ProblemKind::car}};
+
+struct GridProblem {
+    /// Whether the centres of a box's cells are in the car, x fastest. The box is the tunnel, whose origin is here
+    /// relative to the car: on the ground under its rear axle, x ahead.
+    using CarCells = std::function<std::vector<std::uint8_t>(const flow::FluidBox&)>;
+
+    flow::FluidSettings settings;
+    std::vector<flow::FluidSource> sources;  ///< at most one
+    std::vector<std::uint8_t> solids;        ///< 1 in a solid; empty: there is none
+    StaggeredFlow begin;
+    double stepSeconds = 0;
+    int steps = 0;
+
+    [[nodiscard]] double seconds() const { return stepSeconds * steps; }
+};
+
+/// Throws InputError unless it is a multiple of 8 from 8 to 256.
+void checkCells(int cellsAcross);
+/// Throws InputError as checkCells does. `car` is asked for the car alone.
+[[nodiscard]] GridProblem problemOn(ProblemKind kind, int cellsAcross, const GridProblem::CarCells& car);
+
+/// By how much a source of strength 1 changes each cell, x fastest; 0 in solids.
+[[nodiscard]] std::vector<float> strengthsOf(const flow::FluidSource& source, const GridProblem& problem);
+
+/// The flow at the end, and the greatest |∇·u|·Δt and CFL number of all steps.
+struct SolvedProblem {
+    StaggeredFlow end;
+    double computingSeconds = 0;  ///< of the steps, by the wall clock
+    float divergencePerStep = 0, cellsPerStep = 0;
+};
+[[nodiscard]] SolvedProblem solve(const GridProblem& problem, flow::AdvectionRule rule);
+
+}  // namespace dustbench::grid_fluid::precision

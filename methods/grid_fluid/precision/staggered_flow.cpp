@@ -1,0 +1,103 @@
+#include "methods/grid_fluid/precision/staggered_flow.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "methods/contract/errors.h"
+
+namespace dustbench::grid_fluid::precision {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+constexpr int maximumCells = 1024;
+
+/// Calls `take(index, record, lane)` for the density of all cells and the speeds of all faces.
+template <typename Flow, typename Record, typename Take>
+void forEachNumber(Flow& flow, const Record& recordAt, const Take& take) {
+    for (int axis = -1; axis < 3; ++axis) {
+        const glm::ivec3 count = flow.faces(axis);
+        const std::size_t lane = axis < 0 ? std::size_t{flow::density} : static_cast<std::size_t>(axis);
+        auto& values = axis < 0 ? flow.density : flow.speeds[static_cast<std::size_t>(axis)];
+        auto value = values.begin();
+        for (int k = 0; k < count.z; ++k)
+            for (int j = 0; j < count.y; ++j)
+                for (int i = 0; i < count.x; ++i) take(*value++, recordAt(i, j, k)[lane]);
+    }
+}
+
+void writeNumbers(std::ostream& to, std::span<const float> values) {
+    to.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size_bytes()));
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& got, const std::string& allowed) {
+    throw InputError(fmt::format("{}: got {}, allowed: {}", file.string(), got, allowed));
+}
+
+template <typename Write>
+void writeFile(const std::filesystem::path& file, const Write& write) {
+    std::ofstream to(file, std::ios::binary);
+    write(to);
+    if (!to.flush()) fail(file, "a file that cannot be written", "a place with room");
+}
+
+}  // namespace
+
+StaggeredFlow::StaggeredFlow(glm::ivec3 count) : cells(count) {
+    const auto sizeOf = [](const glm::ivec3& n) { return index(n, 0, 0, n.z); };
+    density.resize(sizeOf(cells));
+    for (int axis = 0; axis < 3; ++axis) speeds[static_cast<std::size_t>(axis)].resize(sizeOf(faces(axis)));
+}
+
+StaggeredFlow storedBy(const flow::FluidSolver& solver) {
+    StaggeredFlow flow(solver.box().cells);
+    const auto recordAt = [&](int i, int j, int k) { return solver.cells().cell(solver.layout().at(i, j, k)); };
+    forEachNumber(flow, recordAt, [](float& value, float stored) { value = stored; });
+    return flow;
+}
+
+void giveTo(flow::FluidSolver& solver, const StaggeredFlow& flow) {
+    flow::CellField& cells = solver.changeCells();
+    const auto recordAt = [&](int i, int j, int k) { return cells.cell(solver.layout().at(i, j, k)); };
+    forEachNumber(flow, recordAt, [](float value, float& stored) { stored = value; });
+}
+
+void writeFlow(const std::filesystem::path& file, const StaggeredFlow& flow) {
+    writeFile(file, [&](std::ostream& to) {
+        to << fmt::format("dustbench-flow 1 {} {} {}\n", flow.cells.x, flow.cells.y, flow.cells.z);
+        writeNumbers(to, flow.density);
+        for (const std::vector<float>& speeds : flow.speeds) writeNumbers(to, speeds);
+    });
+}
+
+void writeFloats(const std::filesystem::path& file, std::span<const float> values) {
+    writeFile(file, [&](std::ostream& to) { writeNumbers(to, values); });
+}
+
+StaggeredFlow readFlow(const std::filesystem::path& file) {
+    std::ifstream from(file, std::ios::binary);
+    std::string line, word;
+    std::getline(from, line);
+    std::istringstream words(line);
+    int version = 0;
+    glm::ivec3 cells(0);
+    words >> word >> version >> cells.x >> cells.y >> cells.z;
+    const auto isAllowed = [](int count) { return count >= 1 && count <= maximumCells; };
+    if (!words || word != "dustbench-flow" || version != 1 || !isAllowed(cells.x) || !isAllowed(cells.y) ||
+        !isAllowed(cells.z))
+        fail(file, "a file without this head", "'dustbench-flow 1 NX NY NZ', up to 1024 cells along each axis");
+    StaggeredFlow flow(cells);
+    const auto read = [&](std::vector<float>& values) {
+        from.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(float)));
+    };
+    read(flow.density);
+    for (std::vector<float>& speeds : flow.speeds) read(speeds);
+    if (!from || from.peek() != std::ifstream::traits_type::eof())
+        fail(file, "another number of values", "those of all cells and faces");
+    return flow;
+}
+
+}  // namespace dustbench::grid_fluid::precision
