@@ -60,7 +60,7 @@ class Panel:
                     value = digit * 10.0**decade
                     if not low <= math.log10(value) <= high:
                         continue
-                    at, text = place(value), f"{value:g}"
+                    at, text = place(value), f"{value:,g}"
                     if vertical:
                         yield f'<line x1="{self.left}" x2="{self.left + WIDTH}" y1="{at:.1f}" y2="{at:.1f}" stroke="#e4e4e4"/>'
                         yield f'<text x="{self.left - 6}" y="{at + 4:.1f}" text-anchor="end">{text}</text>'
@@ -98,7 +98,7 @@ def legend(width, names):
 
 
 def draw(name, measures, rows):
-    width = LEFT + len(PROBLEMS) * WIDTH + (len(PROBLEMS) - 1) * (GAP_X + 30) + 20
+    width = LEFT + len(PROBLEMS) * WIDTH + (len(PROBLEMS) - 1) * (GAP_X + 30) + 36
     height = TOP + len(measures) * (HEIGHT + GAP_Y)
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="12" fill="#222">',
              f'<rect width="{width}" height="{height}" fill="white"/>']
