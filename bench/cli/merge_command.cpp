@@ -36,13 +36,29 @@ void sayWhereMachinesDiffer(const bench::StoredRuns& runs) {
     }
 }
 
+/// Plans, with `results` just opened for it. What is refused leaves no empty folder that was `missing` before.
+bench::MergePlan planWhole(const std::vector<bench::MergeSource>& sources, const bench::ResultsFolder& results,
+                           const std::vector<fs::path>& missing) {
+    try {
+        bench::MergePlan plan = bench::planMerge(sources, results);
+        bench::requireSpace(plan, results.path(), fs::space(results.path()).available);
+        return plan;
+    } catch (...) {
+        std::error_code notEmpty;
+        for (const fs::path& each : missing) fs::remove(each, notEmpty);
+        throw;
+    }
+}
+
 int mergeFolders(const MergeOptions& options) {
     std::vector<bench::MergeSource> sources;
     sources.reserve(options.sources.size());
     for (const std::string& folder : options.sources) sources.emplace_back(folder, bench::readStoredRuns(folder));
+    std::vector<fs::path> missing;
+    for (const fs::path& each : {fs::path(options.out) / "runs", fs::path(options.out)})
+        if (!fs::exists(each)) missing.push_back(each);
     bench::ResultsFolder results(options.out);
-    const bench::MergePlan plan = bench::planMerge(sources, results);
-    bench::requireSpace(plan, results.path(), fs::space(results.path()).available);
+    const bench::MergePlan plan = planWhole(sources, results, missing);
     listenForInterruption();
     if (!bench::merge(plan, results, interrupted)) {
         std::cerr << "aborted; the same command resumes" << std::endl;

@@ -71,6 +71,20 @@ TEST_F(Shards, BadInputIsOneLineAndExitCodeThree) {
     EXPECT_FALSE(fs::exists(folder_ / "m"));
 }
 
+TEST_F(Shards, AMergeThatIsRefusedLeavesNoFolder) {
+    const fs::path own = folder_ / "own", linked = folder_ / "linked";
+    fs::create_directories(own / "runs");
+    fs::create_directories(linked);
+    fs::create_symlink(own / "runs", linked / "runs");
+    const std::string merge = fmt::format("merge --out '{}' '{}'", (folder_ / "m").string(), linked.string());
+    EXPECT_EQ(call(merge).code, 3);
+    EXPECT_FALSE(fs::exists(folder_ / "m"));
+    // What was there stays.
+    fs::create_directories(folder_ / "m");
+    EXPECT_EQ(call(merge).code, 3);
+    EXPECT_TRUE(fs::is_empty(folder_ / "m"));
+}
+
 TEST_F(Shards, TheScriptForSlurmCountsTheRunsOfTheNullMethod) {
     if (!bench::findBaseline() || methods().front().id == bench::baselineMethod)
         GTEST_SKIP() << "no null method here, or no other";

@@ -43,8 +43,6 @@ ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)) {
     if (folder_.empty()) throw InputError("output: got an empty name, expected a folder");
     const fs::path runs = folder_ / "runs";
     std::error_code error;
-    for (const fs::path& each : {runs, folder_})
-        if (!fs::exists(each, error)) created_.push_back(each);
     fs::create_directories(runs, error);
     if (error) files::failWriting(folder_, error.value());
     for (const fs::path& each : {folder_, runs})
@@ -111,8 +109,6 @@ void ResultsFolder::readRuns() {
 }
 
 ResultsFolder::~ResultsFolder() {
-    std::error_code notEmpty;
-    for (const fs::path& each : created_) fs::remove(each, notEmpty);
     close(lock_);
 }
 

@@ -18,7 +18,6 @@ class ResultsFolder {
     /// runs; runs with a damaged run.json or an altered output are set aside. Throws InputError if it is not writable
     /// or another program is writing to it.
     explicit ResultsFolder(std::filesystem::path folder);
-    /// Folders that were created above and are empty still go: whoever is refused leaves nothing.
     ~ResultsFolder();
     ResultsFolder(const ResultsFolder&) = delete;
     ResultsFolder& operator=(const ResultsFolder&) = delete;
@@ -48,7 +47,6 @@ class ResultsFolder {
     void cleanUp();
 
     std::filesystem::path folder_;
-    std::vector<std::filesystem::path> created_;  ///< the inner one first
     int lock_ = -1;
     StoredRuns runs_;
     std::vector<std::string> setAside_;
