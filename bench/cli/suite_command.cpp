@@ -92,6 +92,8 @@ int runSuite(const SuiteOptions& options) {
     planOptions.cooldownSeconds = cooldownSeconds;
     if (options.dryRun || options.estimate) {
         const auto toDo = printPlan(plan, suite.repetitions, options.out);
+        if (options.dryRun && !options.estimate && !toDo.empty())
+            std::cerr << "--estimate starts one run of each kind and tells how long all of them take\n";
         return options.estimate ? printEstimate(toDo, planOptions) : exitOk;
     }
     checkWorlds(plan);

@@ -118,7 +118,8 @@ int printEstimate(const std::vector<bench::PlannedRun>& toDo, PlanOptions option
     if (forecast.aborted) return exitAborted;
     for (const std::string& warning : forecast.warnings)
         std::cerr << "warning: " << files::printable(warning) << std::endl;
-    std::cerr << fmt::format("estimate: {} for {} runs", bench::durationText(forecast.seconds), forecast.runs)
+    std::cerr << fmt::format("estimate: {} for {} run{}", bench::durationText(forecast.seconds), forecast.runs,
+                             forecast.runs == 1 ? "" : "s")
               << std::endl;
     return exitOk;
 }

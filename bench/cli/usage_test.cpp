@@ -120,7 +120,7 @@ TEST_F(Usage, ADryRunListsWhatARunWouldMend) {
     const Called called = call(suite() + " --dry-run --out " + out());
     EXPECT_EQ(called.code, 0) << called.err;
     EXPECT_THAT(called.out, AllOf(HasSubstr("  damaged  "), HasSubstr("  done  ")));
-    EXPECT_THAT(called.err, HasSubstr("2 runs, 1 to do"));
+    EXPECT_THAT(called.err, AllOf(HasSubstr("2 runs, 1 to do"), HasSubstr("--estimate")));
     EXPECT_EQ(contentOf(record), "{");
 }
 
