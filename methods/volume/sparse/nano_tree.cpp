@@ -104,6 +104,7 @@ void fillHeader(std::byte* bytes, const Layout& layout, const Counts& counts, do
 /// Grows by a brick that lies in it.
 template <typename Node>
 void grow(Node& node, const nanovdb::CoordBBox& box) {
+    if (box.empty()) return;
     node.mBBox.expand(box.min());
     node.mBBox.expand(box.max());
 }
@@ -187,10 +188,14 @@ void NanoTree::lay(std::vector<TreeBrick>& bricks, double spacingMetres, const g
         if (brick.isLeaf) {
             lower->mChildMask.setOn(place.inLower);
             lower->setChild(place.inLower, leaf);
-            leaf->mBBoxMin = box.min();
-            for (int axis = 0; axis < 3; ++axis)
-                leaf->mBBoxDif[axis] = static_cast<std::uint8_t>(box.max()[axis] - box.min()[axis]);
-            leaf->mFlags = 2;  // it has a box
+            if (!box.empty()) {
+                leaf->mBBoxMin = box.min();
+                for (int axis = 0; axis < 3; ++axis)
+                    leaf->mBBoxDif[axis] = static_cast<std::uint8_t>(box.max()[axis] - box.min()[axis]);
+                leaf->mFlags = 2;  // it has a box
+            } else {
+                leaf->mBBoxMin = coordOf(brick.at * brickEdge);
+            }
             for (int x = 0; x < brickEdge; ++x)
                 leaf->mValueMask.getWord<std::uint64_t>(x) = brick.active[static_cast<std::size_t>(x)];
             tree->mVoxelCount += leaf->mValueMask.countOn();
@@ -204,7 +209,7 @@ void NanoTree::lay(std::vector<TreeBrick>& bricks, double spacingMetres, const g
         before = place;
     }
     minimum_ = maximum_ = glm::ivec3(0);
-    if (bricks.empty()) return;
+    if (root->mBBox.empty()) return;  // no cell is active
     for (int axis = 0; axis < 3; ++axis) {
         minimum_[axis] = root->mBBox.min()[axis];
         maximum_[axis] = root->mBBox.max()[axis] + 1;
