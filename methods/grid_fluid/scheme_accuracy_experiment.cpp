@@ -157,8 +157,8 @@ void measureJet(Found& found, int cells, std::uint64_t seed) {
     const CoarseFlow plain = after(AdvectionScheme::semiLagrangian, 1),
                      plainFiner = after(AdvectionScheme::semiLagrangian, 2),
                      corrected = after(AdvectionScheme::macCormack, 1);
-    for (const auto& [scheme, advection] :
-         {std::pair{"by_semi_lagrangian", AdvectionScheme::semiLagrangian}, {"by_maccormack", AdvectionScheme::macCormack}}) {
+    for (const auto& [scheme, advection] : {std::pair{"by_semi_lagrangian", AdvectionScheme::semiLagrangian},
+                                            {"by_maccormack", AdvectionScheme::macCormack}}) {
         const CoarseFlow reference = after(advection, 4);
         const Distance ofPlain = distanceOf(plain, reference, cells),
                        ofFiner = distanceOf(plainFiner, reference, cells),
