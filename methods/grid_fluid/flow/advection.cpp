@@ -246,8 +246,8 @@ void Advection::predict(const Pass& pass, int firstSlab, int lastSlab) {
         const Row paths(*this, halfway, j, k);
         const float* own = pass.from.cell(at);
         const Moving* moving = pass.moving + at;
-        corners.find(count,
-                     [&](std::size_t i) { return began(paths.at(first + i), here(first + i, j, k), step, layout_); });
+        for (std::size_t i = 0; i < count; i += together)
+            corners.find(i, began(paths.at(first + i), here(first + i, j, k), step, layout_));
         const CornerStrip<false>::Reader field(corners);
         float* out = (corrected ? guesses() : pass.to.data()) + there * lanes;
         for (std::size_t i = 0; i < count; ++i)
@@ -289,20 +289,18 @@ void Advection::correct(const Pass& pass, int firstSlab, int lastSlab) {
         const Row paths(*this, halfway, j, k), speeds(*this, centre, j, k);
         const Region region(layout_, k, pass.reach);
         strip.ended.lookFrom(region.lowestSlab());
-        strip.ended.find(count, [&](std::size_t i) {
+        for (std::size_t i = 0; i < count; i += together) {
             const std::size_t cell = firstCell + i;
             PlacesOfCells places = began(paths.at(cell), here(cell, j, k), step, layout_);
+            strip.began.find(i, places);
             const PlacesOfCells speed = speeds.at(cell);
             Int16 within{};
             for (std::size_t place = 0; place < places.size(); ++place)
                 within |=
                     region.lead(places[place], moved(places[place], 2 * step, speed[place]), place) & (1 << place);
             store(&strip.within[i], within);
-            return places;
-        });
-        strip.began.find(count, [&](std::size_t i) {
-            return began(paths.at(firstCell + i), here(firstCell + i, j, k), step, layout_);
-        });
+            strip.ended.find(i, places);
+        }
         const CornerStrip<true>::Reader ended(strip.ended);
         const CornerStrip<false>::Reader field(strip.began);
         const Limit limit = pass.rule.limit;

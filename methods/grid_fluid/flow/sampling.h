@@ -71,23 +71,19 @@ class CornerStrip {
     /// For a ring: samples will use slabs from here on, at most as many as the ring holds.
     void lookFrom(int slab) { shift_ = slab % view_.slabs - slab; }
 
-    /// `placesOf(i)`: the PlacesOfCells of cells i to i + 15, up to the next multiple of sixteen. All positions
-    /// must lie within the places of the outermost ghosts.
-    template <typename PlacesOf>
-    [[gnu::always_inline]] void find(std::size_t count, const PlacesOf& placesOf) {
-        for (std::size_t i = 0; i < count; i += SixteenRecords::count) {
-            const PlacesOfCells p = placesOf(i);
-            const Cells x = cellsAlong<0>(p[0].x, p[1].x, p[2].x, p[3].x, i);
-            const Cells y = cellsAlong<1>(p[0].y, p[1].y, p[2].y, p[3].y, i);
-            const Cells z = cellsAlong<2>(p[0].z, p[1].z, p[2].z, p[3].z, i);
-            Int16 elsewhere{};
-            for (std::size_t place = 0; place < 3; ++place) {
-                const Int16 differs = (x[place] != x[3]) | (y[place] != y[3]) | (z[place] != z[3]);
-                elsewhere |= differs & (1 << place);
-            }
-            store(&elsewhere_[i], elsewhere);
-            for (std::size_t place = 0; place < 4; ++place) findCorner(place, i, x[place], y[place], z[place]);
+    /// The places of cells i to i + 15 of the strip, i a multiple of sixteen. All positions must lie within the places
+    /// of the outermost ghosts.
+    [[gnu::always_inline]] void find(std::size_t i, const PlacesOfCells& p) {
+        const Cells x = cellsAlong<0>(p[0].x, p[1].x, p[2].x, p[3].x, i);
+        const Cells y = cellsAlong<1>(p[0].y, p[1].y, p[2].y, p[3].y, i);
+        const Cells z = cellsAlong<2>(p[0].z, p[1].z, p[2].z, p[3].z, i);
+        Int16 elsewhere{};
+        for (std::size_t place = 0; place < 3; ++place) {
+            const Int16 differs = (x[place] != x[3]) | (y[place] != y[3]) | (z[place] != z[3]);
+            elsewhere |= differs & (1 << place);
         }
+        store(&elsewhere_[i], elsewhere);
+        for (std::size_t place = 0; place < 4; ++place) findCorner(place, i, x[place], y[place], z[place]);
     }
 
     /// Reads the samples found, cell by cell. Copies what it needs, so that it can stay in registers.
@@ -116,9 +112,10 @@ class CornerStrip {
             extremaAroundCentre(i, minimum, maximum);
             for (int rest = elsewhere_[i]; rest != 0; rest &= rest - 1) {
                 const auto lane = static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(rest)));
-                const std::array<float, 8> c = cornersOf(lane, i);
-                minimum[lane] = *std::ranges::min_element(c);
-                maximum[lane] = *std::ranges::max_element(c);
+                const Column<Float8> c = columnOf(lane, i);
+                const Float8 low = minimumOf(c), high = maximumOf(c);
+                minimum[lane] = std::min(low[0], low[lanes]);
+                maximum[lane] = std::max(high[0], high[lanes]);
             }
         }
 
@@ -136,8 +133,6 @@ class CornerStrip {
             }
         }
         [[gnu::always_inline]] void extremaAroundCentre(std::size_t i, Float8& minimum, Float8& maximum) const {
-            const auto minimumOf = [](const auto& c) { return atMost(atMost(c.a, c.b), atMost(c.c, c.d)); };
-            const auto maximumOf = [](const auto& c) { return atLeast(atLeast(c.a, c.b), atLeast(c.c, c.d)); };
             if constexpr (sixteenAtOnce) {
                 const auto both = column<Float16>(i, 0);
                 const Float16 low = minimumOf(both), high = maximumOf(both);
@@ -148,21 +143,6 @@ class CornerStrip {
                 minimum = atMost(minimumOf(first), minimumOf(second));
                 maximum = atLeast(maximumOf(first), maximumOf(second));
             }
-        }
-        /// One quantity's numbers around its own place: x runs fastest, z slowest.
-        [[nodiscard]] std::array<float, 8> cornersOf(std::size_t lane, std::size_t i) const {
-            const float* low = base_ + lane + std::size_t{low_[lane * stripCells + i]};
-            const float* high = ring ? base_ + lane + std::size_t{high_[lane * stripCells + i]} : low + slab_;
-            return {low[0],  low[lanes],  low[row_],  low[row_ + lanes],
-                    high[0], high[lanes], high[row_], high[row_ + lanes]};
-        }
-        [[nodiscard]] float sampleOf(std::size_t lane, std::size_t i) const {
-            const auto share = [&](std::size_t axis) { return fractions_[axis * fractionPitch + 4 * i + lane]; };
-            const auto mix = [](float a, float b, float f) { return std::fma(f, b - a, a); };
-            const std::array<float, 8> c = cornersOf(lane, i);
-            const float y = share(1), z = share(2);
-            return mix(mix(mix(c[0], c[2], y), mix(c[4], c[6], y), z), mix(mix(c[1], c[3], y), mix(c[5], c[7], y), z),
-                       share(0));
         }
         /// Four records of equal x: those of larger y second, of larger z last. In a Float16 each is together with its
         /// neighbour in x, which is adjacent in memory.
@@ -175,6 +155,27 @@ class CornerStrip {
             const float* low = base_ + from + std::size_t{low_[3 * stripCells + i]};
             const float* high = ring ? base_ + from + std::size_t{high_[3 * stripCells + i]} : low + slab_;
             return {load<Vector>(low), load<Vector>(low + row_), load<Vector>(high), load<Vector>(high + row_)};
+        }
+        /// The same around the own place of a quantity, which comes first, and that of the neighbour in x `lanes`
+        /// later.
+        [[gnu::always_inline]] Column<Float8> columnOf(std::size_t lane, std::size_t i) const {
+            const float* low = base_ + lane + std::size_t{low_[lane * stripCells + i]};
+            const float* high = ring ? base_ + lane + std::size_t{high_[lane * stripCells + i]} : low + slab_;
+            return {load<Float8>(low), load<Float8>(low + row_), load<Float8>(high), load<Float8>(high + row_)};
+        }
+        [[gnu::always_inline]] float sampleOf(std::size_t lane, std::size_t i) const {
+            const auto share = [&](std::size_t axis) { return fractions_[axis * fractionPitch + 4 * i + lane]; };
+            const Column<Float8> c = columnOf(lane, i);
+            const Float8 both = mix(mix(c.a, c.b, share(1)), mix(c.c, c.d, share(1)), share(2));
+            return std::fma(share(0), both[lanes] - both[0], both[0]);
+        }
+        template <typename Vector>
+        [[gnu::always_inline]] static Vector minimumOf(const Column<Vector>& c) {
+            return atMost(atMost(c.a, c.b), atMost(c.c, c.d));
+        }
+        template <typename Vector>
+        [[gnu::always_inline]] static Vector maximumOf(const Column<Vector>& c) {
+            return atLeast(atLeast(c.a, c.b), atLeast(c.c, c.d));
         }
         /// The shares of a cell's faces across x, y, z and of its centre, by quantity. They are loaded as the vectors
         /// that they become, for a wider shuffle of a narrow vector would pass through memory.

@@ -18,6 +18,13 @@ std::array<std::ptrdiff_t, 6> around(const CellLayout& layout) {
     return {-1, 1, -row, row, -slab, slab};
 }
 
+/// Most rows of most masks hold no solid; a vector of bytes at a time tells.
+bool anySolid(std::span<const std::uint8_t> row) {
+    std::uint8_t any = 0;
+    for (const std::uint8_t body : row) any |= body;
+    return any != 0;
+}
+
 /// What of a cell moves: bit `lane` of a velocity, that of the centre for all else.
 Moving bitOf(std::size_t lane) {
     return static_cast<Moving>(1u << std::min<std::size_t>(lane, 3));
@@ -54,8 +61,9 @@ double SolidCells::cover(const SolidMask& mask, CellField& cells) {
                 std::memset(conductance, 1, width);
                 continue;
             }
-            const std::uint8_t* body = mask.body.data() + r * width;
+            const auto body = mask.body.subspan(r * width, width);
             for (std::size_t i = 0; i < width; ++i) conductance[i] = body[i] == 0 ? 1 : 0;
+            if (!anySolid(body)) continue;
             for (std::size_t i = 0; i < width; ++i) {
                 if (body[i] == 0) continue;
                 float* record = cells.cell(at + i);
@@ -84,9 +92,20 @@ void SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
     };
     for (int axis = 0; axis < 3; ++axis) {
         const auto step = std::array<std::size_t, 3>{1, layout_.row, layout_.slab}[static_cast<std::size_t>(axis)];
+        const auto hasFacesOfSolids = [&](glm::ivec3 row) {
+            const auto isSolid = [&](glm::ivec3 of) {
+                return anySolid(mask.body.subspan(indexOf(of), static_cast<std::size_t>(size.x)));
+            };
+            if (isSolid(row)) return true;
+            if (axis == 0 || row[axis] == 0) return false;
+            row[axis] -= 1;
+            return isSolid(row);
+        };
         parallel::forEachBlock(layout_.rows(), rowsInABlock, [&](std::size_t first, std::size_t rows) {
-            for (std::size_t r = first; r < first + rows; ++r)
-                for (glm::ivec3 cell(0, layout_.rowJ(r), layout_.rowK(r)); cell.x < size.x; ++cell.x) {
+            for (std::size_t r = first; r < first + rows; ++r) {
+                glm::ivec3 cell(0, layout_.rowJ(r), layout_.rowK(r));
+                if (!hasFacesOfSolids(cell)) continue;
+                for (; cell.x < size.x; ++cell.x) {
                     const std::uint8_t own = bodyOf(cell);
                     const std::size_t at = layout_.at(cell.x, cell.y, cell.z);
                     glm::ivec3 before = cell;
@@ -99,6 +118,7 @@ void SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
                     if (own != 0 && cell[axis] == size[axis] - 1)
                         cells.cell(at + step)[axis] = speedOf(own, cell, axis);
                 }
+            }
         });
     }
 }
@@ -110,13 +130,13 @@ void SolidCells::findMoving() {
             const std::size_t at = layout_.at(0, layout_.rowJ(r), layout_.rowK(r));
             const std::uint8_t* own = conductance_.data() + at;
             Moving* moving = moving_.data() + at;
-            for (int i = 0; i < layout_.nx; ++i) {
-                const auto isFluid = [&](std::size_t step) {
-                    return (own + i)[-static_cast<std::ptrdiff_t>(step)] == 1 ? 1u : 0u;
-                };
-                const unsigned faces = isFluid(steps[0]) | isFluid(steps[1]) << 1 | isFluid(steps[2]) << 2;
-                moving[i] = own[i] == 1 ? static_cast<Moving>(faces | 8u) : Moving{0};
-            }
+            const std::array<const std::uint8_t*, 3> before{own - steps[0], own - steps[1], own - steps[2]};
+            const auto isFluid = [](std::uint8_t conductance, Moving bit) {
+                return conductance == 1 ? bit : Moving{0};
+            };
+            for (int i = 0; i < layout_.nx; ++i)
+                moving[i] = isFluid(own[i], static_cast<Moving>(8 | isFluid(before[0][i], 1) |
+                                                                isFluid(before[1][i], 2) | isFluid(before[2][i], 4)));
         }
     });
 }
