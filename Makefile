@@ -62,6 +62,10 @@ reproduce: build ## The paper's experiments in their quick size (PAPER=carr2006)
 sample: build ## The sample report in reports/sample and README's table and chart, from one run
 	@python3 reports/sample/make_sample.py $(PROGRAM)
 
+.PHONY: full
+full: build ## The full form of a paper (PAPER=carr2006, up to two hours), its tables in reports/sample/PAPER/full
+	@python3 reports/sample/make_sample.py --full $(PROGRAM) $(PAPER)
+
 .PHONY: test
 test: build/release/build.ninja ## Build everything and run every test
 	@.ci/install browser

@@ -1,8 +1,11 @@
 """Makes the sample reports, a folder for each paper, and README's table and chart from the same runs, so that they agree.
 
     make_sample.py PROGRAM [PAPER …]    measures (half an hour), writes this folder and README.md; `make sample` calls it
+    make_sample.py --full PROGRAM PAPER …       measures the papers' full forms (up to two hours each), writes PAPER/full;
+                                                `make full PAPER=…` calls it
     make_sample.py --write      README.md again from this folder
-    make_sample.py --check      exit code 1 where README.md and this folder disagree
+    make_sample.py --check      exit code 1 where README.md and this folder disagree, or PAPER/full/README.md leaves out a
+                                claim whose verdict differs from the quick form's
 """
 
 import csv
@@ -22,7 +25,7 @@ PAPERS = sorted(folder.parent.name for folder in (ROOT / "data" / "papers").glob
 PAPER, SUITE = "carr2006", "carr2006-compare-quick"  # what README shows
 BEGIN, END = "<!-- sample: `make sample` writes what follows -->\n", "<!-- end of sample -->\n"
 MACHINE = ("cpu", "cores", "gl_renderer", "git_commit", "started_utc")
-DURATIONS = ("quick_seconds", "controls_seconds")  # of the second the experiments are a part: they run again
+TABLES = ("summary.csv", "claims.csv", "experiments.csv")
 
 
 def is_of_suite(row):
@@ -36,25 +39,54 @@ def seconds_of(command):
     return round(time.monotonic() - begin)
 
 
+def provenance_of(out):
+    return json.loads(next((out / "runs").glob("*/run.json")).read_text())["provenance"]
+
+
+def keep(out, kept, files, durations):
+    """Copies the files that are there, and writes machine.csv; `durations` by column."""
+    kept.mkdir(exist_ok=True)
+    for name in files:
+        if (out / name).exists():
+            shutil.copy(out / name, kept)
+    provenance = provenance_of(out)
+    with open(kept / "machine.csv", "w", encoding="utf-8", newline="") as stream:
+        table = csv.writer(stream, lineterminator="\n")
+        table.writerow(MACHINE + tuple(durations))
+        table.writerow([provenance[name] for name in MACHINE] + list(durations.values()))
+
+
 def measure(program, paper):
     out, kept = OUT / paper, HERE / paper
     shutil.rmtree(out, ignore_errors=True)
     quick = [program, "reproduce", "--paper", paper, "--quick", "--out", out]
-    durations = [seconds_of(quick), seconds_of(quick + ["--controls"])]
+    durations = {"quick_seconds": seconds_of(quick), "controls_seconds": seconds_of(quick + ["--controls"])}
     subprocess.run([program, "report", out, "--pictures", "1"], check=True)
-    kept.mkdir(exist_ok=True)
-    for name in ("index.html", "summary.csv", "claims.csv", "experiments.csv"):
-        if (out / name).exists():
-            shutil.copy(out / name, kept)
+    keep(out, kept, ("index.html", *TABLES), durations)
     if paper == PAPER:
         for chart in (SUITE, SUITE + "-stages"):
             subprocess.run([program, "report", out, "--chart", chart, "--format", "png"], check=True)
             shutil.copy(out / "charts" / f"{chart}.png", kept)
-    provenance = json.loads(next((out / "runs").glob("*/run.json")).read_text())["provenance"]
-    with open(kept / "machine.csv", "w", encoding="utf-8", newline="") as stream:
-        table = csv.writer(stream, lineterminator="\n")
-        table.writerow(MACHINE + DURATIONS)
-        table.writerow([provenance[name] for name in MACHINE] + durations)
+
+
+def measure_full(program, paper):
+    """In one sitting: results that are there already are thrown away."""
+    out = OUT / "full" / paper
+    shutil.rmtree(out, ignore_errors=True)
+    seconds = seconds_of([program, "reproduce", "--paper", paper, "--full", "--controls", "--out", out])
+    keep(out, HERE / paper / "full", TABLES, {"full_seconds": seconds})
+    for claim in differing(paper):
+        print(f"{paper}: {claim} differs from the quick form: say why in reports/sample/{paper}/full/README.md")
+
+
+def verdicts(folder):
+    with open(folder / "claims.csv", encoding="utf-8", newline="") as stream:
+        return {row["id"]: row["verdict"] for row in csv.DictReader(stream)}
+
+
+def differing(paper):
+    quick, full = verdicts(HERE / paper), verdicts(HERE / paper / "full")
+    return [claim for claim, verdict in full.items() if quick.get(claim) != verdict]
 
 
 def rows(name):
@@ -107,6 +139,12 @@ def check():
         got, expected = (lines[number] if number < len(lines) else "nothing" for lines in (found, wanted))
         if got != expected:
             sys.exit(f"README.md has '{got}', reports/sample says '{expected}'; run `make sample`, or make_sample.py --write")
+    for folder in sorted(HERE.glob("*/full")):
+        readme = folder / "README.md"
+        explained = readme.read_text(encoding="utf-8") if readme.exists() else ""
+        for claim in differing(folder.parent.name):
+            if f"**{claim}**" not in explained:
+                sys.exit(f"{readme.relative_to(ROOT)} does not explain **{claim}**, whose verdict differs from the quick form's")
 
 
 def main(arguments):
@@ -116,12 +154,16 @@ def main(arguments):
         check()
         return
     if arguments[0] != "--write":
-        program, papers = arguments[0], arguments[1:] or PAPERS
+        full = arguments[0] == "--full"
+        if full and len(arguments) < 3:
+            sys.exit(f"make_sample.py: --full needs a paper: {', '.join(PAPERS)}")
+        program, *papers = arguments[1:] if full else arguments
+        papers = papers or PAPERS
         for paper in papers:
             if paper not in PAPERS:
                 sys.exit(f"make_sample.py: no paper '{paper}'; papers: {', '.join(PAPERS)}")
         for paper in papers:
-            measure(program, paper)
+            (measure_full if full else measure)(program, paper)
     write()
 
 
