@@ -41,6 +41,52 @@ TEST(Advection, EqualsThePlainOne) {
         }
 }
 
+TEST(SolidCells, FacesHaveTheSpeedOfTheSolidAheadElseOfThatBehind) {
+    const glm::ivec3 size(37, 9, 11);
+    for (const double share : {0.002, 0.02, 0.4}) {  // rows that hold few solids or none are left out early
+        World world(size);
+        world.fillRandom(1);
+        std::vector<float> before(world.from.data(), world.from.data() + world.from.floats());
+        world.setRandomSolids(share);
+        const auto solidAt = [&](glm::ivec3 cell) -> int {
+            if (glm::any(glm::lessThan(cell, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(cell, size))) return 0;
+            return world.inside[static_cast<std::size_t>((cell.z * size.y + cell.y) * size.x + cell.x)];
+        };
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::ivec3 faces = size;
+            faces[axis] += 1;
+            for (glm::ivec3 at(0); at.z < faces.z; ++at.z)
+                for (at.y = 0; at.y < faces.y; ++at.y)
+                    for (at.x = 0; at.x < faces.x; ++at.x) {
+                        glm::ivec3 behind = at;
+                        behind[axis] -= 1;
+                        const int solid = solidAt(at) != 0 ? solidAt(at) : solidAt(behind);
+                        const std::size_t lane =
+                            world.layout.at(at.x, at.y, at.z) * lanes + static_cast<std::size_t>(axis);
+                        const float expected = solid != 0
+                                                   ? world.motions[static_cast<std::size_t>(solid - 1)].velocity[axis]
+                                                   : before[lane];
+                        ASSERT_EQ(world.from.data()[lane], expected)
+                            << axis << " at " << at.x << ' ' << at.y << ' ' << at.z;
+                    }
+        }
+        for (glm::ivec3 at(0); at.z < size.z; ++at.z)
+            for (at.y = 0; at.y < size.y; ++at.y)
+                for (at.x = 0; at.x < size.x; ++at.x) {
+                    const auto flows = [&](glm::ivec3 cell) {
+                        return world.solids.conductance()[world.layout.at(cell.x, cell.y, cell.z)] == 1;
+                    };
+                    int expected = 8;
+                    for (int axis = 0; axis < 3; ++axis) {
+                        glm::ivec3 behind = at;
+                        behind[axis] -= 1;
+                        if (flows(behind)) expected |= 1 << axis;
+                    }
+                    ASSERT_EQ(world.solids.moving()[world.layout.at(at.x, at.y, at.z)], flows(at) ? expected : 0);
+                }
+    }
+}
+
 TEST(Forces, CurlOfARigidRotationIsTwiceItsSpeed) {
     World world({10, 8, 6});
     for (int k = -1; k <= 6; ++k)
