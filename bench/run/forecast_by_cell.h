@@ -11,12 +11,13 @@
 
 namespace dustbench::bench {
 
-/// Identifies the cell of a run: equal for all its repetitions, whether judged or not.
+/// Identifies the cell of a run: equal for all its repetitions and seeds, whether judged or not. Another seed is another
+/// cloud, as large.
 [[nodiscard]] std::string cellOf(RunSpec run);
 
 class ForecastByCell {
  public:
-    /// Sets the forecast for all repetitions of a cell.
+    /// Sets the forecast for all repetitions and seeds of a cell.
     void set(const RunSpec& cell, const RunForecast& forecast);
     /// Includes the metrics only if the run has them. Negative if unknown.
     [[nodiscard]] double seconds(const RunSpec& run) const;

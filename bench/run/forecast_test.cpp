@@ -77,18 +77,19 @@ TEST(ForecastByCell, MetricsCountForTheRunThatHasThem) {
     EXPECT_DOUBLE_EQ(remaining.seconds(), 20);
 }
 
-/// Three cells in two repetitions; the children are shell scripts.
+/// Three cells of two seeds; the children are shell scripts.
 class PlanForecasts : public testing::Test {
  protected:
     PlanForecasts() : results_(folder_.path()) {
         Suite suite;
-        for (std::uint64_t cell = 0; cell < 3; ++cell) {
-            PlannedRun& run = suite.cells.emplace_back();
-            run.spec.method = "haze";
-            run.spec.seed = cell;
-            run.label = "cell=" + std::to_string(cell);
-        }
-        suite.repetitions = 2;
+        for (int cell = 0; cell < 3; ++cell)
+            for (const std::uint64_t seed : {1, 2}) {
+                PlannedRun& run = suite.cells.emplace_back();
+                run.spec.method = "haze";
+                run.spec.frames = 100 + cell;
+                run.spec.seed = seed;
+                run.label = "cell=" + std::to_string(cell);
+            }
         plan_ = planRuns(suite);
     }
     /// `script` sees the specification's file as $1.
@@ -118,7 +119,8 @@ TEST_F(PlanForecasts, OneRunOfEachCellIsBegunAndAllAreCounted) {
 TEST_F(PlanForecasts, AFailureAndARunThatTakesTooLongAreNamed) {
     options_.timeoutSeconds = 100;
     const PlanForecast all = forecast(
-        "case $(cat $1) in *'\"seed\": 1'*) echo 'no such thing' >&2; exit 3;; *'\"seed\": 2'*) echo forecast 70 80;; "
+        "case $(cat $1) in *'\"frames\": 101'*) echo 'no such thing' >&2; exit 3;; *'\"frames\": 102'*) echo forecast "
+        "70 80;; "
         "*) echo forecast 5 0;; esac");
     ASSERT_EQ(all.warnings.size(), 2u);
     const std::string warnings = all.warnings[0] + all.warnings[1];
