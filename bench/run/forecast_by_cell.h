@@ -11,8 +11,8 @@
 
 namespace dustbench::bench {
 
-/// Identifies the cell of a run: equal for all its repetitions and seeds, whether judged or not. Another seed is another
-/// cloud, as large.
+/// Identifies the cell of a run: equal for all its repetitions and seeds, whether judged or not. Another seed is
+/// another cloud, as large.
 [[nodiscard]] std::string cellOf(RunSpec run);
 
 class ForecastByCell {
