@@ -119,9 +119,8 @@ TEST_F(PlanForecasts, OneRunOfEachCellIsBegunAndAllAreCounted) {
 TEST_F(PlanForecasts, AFailureAndARunThatTakesTooLongAreNamed) {
     options_.timeoutSeconds = 100;
     const PlanForecast all = forecast(
-        "case $(cat $1) in *'\"frames\": 101'*) echo 'no such thing' >&2; exit 3;; *'\"frames\": 102'*) echo forecast "
-        "70 80;; "
-        "*) echo forecast 5 0;; esac");
+        "case $(cat $1) in *'\"frames\": 101'*) echo 'no such thing' >&2; exit 3;; "
+        "*'\"frames\": 102'*) echo forecast 70 80;; *) echo forecast 5 0;; esac");
     ASSERT_EQ(all.warnings.size(), 2u);
     const std::string warnings = all.warnings[0] + all.warnings[1];
     EXPECT_THAT(warnings, HasSubstr("haze plain cell=1: exit code 3: no such thing"));

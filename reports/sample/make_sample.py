@@ -60,6 +60,7 @@ def measure(program, paper):
     out, kept = OUT / paper, HERE / paper
     shutil.rmtree(out, ignore_errors=True)
     quick = [program, "reproduce", "--paper", paper, "--quick", "--out", out]
+    # The experiments are a part of both durations: they run again.
     durations = {"quick_seconds": seconds_of(quick), "controls_seconds": seconds_of(quick + ["--controls"])}
     subprocess.run([program, "report", out, "--pictures", "1"], check=True)
     keep(out, kept, ("index.html", *TABLES), durations)

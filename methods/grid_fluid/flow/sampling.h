@@ -112,7 +112,7 @@ class CornerStrip {
             extremaAroundCentre(i, minimum, maximum);
             for (int rest = elsewhere_[i]; rest != 0; rest &= rest - 1) {
                 const auto lane = static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(rest)));
-                const Column<Float8> c = columnOf(lane, i);
+                const auto c = column<Float8>(i, lane, lane);
                 const Float8 low = minimumOf(c), high = maximumOf(c);
                 minimum[lane] = std::min(low[0], low[lanes]);
                 maximum[lane] = std::max(high[0], high[lanes]);
@@ -150,22 +150,16 @@ class CornerStrip {
         struct Column {
             Vector a, b, c, d;
         };
+        /// From float `from` on, around the place of the centre or of a face; a face's quantity has its number.
         template <typename Vector>
-        [[gnu::always_inline]] Column<Vector> column(std::size_t i, std::size_t from) const {
-            const float* low = base_ + from + std::size_t{low_[3 * stripCells + i]};
-            const float* high = ring ? base_ + from + std::size_t{high_[3 * stripCells + i]} : low + slab_;
+        [[gnu::always_inline]] Column<Vector> column(std::size_t i, std::size_t from, std::size_t place = 3) const {
+            const float* low = base_ + from + std::size_t{low_[place * stripCells + i]};
+            const float* high = ring ? base_ + from + std::size_t{high_[place * stripCells + i]} : low + slab_;
             return {load<Vector>(low), load<Vector>(low + row_), load<Vector>(high), load<Vector>(high + row_)};
-        }
-        /// The same around the own place of a quantity, which comes first, and that of the neighbour in x `lanes`
-        /// later.
-        [[gnu::always_inline]] Column<Float8> columnOf(std::size_t lane, std::size_t i) const {
-            const float* low = base_ + lane + std::size_t{low_[lane * stripCells + i]};
-            const float* high = ring ? base_ + lane + std::size_t{high_[lane * stripCells + i]} : low + slab_;
-            return {load<Float8>(low), load<Float8>(low + row_), load<Float8>(high), load<Float8>(high + row_)};
         }
         [[gnu::always_inline]] float sampleOf(std::size_t lane, std::size_t i) const {
             const auto share = [&](std::size_t axis) { return fractions_[axis * fractionPitch + 4 * i + lane]; };
-            const Column<Float8> c = columnOf(lane, i);
+            const auto c = column<Float8>(i, lane, lane);
             const Float8 both = mix(mix(c.a, c.b, share(1)), mix(c.c, c.d, share(1)), share(2));
             return std::fma(share(0), both[lanes] - both[0], both[0]);
         }
