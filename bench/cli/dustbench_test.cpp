@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -224,6 +225,11 @@ TEST_F(Dustbench, AListOfValuesIsARunEach) {
     ASSERT_EQ(called.code, 0) << called.err;
     EXPECT_EQ(runs(out()).size(), 6u);
     EXPECT_THAT(called.err, HasSubstr("run 6 of 6: "));
+
+    const Called tables = call(fmt::format("report {} --text", out()));
+    ASSERT_EQ(tables.code, 0) << tables.err;
+    EXPECT_EQ(std::ranges::count(tables.out, '\n'), 3 + 6 + 1) << tables.out;
+    EXPECT_THAT(tables.out, AllOf(HasSubstr(", particles=150 speed=20 "), HasSubstr(" runs ")));
 }
 
 TEST_F(Dustbench, ASuitePrintsItsTableAndTheVerdictsThatItAsksFor) {
@@ -296,7 +302,32 @@ TEST_F(Dustbench, CtrlCEndsWithTwoAndLeavesNoHalfRun) {
     waitpid(child, &status, 0);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 2);
-    EXPECT_THAT(runs(out()), testing::IsEmpty());
+    EXPECT_FALSE(fs::exists(out()));
+}
+
+TEST_F(Dustbench, CtrlCEndsAnExperimentAtOnce) {
+    const fs::path paper = folder_ / "papers" / "long";
+    fs::create_directories(paper);
+    std::ofstream(paper / "paper.toml") << "id = \"long\"\ntitle = \"t\"\nauthors = \"a\"\nyear = 2006\nvenue = "
+                                           "\"v\"\nkey = \"k\"\nsummary = \"s\"\nsuites = []\n"
+                                           "experiments = [\"ageing\"]\n";
+    const fs::path errors = folder_ / "errors";
+    const pid_t child = fork();
+    if (child == 0) {
+        if (freopen(errors.c_str(), "w", stderr) == nullptr) _exit(126);
+        execl(DUSTBENCH_PROGRAM, DUSTBENCH_PROGRAM, "reproduce", "--paper", "long", "--data", folder_.c_str(), "--out",
+              out().c_str(), nullptr);
+        _exit(127);
+    }
+    const auto begun = [&] { return contentOf(errors).find("experiment 1 of 1: ageing\n") != std::string::npos; };
+    for (int i = 0; i < 6'000 && !begun(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_TRUE(begun()) << contentOf(errors);
+    kill(child, SIGINT);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 2);
+    EXPECT_TRUE(contentOf(errors).ends_with("ageing\naborted; the same command resumes\n")) << contentOf(errors);
 }
 
 TEST_F(Dustbench, ARunThatTakesTooLongIsATimeoutAndExitCodeOne) {

@@ -1,8 +1,12 @@
 #include "bench/cli/interruption.h"
 
 #include <signal.h>
+#include <unistd.h>
 
 #include <initializer_list>
+#include <string_view>
+
+#include "bench/cli/exit_codes.h"
 
 namespace dustbench::cli {
 namespace {
@@ -13,12 +17,27 @@ void countInterruption(int) {
     interruptions = interruptions + 1;
 }
 
+/// Calls nothing that is unsafe in a signal's handler.
+void endAtOnce(int) {
+    constexpr std::string_view message = "aborted; the same command resumes\n";
+    if (write(STDERR_FILENO, message.data(), message.size()) < 0) _exit(exitAborted);
+    _exit(exitAborted);
+}
+
+void handleBy(void (*handler)(int)) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    for (const int signalNumber : {SIGINT, SIGTERM, SIGHUP}) sigaction(signalNumber, &action, nullptr);
+}
+
 }  // namespace
 
 void listenForInterruption() {
-    struct sigaction action {};
-    action.sa_handler = countInterruption;
-    for (const int signalNumber : {SIGINT, SIGTERM, SIGHUP}) sigaction(signalNumber, &action, nullptr);
+    handleBy(countInterruption);
+}
+
+EndsWhenInterrupted::EndsWhenInterrupted() {
+    handleBy(endAtOnce);
 }
 
 bool interrupted() {

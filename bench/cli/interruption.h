@@ -7,4 +7,14 @@ namespace dustbench::cli {
 void listenForInterruption();
 [[nodiscard]] bool interrupted();
 
+/// While it lives, these signals end the program at once with exitAborted: for work that cannot poll and writes
+/// nothing.
+class EndsWhenInterrupted {
+ public:
+    EndsWhenInterrupted();
+    ~EndsWhenInterrupted() { listenForInterruption(); }
+    EndsWhenInterrupted(const EndsWhenInterrupted&) = delete;
+    EndsWhenInterrupted& operator=(const EndsWhenInterrupted&) = delete;
+};
+
 }  // namespace dustbench::cli

@@ -14,6 +14,7 @@
 #include "bench/report/machines/machine_comparison.h"
 #include "bench/report/page.h"
 #include "bench/report/report_reader.h"
+#include "bench/report/run_groups.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/printable.h"
 
@@ -40,16 +41,31 @@ void refuseOthers(const ReportOptions& options) {
     if (options.text && !options.out.empty()) throw InputError("--text and --out: got both, allowed: one of them");
 }
 
+/// Those that `run` and `compare` left, and those of controls.
+std::string runsOfNoSuite(const bench::RunGroup& group) {
+    std::vector<bench::MeasuredCell> cells;
+    for (const bench::ReportCell& cell : group.cells) {
+        const std::string world = bench::worldLabel(group, cell);
+        cells.push_back({bench::variantLabel(group, cell) + (world.empty() ? "" : ", " + world), cell.done});
+    }
+    return runsReport(group.title, cells);
+}
+
 /// The tables printed by `suite` and `reproduce`, for all existing runs.
 void printTables(const bench::ReportData& data) {
     for (const bench::RunGroup& group : data.groups) {
-        if (group.suite.empty()) continue;
+        if (group.suite.empty()) {
+            std::cout << group.id << ": " << runsOfNoSuite(group) << "\n";
+            continue;
+        }
         bench::Suite suite = bench::loadSuite(group.suite, group.id != group.suite);
         for (const bench::ReportCell& cell : group.cells)
             suite.repetitions = std::max(suite.repetitions, static_cast<int>(cell.done.size()));
         std::cout << group.id << ": " << suiteReport(suite, data.runs) << "\n";
     }
     std::cout << claimsReport(data.claims);
+    for (const bench::NotDone& run : data.notDone)
+        std::cout << fmt::format("{}: {}: {}\n", run.runId, run.status, files::printable(run.reason));
 }
 
 int reportMachines(const ReportOptions& options) {

@@ -13,6 +13,7 @@
 #include "bench/claims/printed_numbers.h"
 #include "bench/cli/commands.h"
 #include "bench/cli/exit_codes.h"
+#include "bench/cli/interruption.h"
 #include "bench/cli/plan_runner.h"
 #include "bench/cli/shared_options.h"
 #include "bench/cli/suite_report.h"
@@ -116,6 +117,18 @@ std::string notMeasured(const std::vector<bench::StoredFinding>& findings) {
     return lines.empty() ? lines : lines + "\n";
 }
 
+/// What the paper's small experiments find; they take seconds in the quick form, minutes in the full one.
+std::vector<bench::StoredFinding> findingsOf(const PaperWork& work) {
+    const std::vector<std::string>& experiments = work.paper.experiments;
+    const EndsWhenInterrupted untilTheyEnd;
+    std::vector<bench::StoredFinding> findings;
+    for (std::size_t n = 0; n < experiments.size(); ++n) {
+        std::cerr << fmt::format("experiment {} of {}: {}", n + 1, experiments.size(), experiments[n]) << std::endl;
+        std::ranges::move(bench::runExperiment(experiments[n], work.quick), std::back_inserter(findings));
+    }
+    return findings;
+}
+
 /// Runs, tables, verdicts and the page of one paper, whose line is added to `index`.
 int reproducePaper(const PaperWork& work, std::vector<bench::PaperLine>& index) {
     const bench::Paper& paper = work.paper;
@@ -129,9 +142,7 @@ int reproducePaper(const PaperWork& work, std::vector<bench::PaperLine>& index) 
         code = std::max(code, suiteCode);
         std::cout << "\n" << suiteReport(each.suite, results.runs()) << std::flush;
     }
-    std::vector<bench::StoredFinding> findings;
-    for (const std::string& id : paper.experiments)
-        std::ranges::move(bench::runExperiment(id, work.quick), std::back_inserter(findings));
+    const std::vector<bench::StoredFinding> findings = findingsOf(work);
     if (!findings.empty()) bench::writeWhole(results.path() / "experiments.csv", bench::findingsCsv(findings));
     std::cout << notMeasured(findings);
     const auto summary = files::CsvTable::parseFile(results.path() / "summary.csv");

@@ -4,7 +4,6 @@
 
 #include "bench/cli/text_table.h"
 #include "bench/suite/suite_fit.h"
-#include "bench/suite/suite_table.h"
 #include "bench/suite/suite_verdicts.h"
 #include "methods/kit/files/printable.h"
 
@@ -52,6 +51,11 @@ std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs
         for (const std::string& sentence : bench::conclusions(comparison)) text += files::printable(sentence) + "\n";
     }
     return text;
+}
+
+std::string runsReport(const std::string& title, const std::vector<bench::MeasuredCell>& cells) {
+    return title + "\nframes per second; ms of a frame and of its stages; medians over the runs\n" +
+           textOf(bench::tabulate(cells));
 }
 
 std::string publishedReport(bench::TextRows table) {

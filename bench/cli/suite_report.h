@@ -1,5 +1,5 @@
-// The output of `suite` and `reproduce`: for a suite the table of FPS and stages and its verdicts, for a paper the
-// verdicts on its claims.
+// The output of `suite`, `reproduce` and `report --text`: for a suite the table of FPS and stages and its verdicts, for
+// a paper the verdicts on its claims, for other runs the table alone.
 #pragma once
 
 #include <string>
@@ -8,10 +8,12 @@
 #include "bench/claims/claim_ledger.h"
 #include "bench/suite/cell_results.h"
 #include "bench/suite/suite.h"
+#include "bench/suite/suite_table.h"
 
 namespace dustbench::cli {
 
 [[nodiscard]] std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs);
+[[nodiscard]] std::string runsReport(const std::string& title, const std::vector<bench::MeasuredCell>& cells);
 /// Empty if the table has no rows.
 [[nodiscard]] std::string publishedReport(bench::TextRows table);
 [[nodiscard]] std::string claimsReport(const std::vector<bench::JudgedClaim>& claims);

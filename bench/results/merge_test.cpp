@@ -193,7 +193,7 @@ TEST_F(Merge, TakesNothingFromOutsideItsFolders) {
     fs::create_directories(linked);
     fs::create_symlink(honest / "runs", linked / "runs");
     EXPECT_THAT(refusal({linked}), HasSubstr("runs': is a symbolic link"));
-    EXPECT_TRUE(fs::is_empty(folder_ / "out" / "runs"));
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
     // The folder itself may be named by a link.
     fs::create_symlink(honest, folder_ / "by-name");
     EXPECT_EQ(mergeInto(folder_ / "out", {folder_ / "by-name"}).copies.size(), 1u);

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <iterator>
 #include <set>
 #include <thread>
 
@@ -43,6 +44,7 @@ ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)) {
     if (folder_.empty()) throw InputError("output: got an empty name, expected a folder");
     const fs::path runs = folder_ / "runs";
     std::error_code error;
+    isNew_ = !fs::exists(folder_, error);
     fs::create_directories(runs, error);
     if (error) files::failWriting(folder_, error.value());
     for (const fs::path& each : {folder_, runs})
@@ -109,6 +111,13 @@ void ResultsFolder::readRuns() {
 }
 
 ResultsFolder::~ResultsFolder() {
+    std::error_code error;
+    const auto entriesOf = [&error](const fs::path& folder) {
+        return std::distance(fs::directory_iterator(folder, error), fs::directory_iterator());
+    };
+    const fs::path runs = folder_ / "runs";
+    if (isNew_ && entriesOf(folder_) == 1 && entriesOf(runs) == 0 && fs::remove(runs, error))
+        fs::remove(folder_, error);
     close(lock_);
 }
 

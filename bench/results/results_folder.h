@@ -18,6 +18,7 @@ class ResultsFolder {
     /// runs; runs with a damaged run.json or an altered output are set aside. Throws InputError if it is not writable
     /// or another program is writing to it.
     explicit ResultsFolder(std::filesystem::path folder);
+    /// A folder that it created goes again if nothing was written into it.
     ~ResultsFolder();
     ResultsFolder(const ResultsFolder&) = delete;
     ResultsFolder& operator=(const ResultsFolder&) = delete;
@@ -48,6 +49,7 @@ class ResultsFolder {
 
     std::filesystem::path folder_;
     int lock_ = -1;
+    bool isNew_ = false;
     StoredRuns runs_;
     std::vector<std::string> setAside_;
 };

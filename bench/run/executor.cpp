@@ -320,7 +320,7 @@ ExecutionResult execute(const std::vector<PlannedRun>& plan, int repetitions, Re
     } catch (const fs::filesystem_error& failure) {
         files::failWriting(results.path(), failure.code().value());
     }
-    results.writeSummary();
+    if (!result.aborted || !results.runs().empty()) results.writeSummary();
     return result;
 }
 

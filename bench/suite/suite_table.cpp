@@ -120,6 +120,15 @@ TextRows tabulate(const Suite& suite, const StoredRuns& runs) {
                         [&](const auto& done) { return timesOf(done, suite.baseline); });
 }
 
+TextRows tabulate(const std::vector<MeasuredCell>& cells) {
+    const bool withOwn = std::ranges::any_of(
+        cells, [](const MeasuredCell& cell) { return !numbersIn(cell.done, "method_ms_median").empty(); });
+    TextRows table{joined({"method", "runs"}, timesHeader(withOwn)), {}};
+    for (const MeasuredCell& cell : cells)
+        table.rows.push_back(joined({cell.label, std::to_string(cell.done.size())}, timesOf(cell.done, withOwn)));
+    return table;
+}
+
 TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs) {
     const bool judged = std::ranges::any_of(suite.cells, [&](const PlannedRun& cell) {
         const StoredRun* first = doneRun(cell, 1, runs);

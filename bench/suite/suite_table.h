@@ -27,6 +27,14 @@ struct TextRows {
 /// The same rows with the metrics of judged runs (reports/METRICS.md); no rows if none were judged.
 [[nodiscard]] TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs);
 
+/// The runs of a cell that belongs to no suite.
+struct MeasuredCell {
+    std::string label;
+    std::vector<const StoredRun*> done;
+};
+/// FPS, frame time and stages of such cells, each with its number of runs.
+[[nodiscard]] TextRows tabulate(const std::vector<MeasuredCell>& cells);
+
 /// Four significant digits, at most three after the point: `0.047`, `12.35`, `123.5`; empty for NaN.
 [[nodiscard]] std::string fourDigits(double value);
 

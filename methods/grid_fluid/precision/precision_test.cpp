@@ -154,6 +154,37 @@ TEST_F(Folder, ReadsBackItsFlowsAndRefusesOthers) {
         refused(text);
     std::ofstream(place_ / "a.flow", std::ios::app) << "x";
     EXPECT_THROW((void)readFlow(place_ / "a.flow"), InputError);
+    EXPECT_THROW((void)readFlow(place_), InputError);
+}
+
+TEST_F(Folder, RefusesDamagedFlowsBeforeItAllocates) {
+    fs::create_directories(place_);
+    const fs::path file = place_ / "a.flow";
+    const std::string head = "dustbench-flow 1 2 1 1\n";
+    const std::string whole = head + std::string(sizeof(float) * (2 + 3 + 4 + 4), '\0');
+    const auto write = [&](const std::string& text) { std::ofstream(file, std::ios::binary) << text; };
+    write(whole);
+    EXPECT_EQ(readFlow(file).density.size(), 2u);
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        write(whole.substr(0, length));
+        EXPECT_THROW((void)readFlow(file), InputError) << length;
+    }
+    for (std::size_t place = 0; place < head.size(); ++place)
+        for (const char other : {'\0', ' ', '-', '1', '9', '\n', '\xff'}) {
+            std::string text = whole;
+            text[place] = other;
+            write(text);
+            try {
+                EXPECT_EQ(readFlow(file).density.size(), 2u) << text;
+            } catch (const InputError&) {
+            }
+        }
+    write("dustbench-flow 1 1024 1024 1024\n" + whole.substr(head.size()));
+    EXPECT_THROW((void)readFlow(file), InputError);  // 17 GB
+    std::string text = whole;
+    text.replace(text.size() - 4, 4, "\0\0\xc0\x7f", 4);
+    write(text);
+    EXPECT_THROW((void)readFlow(file), InputError);  // NaN
 }
 
 TEST_F(Folder, ComparesFlowsOfOtherSolversWithBothReferences) {

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <string>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/whole_text.h"
 
 namespace dustbench::grid_fluid::precision {
 namespace {
@@ -31,6 +35,15 @@ void forEachNumber(Flow& flow, const Record& recordAt, const Take& take) {
 
 void writeNumbers(std::ostream& to, std::span<const float> values) {
     to.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size_bytes()));
+}
+
+/// The density of all cells and the speeds of all faces.
+std::uintmax_t bytesOf(const glm::ivec3& cells) {
+    const auto count = [](int x, int y, int z) {
+        return static_cast<std::uintmax_t>(x) * static_cast<std::uintmax_t>(y) * static_cast<std::uintmax_t>(z);
+    };
+    const auto [x, y, z] = std::array{cells.x, cells.y, cells.z};
+    return sizeof(float) * (count(x, y, z) + count(x + 1, y, z) + count(x, y + 1, z) + count(x, y, z + 1));
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& got, const std::string& allowed) {
@@ -78,25 +91,31 @@ void writeFloats(const std::filesystem::path& file, std::span<const float> value
 }
 
 StaggeredFlow readFlow(const std::filesystem::path& file) {
+    if (const std::string why = files::refusalOf(file, files::limits::geometryBytes); !why.empty())
+        throw InputError(fmt::format("{}: {}, expected a flow", file.string(), why));
     std::ifstream from(file, std::ios::binary);
-    std::string line, word;
-    std::getline(from, line);
-    std::istringstream words(line);
+    std::array<char, 100> line{};
+    from.getline(line.data(), line.size());
+    std::istringstream words(line.data());
+    std::string word;
     int version = 0;
     glm::ivec3 cells(0);
     words >> word >> version >> cells.x >> cells.y >> cells.z;
     const auto isAllowed = [](int count) { return count >= 1 && count <= maximumCells; };
-    if (!words || word != "dustbench-flow" || version != 1 || !isAllowed(cells.x) || !isAllowed(cells.y) ||
+    if (!from || !words || word != "dustbench-flow" || version != 1 || !isAllowed(cells.x) || !isAllowed(cells.y) ||
         !isAllowed(cells.z))
         fail(file, "a file without this head", "'dustbench-flow 1 NX NY NZ', up to 1024 cells along each axis");
+    if (std::filesystem::file_size(file) != static_cast<std::uintmax_t>(from.gcount()) + bytesOf(cells))
+        fail(file, "another number of values", "those of all cells and faces");
     StaggeredFlow flow(cells);
     const auto read = [&](std::vector<float>& values) {
         from.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(float)));
+        if (!from) fail(file, "a file that cannot be read to its end", "a whole one");
+        if (!std::ranges::all_of(values, [](float value) { return std::isfinite(value); }))
+            fail(file, "a value that is not finite", "finite numbers");
     };
     read(flow.density);
     for (std::vector<float>& speeds : flow.speeds) read(speeds);
-    if (!from || from.peek() != std::ifstream::traits_type::eof())
-        fail(file, "another number of values", "those of all cells and faces");
     return flow;
 }
 

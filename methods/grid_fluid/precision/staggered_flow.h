@@ -47,8 +47,10 @@ struct StaggeredFlow {
 /// Replaces a solver's speeds and density; its solids must be set already.
 void giveTo(flow::FluidSolver& solver, const StaggeredFlow& flow);
 
-/// Both throw InputError with the file.
+/// Throws InputError with the file.
 void writeFlow(const std::filesystem::path& file, const StaggeredFlow& flow);
+/// Throws InputError with the file if it is none, has over 1 GB, is not as long as its head says, or holds a number
+/// that is not finite; nothing is allocated before its length is known to be right.
 [[nodiscard]] StaggeredFlow readFlow(const std::filesystem::path& file);
 /// 32-bit floats alone.
 void writeFloats(const std::filesystem::path& file, std::span<const float> values);
