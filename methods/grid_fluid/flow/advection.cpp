@@ -6,6 +6,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "methods/grid_fluid/flow/evened_corrections.h"
 #include "methods/grid_fluid/flow/sampling.h"
 #include "methods/kit/parallel/for_each_block.h"
 
@@ -111,8 +112,8 @@ class Region {
 }  // namespace
 
 struct Advection::Pass {
-    const CellField& from;
-    CellField& to;
+    CellField& cells;
+    CellField& spare;  ///< of the semi-Lagrangian scheme the result, of MacCormack's the corrections
     const Moving* moving;
     AdvectionRule rule;
     float cellsPerSpeed;
@@ -172,7 +173,7 @@ void Advection::findCentres(const Pass& pass, int firstSlab, int lastSlab) {
                            [&](std::size_t first, std::size_t count) {
                                for (std::size_t r = first; r < first + count; ++r) {
                                    const int j = layout_.rowJ(r), k = firstSlab + layout_.rowK(r);
-                                   const float* record = pass.from.cell(layout_.at(0, j, k));
+                                   const float* record = pass.cells.cell(layout_.at(0, j, k));
                                    float* to = rowOf(j, k) + 4;
                                    for (std::size_t i = 0; i < nx; ++i, record += lanes, to += 4) {
                                        const Float4 own = load<Float4>(record);
@@ -244,12 +245,12 @@ void Advection::predict(const Pass& pass, int firstSlab, int lastSlab) {
     const auto predictStrip = [&](std::size_t first, std::size_t count, int j, int k, CornerStrip<false>& corners) {
         const std::size_t at = layout_.at(0, j, k) + first, there = corrected ? inWindow(at) : at;
         const Row paths(*this, halfway, j, k);
-        const float* own = pass.from.cell(at);
+        const float* own = pass.cells.cell(at);
         const Moving* moving = pass.moving + at;
         for (std::size_t i = 0; i < count; i += together)
             corners.find(i, began(paths.at(first + i), here(first + i, j, k), step, layout_));
         const CornerStrip<false>::Reader field(corners);
-        float* out = (corrected ? guesses() : pass.to.data()) + there * lanes;
+        float* out = (corrected ? guesses() : pass.spare.data()) + there * lanes;
         for (std::size_t i = 0; i < count; ++i)
             storeRecord(out + i * lanes, chosen(moving[i], field.sample(i), load<Float8>(own + i * lanes)));
     };
@@ -266,7 +267,7 @@ void Advection::predict(const Pass& pass, int firstSlab, int lastSlab) {
 void Advection::keepFarFaces(const Pass& pass, int firstSlab, int lastSlab) {
     const auto keep = [&](int i, int j, int k, std::size_t records) {
         const std::size_t at = layout_.at(i, j, k);
-        std::memcpy(guesses() + inWindow(at) * lanes, pass.from.cell(at), records * lanes * sizeof(float));
+        std::memcpy(guesses() + inWindow(at) * lanes, pass.cells.cell(at), records * lanes * sizeof(float));
     };
     for (int k = firstSlab; k < lastSlab; ++k) {
         for (int j = 0; j < layout_.ny; ++j) keep(layout_.nx, j, k, 1);
@@ -275,8 +276,8 @@ void Advection::keepFarFaces(const Pass& pass, int firstSlab, int lastSlab) {
     if (lastSlab == layout_.nz) keep(-1, -1, layout_.nz, layout_.slab);
 }
 
-/// φ = φ̂ + ½(φⁿ − φ̃), where φ̃ is the first guess sampled along the forward path.
-void Advection::correct(const Pass& pass, int firstSlab, int lastSlab) {
+/// c = ½(φⁿ − φ̃), limited, where φ̃ is the first guess sampled along the forward path; 0 where there is none.
+void Advection::findCorrections(const Pass& pass, int firstSlab, int lastSlab) {
     const auto nx = static_cast<std::size_t>(layout_.nx), ny = static_cast<std::size_t>(layout_.ny);
     const float step = pass.cellsPerSpeed;
     struct Strip {
@@ -284,7 +285,7 @@ void Advection::correct(const Pass& pass, int firstSlab, int lastSlab) {
         CornerStrip<true> ended;
         alignas(64) std::array<int, stripCells> within{};
     };
-    const auto correctStrip = [&](std::size_t firstCell, std::size_t count, int j, int k, Strip& strip) {
+    const auto findInStrip = [&](std::size_t firstCell, std::size_t count, int j, int k, Strip& strip) {
         const std::size_t at = layout_.at(0, j, k) + firstCell, there = inWindow(at);
         const Row paths(*this, halfway, j, k), speeds(*this, centre, j, k);
         const Region region(layout_, k, pass.reach);
@@ -305,9 +306,9 @@ void Advection::correct(const Pass& pass, int firstSlab, int lastSlab) {
         const CornerStrip<false>::Reader field(strip.began);
         const Limit limit = pass.rule.limit;
         const Moving* moving = pass.moving + at;
-        const float* own = pass.from.cell(at);
+        const float* own = pass.cells.cell(at);
         const float* guess = guesses() + there * lanes;
-        float* out = pass.to.cell(at);
+        float* out = pass.spare.cell(at);
         for (std::size_t i = 0; i < count; ++i, own += lanes, guess += lanes, out += lanes) {
             const auto first = load<Float8>(guess);
             const auto corrected = static_cast<Moving>(strip.within[i] & moving[i]);
@@ -322,37 +323,53 @@ void Advection::correct(const Pass& pass, int firstSlab, int lastSlab) {
                                                                         : first;
                 }
             }
-            storeRecord(out, chosen(corrected, value, first));
+            storeRecord(out, chosen(corrected, value - first, Float8{}));
         }
     };
     parallel::forEachBlock(
         static_cast<std::size_t>(lastSlab - firstSlab) * ny, rowsInABlock, [&](std::size_t first, std::size_t count) {
             Strip strip{CornerStrip<false>(pass.field, layout_), CornerStrip<true>(pass.window, layout_)};
-            for (std::size_t r = first; r < first + count; ++r)
+            for (std::size_t r = first; r < first + count; ++r) {
+                const int j = layout_.rowJ(r), k = firstSlab + layout_.rowK(r);
                 for (std::size_t i = 0; i < nx; i += stripCells)
-                    correctStrip(i, std::min(stripCells, nx - i), layout_.rowJ(r), firstSlab + layout_.rowK(r), strip);
+                    findInStrip(i, std::min(stripCells, nx - i), j, k, strip);
+                mirrorRow(pass.spare, layout_, j, k);
+            }
         });
 }
 
-void Advection::advect(const CellField& from, CellField& to, const Moving* moving, AdvectionRule rule,
+void Advection::addCorrections(const Pass& pass, int firstSlab, int lastSlab) {
+    parallel::forEachBlock(static_cast<std::size_t>(lastSlab - firstSlab) * static_cast<std::size_t>(layout_.ny),
+                           rowsInABlock, [&](std::size_t first, std::size_t count) {
+                               for (std::size_t r = first; r < first + count; ++r) {
+                                   const int j = layout_.rowJ(r), k = firstSlab + layout_.rowK(r);
+                                   const std::size_t at = layout_.at(0, j, k);
+                                   addEvened(pass.spare, layout_, j, k, guesses() + inWindow(at) * lanes,
+                                             pass.cells.cell(at));
+                               }
+                           });
+}
+
+void Advection::advect(CellField& cells, CellField& spare, const Moving* moving, AdvectionRule rule,
                        float cellsPerSpeed, float maximumSpeedZ) {
     const int nz = layout_.nz;
     const auto slabs = static_cast<std::size_t>(nz) + 2;
-    const double cells = std::min<double>(nz, std::ceil(static_cast<double>(maximumSpeedZ * cellsPerSpeed)));
-    const int reach = static_cast<int>(cells) + 2;
+    const double longest = std::min<double>(nz, std::ceil(static_cast<double>(maximumSpeedZ * cellsPerSpeed)));
+    const int reach = static_cast<int>(longest) + 2;
     const bool corrected = rule.scheme == AdvectionScheme::macCormack;
     hold(std::min(slabs, static_cast<std::size_t>(slabsAtATime + 2 * reach + 1)),
          std::min(slabs, static_cast<std::size_t>(slabsAtATime + 2 * reach + 2)));
-    const Pass pass{from,
-                    to,
+    const Pass pass{cells,
+                    spare,
                     moving,
                     rule,
                     cellsPerSpeed,
                     reach,
-                    {from.data(), static_cast<int>(slabs)},
+                    {cells.data(), static_cast<int>(slabs)},
                     {window_.data(), static_cast<int>(heldSlabs_)}};
     // A slab is corrected as soon as all slabs that its paths can reach are available.
-    int done = 0, centred = 0;
+    // Its new state is written as soon as no path can reach its old one.
+    int done = 0, centred = 0, complete = 0;
     for (int first = 0; first < nz; first += slabsAtATime) {
         const int last = std::min(first + slabsAtATime, nz), next = std::min(nz, last + reach);
         findCentres(pass, centred, next);
@@ -362,9 +379,15 @@ void Advection::advect(const CellField& from, CellField& to, const Moving* movin
         if (!corrected) continue;
         keepFarFaces(pass, first, last);
         const int ready = last == nz ? nz : std::max(done, last - reach);
-        correct(pass, done, ready);
+        findCorrections(pass, done, ready);
+        if (done == 0) mirrorSlab(spare, layout_, -1, 0);
+        if (ready == nz) mirrorSlab(spare, layout_, nz, nz - 1);
         done = ready;
+        const int free = last == nz ? nz : std::max(complete, ready - reach);
+        addCorrections(pass, complete, free);
+        complete = free;
     }
+    if (!corrected) cells.swap(spare);
 }
 
 }  // namespace dustbench::grid_fluid::flow

@@ -5,7 +5,8 @@
 // Units: metres per second, cells. Threads: rows in blocks; each cell by itself.
 // Source: Stam1999, 2.2 (semi-Lagrangian); Selle2008, Eq. 4 and 3.2 (MacCormack, clamped to the extrema or reverted).
 // Departs: the forward path is the mirrored backward path: x₊ = x₋ + 2Δt·u(x), also of second order, without another
-// sample; if either path leaves the box, the first guess is kept; only a window of slabs of first guesses is stored.
+// sample; if either path leaves the box, the first guess is kept; only a window of slabs of first guesses is stored; of
+// the corrections what alternates from cell to cell is left out (evened_corrections.h).
 #pragma once
 
 #include <cstdint>
@@ -38,9 +39,9 @@ class Advection {
  public:
     Advection(const CellLayout& layout, MemoryAccount& window) : layout_(layout), window_(window), centres_(window) {}
 
-    /// Advects `from`, with ghosts filled, by `cellsPerSpeed` = Δt/h into `to`. What does not move is copied. The speed
-    /// along z must not exceed `maximumSpeedZ`.
-    void advect(const CellField& from, CellField& to, const Moving* moving, AdvectionRule rule, float cellsPerSpeed,
+    /// Advects `cells`, with ghosts filled, by `cellsPerSpeed` = Δt/h; `spare` is temporary. What does not move stays.
+    /// The speed along z must not exceed `maximumSpeedZ`.
+    void advect(CellField& cells, CellField& spare, const Moving* moving, AdvectionRule rule, float cellsPerSpeed,
                 float maximumSpeedZ);
 
  private:
@@ -68,7 +69,8 @@ class Advection {
     void findPathsOfRow(const Pass& pass, int j, int k);
     void predict(const Pass& pass, int firstSlab, int lastSlab);
     void keepFarFaces(const Pass& pass, int firstSlab, int lastSlab);
-    void correct(const Pass& pass, int firstSlab, int lastSlab);
+    void findCorrections(const Pass& pass, int firstSlab, int lastSlab);
+    void addCorrections(const Pass& pass, int firstSlab, int lastSlab);
 
     CellLayout layout_;
     LedgerVector<float> window_;   ///< of the slabs in progress

@@ -98,7 +98,6 @@ void FluidSolver::advect(float seconds) {
     solids_.extendInto(cells_, !settings_.noSlip);
     fillGhosts();
     advection_.advect(cells_, spare_, solids_.moving(), settings_.advection, cellsPerSpeed, maximumSpeeds_.z);
-    cells_.swap(spare_);
     setSideFaces(cells_, layout_, ghostRule());
     solids_.restore(cells_);
     if (keeps) scaleDensity(cells_, layout_, due);

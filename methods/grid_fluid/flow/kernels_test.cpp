@@ -23,9 +23,10 @@ TEST(Advection, EqualsThePlainOne) {
             world.fillRandom(speed);
             world.setRandomSolids(0.1);
             Advection advection(world.layout, world.ledger.account("window"));
-            advection.advect(world.from, world.to, world.solids.moving(), rule, 0.9f, std::max(speed, 1.0f));
+            const float maximum = std::max(speed, 1.0f);
             const std::vector<PlainRecord> plain = plainAdvection(world.from, world.layout, world.solids.moving(), rule,
-                                                                  0.9, static_cast<double>(std::max(speed, 1.0f)));
+                                                                  0.9, static_cast<double>(maximum));
+            advection.advect(world.from, world.to, world.solids.moving(), rule, 0.9f, maximum);
             // A position on the border of two cells may be rounded to either side, where the extrema differ.
             int different = 0;
             for (int k = 0; k < 27; ++k)
@@ -34,7 +35,7 @@ TEST(Advection, EqualsThePlainOne) {
                         for (std::size_t lane = 0; lane < lanes; ++lane) {
                             const std::size_t at = world.layout.at(i, j, k);
                             const double error =
-                                std::fabs(static_cast<double>(world.to.cell(at)[lane]) - plain[at][lane]);
+                                std::fabs(static_cast<double>(world.from.cell(at)[lane]) - plain[at][lane]);
                             if (error > 2e-5 * std::max(1.0, static_cast<double>(speed * speed))) ++different;
                         }
             EXPECT_LE(different, 6) << "speed " << speed << " limit " << static_cast<int>(rule.limit);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "methods/grid_fluid/flow/evened_corrections.h"
+
 namespace dustbench::grid_fluid::flow {
 namespace {
 
@@ -132,7 +134,7 @@ std::vector<PlainRecord> plainAdvection(const CellField& from, const CellLayout&
     });
     if (rule.scheme == AdvectionScheme::semiLagrangian) return guess.values;
 
-    std::vector<PlainRecord> result = guess.values;
+    std::vector<PlainRecord> corrections(layout.padded());
     // The first guess is kept if a path leaves the box, or goes farther along z than the maximum speed.
     const double maximumSlabs = std::ceil(dt * maximumSpeedZ) + 1;
     forMoving([&](std::size_t at, std::size_t lane, int k, const glm::dvec3& began, const glm::dvec3& ahead) {
@@ -152,8 +154,32 @@ std::vector<PlainRecord> plainAdvection(const CellField& from, const CellLayout&
         });
         const double corrected =
             guess.values[at][lane] + 0.5 * (phi.values[at][lane] - guess.at(glm::clamp(ahead, low, last), lane));
-        result[at][lane] = limited(rule.limit, corrected, guess.values[at][lane], minimum, maximum);
+        corrections[at][lane] =
+            limited(rule.limit, corrected, guess.values[at][lane], minimum, maximum) - guess.values[at][lane];
     });
+    const auto correctionAt = [&](glm::ivec3 cell, std::size_t lane) {
+        const glm::ivec3 last = glm::ivec3(layout.nx, layout.ny, layout.nz) - 1;
+        if (lane < 3 && cell[static_cast<int>(lane)] > last[static_cast<int>(lane)]) return 0.0;  // of the far side
+        cell = glm::clamp(cell, glm::ivec3(0), last);
+        return corrections[layout.at(cell.x, cell.y, cell.z)][lane];
+    };
+    std::vector<PlainRecord> result = guess.values;
+    for (int k = 0; k < layout.nz; ++k)
+        for (int j = 0; j < layout.ny; ++j)
+            for (int i = 0; i < layout.nx; ++i)
+                for (std::size_t lane = 0; lane < lanes; ++lane) {
+                    const glm::ivec3 cell(i, j, k);
+                    const double own = correctionAt(cell, lane);
+                    double least = own, most = own;
+                    for (const glm::ivec3 step : {glm::ivec3(1, 0, 0), {0, 1, 0}, {0, 0, 1}}) {
+                        const double evened =
+                            static_cast<double>(lane < 3 ? keptOfSpeeds : keptOfCentres) / 4 *
+                            (correctionAt(cell - step, lane) + 2 * own + correctionAt(cell + step, lane));
+                        least = std::min(least, evened);
+                        most = std::max(most, evened);
+                    }
+                    result[layout.at(i, j, k)][lane] += std::max(least, 0.0) + std::min(most, 0.0);
+                }
     return result;
 }
 

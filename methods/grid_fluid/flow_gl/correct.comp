@@ -1,11 +1,11 @@
-// Adds half of the error of the first guess when it is advected back, within limits.
+// Half of the error of the first guess when it is advected back, within limits; 0 where there is none.
 // Source: Selle2008, Eq. 4 and 3.2. Departs: as flow::Advection does.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };
 layout(std430, binding = 3) restrict readonly buffer GuessMoving { vec4 guessMoving[]; };
 layout(std430, binding = 4) restrict readonly buffer GuessCarried { vec2 guessCarried[]; };
-layout(std430, binding = 6) restrict writeonly buffer MovingThen { vec4 movingThen[]; };
-layout(std430, binding = 7) restrict writeonly buffer CarriedThen { vec2 carriedThen[]; };
+layout(std430, binding = 6) restrict writeonly buffer MovingCorrections { vec4 movingCorrections[]; };
+layout(std430, binding = 7) restrict writeonly buffer CarriedCorrections { vec2 carriedCorrections[]; };
 
 const float almost = PATH_TOLERANCE;  // cells by which a path may leave: along a wall, speeds across it are rounding errors
 
@@ -41,9 +41,9 @@ bool follow(ivec3 c, int kind, vec3 velocity, inout vec3 place) {
     return stays;
 }
 
-float correctedFace(ivec3 c, int axis, vec3 velocity, float first) {
+float faceCorrection(ivec3 c, int axis, vec3 velocity, float first) {
     vec3 began = behind(c, axis), ended = began;
-    if (!follow(c, axis, velocity, ended)) return first;
+    if (!follow(c, axis, velocity, ended)) return 0.0;
     float value = first + 0.5 * (moving[at(c)][axis] - SAMPLED(guessMoving, [axis], cornersAround(ended)));
     int low = cornersAround(began).low;
     float minimum = moving[low][axis], maximum = minimum;
@@ -52,13 +52,13 @@ float correctedFace(ivec3 c, int axis, vec3 velocity, float first) {
         minimum = min(minimum, there);
         maximum = max(maximum, there);
     }
-    return limited(vec3(value), vec3(first), vec3(minimum), vec3(maximum)).x;
+    return limited(vec3(value), vec3(first), vec3(minimum), vec3(maximum)).x - first;
 }
 
 // Density, temperature and reaction.
-vec3 correctedCentre(ivec3 c, vec3 velocity, vec3 first) {
+vec3 centreCorrection(ivec3 c, vec3 velocity, vec3 first) {
     vec3 began = behind(c, 3), ended = began;
-    if (!follow(c, 3, velocity, ended)) return first;
+    if (!follow(c, 3, velocity, ended)) return vec3(0);
     Corners there = cornersAround(ended);
     vec3 own = vec3(moving[at(c)].w, carried[at(c)]);
     vec3 value = first + 0.5 * (own - vec3(SAMPLED(guessMoving, .w, there), SAMPLED(guessCarried, .xy, there)));
@@ -70,21 +70,21 @@ vec3 correctedCentre(ivec3 c, vec3 velocity, vec3 first) {
         minimum = min(minimum, value);
         maximum = max(maximum, value);
     }
-    return limited(value, first, minimum, maximum);
+    return limited(value, first, minimum, maximum) - first;
 }
 
 void main() {
     ivec3 c = ivec3(gl_GlobalInvocationID);
     if (!inside(c)) return;
     int cell = at(c);
-    vec4 value = guessMoving[cell];
-    vec3 carriedValue = vec3(value.w, guessCarried[cell]);
+    vec3 faces = vec3(0), centre = vec3(0);
     if (isFluid(cell)) {
         vec3 own = speedOf(c);
         for (int axis = 0; axis < 3; ++axis)
-            if (moves(cell, axis)) value[axis] = correctedFace(c, axis, 0.5 * (own + speedOf(c - unit(axis))), value[axis]);
-        carriedValue = correctedCentre(c, own, carriedValue);
+            if (moves(cell, axis))
+                faces[axis] = faceCorrection(c, axis, 0.5 * (own + speedOf(c - unit(axis))), guessMoving[cell][axis]);
+        centre = centreCorrection(c, own, vec3(guessMoving[cell].w, guessCarried[cell]));
     }
-    movingThen[cell] = vec4(value.xyz, carriedValue.x);
-    carriedThen[cell] = carriedValue.yz;
+    movingCorrections[cell] = vec4(faces, centre.x);
+    carriedCorrections[cell] = centre.yz;
 }

@@ -110,7 +110,6 @@ void GlFluidSolver::advect(float seconds) {
     solids_.extendInto(cells_, !settings_.noSlip);
     ghosts_.fill(cells_);
     advection_.advect(cells_, spare_, guess_, solids_.kinds(), report_, cellsPerSpeed);
-    std::swap(cells_, spare_);
     ghosts_.setSideFaces(cells_);
     solids_.fill(cells_);
     if (density_) density_->restore(cells_, solids_.kinds());

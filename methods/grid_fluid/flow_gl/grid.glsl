@@ -29,6 +29,10 @@ int stepAlong(int axis) {
     return axis == 0 ? 1 : axis == 1 ? cells.x + 2 : (cells.x + 2) * (cells.y + 2);
 }
 
+ivec3 unit(int axis) {
+    return ivec3(axis == 0, axis == 1, axis == 2);
+}
+
 // Index of this group of threads; may exceed the last.
 int groupNumber() {
     return int(gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y);

@@ -2,10 +2,6 @@
 layout(std430, binding = 5) restrict readonly buffer Halfway { vec4 halfway[]; };
 uniform float cellsPerSpeed;
 
-ivec3 unit(int axis) {
-    return ivec3(axis == 0, axis == 1, axis == 2);
-}
-
 // x - dt u; a face has the mean velocity of its two cells.
 vec3 behind(ivec3 c, int place) {
     vec3 u = halfway[at(c)].xyz;
