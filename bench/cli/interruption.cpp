@@ -20,7 +20,7 @@ void countInterruption(int) {
 /// Calls nothing that is unsafe in a signal's handler.
 void endAtOnce(int) {
     constexpr std::string_view message = "aborted; the same command resumes\n";
-    if (write(STDERR_FILENO, message.data(), message.size()) < 0) _exit(exitAborted);
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message.data(), message.size());
     _exit(exitAborted);
 }
 
@@ -38,6 +38,7 @@ void listenForInterruption() {
 
 EndsWhenInterrupted::EndsWhenInterrupted() {
     handleBy(endAtOnce);
+    if (interrupted()) endAtOnce(SIGINT);
 }
 
 bool interrupted() {
