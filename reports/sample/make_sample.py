@@ -71,11 +71,13 @@ def measure(program, paper):
 
 
 def measure_full(program, paper):
-    """In one sitting: results that are there already are thrown away."""
+    """Goes on where an earlier call was cut off. Only what was measured in one sitting has a duration."""
     out = OUT / "full" / paper
-    shutil.rmtree(out, ignore_errors=True)
+    goes_on = any(out.glob("runs/*/run.json"))
+    if goes_on:
+        print(f"make_sample.py: goes on with {out.relative_to(ROOT)}; remove it for a measurement in one sitting", flush=True)
     seconds = seconds_of([program, "reproduce", "--paper", paper, "--full", "--controls", "--out", out])
-    keep(out, HERE / paper / "full", TABLES, {"full_seconds": seconds})
+    keep(out, HERE / paper / "full", TABLES, {"full_seconds": "" if goes_on else seconds})
     for claim in differing(paper):
         print(f"{paper}: {claim} differs from the quick form: say why in reports/sample/{paper}/full/README.md")
 
