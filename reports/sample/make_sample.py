@@ -40,7 +40,9 @@ def seconds_of(command):
 
 
 def provenance_of(out):
-    return json.loads(next((out / "runs").glob("*/run.json")).read_text())["provenance"]
+    """Of the first run."""
+    runs = (json.loads(run.read_text())["provenance"] for run in (out / "runs").glob("*/run.json"))
+    return min(runs, key=lambda run: run["started_utc"])
 
 
 def keep(out, kept, files, durations):
