@@ -135,7 +135,7 @@ external: build ## Our exact pictures against POV-Ray, vdb_render and Cycles, th
 
 .PHONY: tsan
 tsan: build/tsan/build.ninja ## The unit tests that need no GPU under ThreadSanitizer
-	@cmake --build --preset tsan --parallel $(JOBS) --target unit_tests
+	@cmake --build --preset tsan --parallel $(JOBS) --target cpu_tests
 	@ctest --preset tsan --exclude-regex _NOT_BUILT
 
 .PHONY: format

@@ -150,7 +150,7 @@ void GridFluid::follow(const scene::VehicleState& vehicle) {
         if (trail_) {
             // Read back only now: a box on the GPU moves once in several steps.
             std::vector<float> density(box.cellCount());
-            solver_->gather(flow::density, density);
+            gatherSeen(flow::density, density);
             trail_->leave(box, due, density);
         }
         solver_->scroll(due);
@@ -166,6 +166,12 @@ void GridFluid::placeSolids(const scene::SceneState& state) {
     solidsStandStill_ = !moving;
 }
 
+void GridFluid::gatherSeen(flow::Lane lane, std::span<float> to) const {
+    solver_->gather(lane, to);
+    if (settings_.solver.advection.limit == flow::Limit::none)
+        for (float& value : to) value = std::max(value, 0.0f);
+}
+
 void GridFluid::show() {
     const flow::FluidBox& box = solver_->box();
     if (densityTexture_.bytes() > 0) {
@@ -176,8 +182,8 @@ void GridFluid::show() {
             {box.cells, box.spacingMetres, box.originMetres, &densityTexture_, burns ? &reactionTexture_ : nullptr});
         return;
     }
-    solver_->gather(flow::density, density_);
-    if (!reaction_.empty()) solver_->gather(flow::reaction, reaction_);
+    gatherSeen(flow::density, density_);
+    if (!reaction_.empty()) gatherSeen(flow::reaction, reaction_);
     const raycast::ShownGrid shown{box.cells, box.spacingMetres, box.originMetres, density_, reaction_};
     if (trailPicture_)
         trailPicture_->show(trail_->dust(), shown);
@@ -197,7 +203,8 @@ void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
     const std::size_t count = box.cellCount();
     std::vector<float> density(count);
     solver_->gather(flow::density, density);
-    std::vector<float> extinction = density;
+    std::vector<float> extinction(count);
+    gatherSeen(flow::density, extinction);
     for (float& value : extinction) value *= static_cast<float>(settings_.setup.look.extinctionPerMetre);
     std::array<std::vector<float>, 4> lanes;
     for (std::size_t n = 0; n < lanes.size(); ++n) {

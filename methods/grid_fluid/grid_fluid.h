@@ -74,6 +74,9 @@ class GridFluid final : public Method {
     void follow(const scene::VehicleState& vehicle);
     void placeSolids(const scene::SceneState& state);
     void requireSourcesInside(const scene::SceneState& state);
+    /// Density or reaction as it is seen: corrections without a limit pull it below 0 here and there, and nothing is
+    /// there.
+    void gatherSeen(flow::Lane lane, std::span<float> to) const;
     void show();
     void volumeOfTrail(VolumeVisitor& visitor) const;
 

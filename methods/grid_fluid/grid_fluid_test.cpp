@@ -250,6 +250,35 @@ TEST(GridFluid, IsDrawnAlikeByEitherSolver) {
     }
 }
 
+TEST(GridFluid, ShowsNothingWhereCorrectionsWithoutALimitPullItBelow0) {
+    class Lowest final : public VolumeVisitor {
+     public:
+        void puffs(const Puffs&) override {}
+        void octree(const OctreeVolume&) override {}
+        void grid(const GridVolume& volume) override {
+            stored = std::min(stored, std::ranges::min(volume.fields[0].values));
+            seen = std::min(seen, std::ranges::min(volume.extinctionPerMetre));
+        }
+        float stored = 0, seen = 0;
+    };
+    for (const SolverBackend solver : {SolverBackend::cpu, SolverBackend::openGl}) {
+        TestMoment moment(0, 64, 64, {0, 1.2, 4}, {0, 0, -1});
+        moment.scene.solids = {{"hare", std::make_shared<scene::Mesh>(ball(8))}};
+        moment.scene.solidPoses = {{glm::mat4(placed({0, 0.8, 0}, 0.5)), {}, {}}};
+        GridFluidSettings settings = settingsOf("fire", {20, 28, 20});
+        settings.solver.advection.limit = flow::Limit::none;
+        settings.solverBackend = solver;
+        GridFluid method(settings);
+        method.prepare(moment.scene, {}, TestMoment::device());
+        for (int step = 0; step < 12; ++step) method.update(moment.frame());
+        Lowest lowest;
+        method.volume(moment.frame(), lowest);
+        EXPECT_LT(lowest.stored, 0);
+        EXPECT_EQ(lowest.seen, 0);
+        EXPECT_NO_THROW(moment.draw(method));
+    }
+}
+
 TEST(GridFluid, IsSolvedWhereThePictureIsMadeUnlessToldOtherwise) {
     TestMoment moment(0, 8, 8, {0, 2, 8}, {0, 0, -1});
     const bool hardware = !TestMoment::device().isSoftware();

@@ -55,7 +55,8 @@ class Solver {
 
     /// Whether the state is on the GPU.
     [[nodiscard]] virtual bool onGpu() const = 0;
-    /// Copies one quantity of all cells into an R32F texture of the box's size; only if `onGpu()`.
+    /// Copies one quantity of all cells into an R32F texture of the box's size, to be seen: 0 where it is below 0; only
+    /// if `onGpu()`.
     virtual void gather(Lane lane, const gpu::Texture& to) const = 0;
     /// Memory on the GPU; the rest is on the ledger.
     [[nodiscard]] virtual MemoryReport gpuMemory() const = 0;

@@ -1,4 +1,5 @@
-// Copies one quantity of all cells, without ghosts, to a 3D texture or to an array. A cell's velocity is the mean of its two faces.
+// Copies one quantity of all cells, without ghosts, to an array, or to a 3D texture to be seen: nothing where it is below 0.
+// A cell's velocity is the mean of its two faces.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict readonly buffer Carried { vec2 carried[]; };
 #ifdef TEXTURE
@@ -20,7 +21,7 @@ void main() {
     float value = lane < 4 ? moving[cell][lane] : carried[cell][lane - 4];
     if (lane < 3 && asStored == 0) value = 0.5 * (value + moving[cell + stepAlong(lane)][lane]);
 #ifdef TEXTURE
-    imageStore(picture, c, vec4(value));
+    imageStore(picture, c, vec4(max(value, 0)));
 #else
     values[c.x + cells.x * (c.y + cells.y * c.z)] = value;
 #endif

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
+#include <sstream>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/parallel/for_each_block.h"
@@ -16,9 +16,10 @@ constexpr std::size_t rowsPerBlock = 256;
     for (std::size_t i = 0; i < grid.density.size(); ++i) {
         if (grid.density[i] >= 0 && grid.density[i] <= std::numeric_limits<float>::max()) continue;
         const std::size_t nx = static_cast<std::size_t>(grid.cells.x), ny = static_cast<std::size_t>(grid.cells.y);
-        throw InputError("shown grid: got a density of " + std::to_string(grid.density[i]) + " in cell (" +
-                         std::to_string(i % nx) + ", " + std::to_string(i / nx % ny) + ", " +
-                         std::to_string(i / nx / ny) + "), allowed: 0 or more");
+        std::ostringstream text;
+        text << "shown grid: got a density of " << grid.density[i] << " in cell (" << i % nx << ", " << i / nx % ny
+             << ", " << i / nx / ny << "), allowed: 0 or more";
+        throw InputError(text.str());
     }
     throw std::logic_error("brick map: a value was refused that is allowed");
 }
