@@ -149,9 +149,9 @@ format-check: ## Say which sources `make format` would change
 	@clang-format-14 --dry-run --Werror $(SOURCES)
 
 .PHONY: lint
-lint: build/release/build.ninja ## Run clang-tidy over all sources, or what changed since a revision (SINCE=origin/main)
+lint: build/lint/build.ninja ## Run clang-tidy over all sources, or what changed since a revision (SINCE=origin/main)
 	@.ci/install lint
-	@cmake --build --preset release --parallel $(JOBS) --target shader_headers
+	@cmake --build --preset lint --parallel $(JOBS) --target generated_headers
 	@.ci/lint $(LINT)
 
 .PHONY: clean

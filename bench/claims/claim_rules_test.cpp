@@ -14,19 +14,19 @@
 namespace dustbench::bench {
 namespace {
 
-constexpr int repetitions = 6;
+constexpr int rulesRepetitions = 6;
 
 /// ms of a method in a world: `value(method, particles, repetition)`; empty for a failed run.
-using Value = std::function<double(const std::string&, int, int)>;
+using ValueOf = std::function<double(const std::string&, int, int)>;
 
 /// Two methods, three loads, six repetitions; `haze` has a parameter of its own.
-files::CsvTable table(const Value& value) {
+files::CsvTable table(const ValueOf& value) {
     std::string text =
         "run_id,status,method,scene,repetition,p.particles,p.sort,frame_ms_median,draw_ms_median,popping\n";
     int id = 0;
     for (const char* method : {"haze", "mist"})
         for (const int particles : {100, 200, 400, 800})
-            for (int repetition = 1; repetition <= repetitions; ++repetition) {
+            for (int repetition = 1; repetition <= rulesRepetitions; ++repetition) {
                 const double ms = value(method, particles, repetition);
                 text +=
                     fmt::format("run{},{},{},plain,{},{},{},{},{},{}\n", id++, std::isfinite(ms) ? "done" : "failed",
@@ -43,18 +43,18 @@ double scatter(int particles, int repetition, std::uint32_t stream) {
     return 1 + 0.01 * static_cast<double>(maths::unitFloat(words[0]) + maths::unitFloat(words[1]) - 1);
 }
 
-Claim claimOf(const std::string& rule) {
+Claim ruledClaim(const std::string& rule) {
     return parseClaims("[[claim]]\nid = \"X\"\ntext = \"t\"\nsuite = \"s\"\nreason = \"r\"\n" + rule, "claims.toml")
         .at(0);
 }
 
-ClaimResult judged(const std::string& rule, const Value& value) {
+ClaimResult judged(const std::string& rule, const ValueOf& value) {
     const files::CsvTable rows = table(value);
-    return judgeRule(claimOf(rule).rule, ResultRows(rows, nullptr));
+    return judgeRule(ruledClaim(rule).rule, ResultRows(rows, nullptr));
 }
 
 /// Haze takes `ratio` times as long as mist in every world.
-Value ratioOf(double ratio) {
+ValueOf ratioOf(double ratio) {
     return [ratio](const std::string& method, int particles, int repetition) {
         const bool haze = method == "haze";
         return (haze ? ratio : 1) * (5 + 0.01 * particles) * scatter(particles, repetition, haze ? 1 : 2);
@@ -72,7 +72,7 @@ TEST(ClaimRules, ARatioTurnsRoundWithTheTimes) {
     EXPECT_GT(holds.high, holds.measured);
     EXPECT_EQ(holds.runs.size(), 48u);
     // The same table with the method names swapped.
-    const Value value = ratioOf(0.9);
+    const ValueOf value = ratioOf(0.9);
     const ClaimResult reversed = judged(faster, [&](const std::string& method, int particles, int repetition) {
         return value(method == "haze" ? "mist" : "haze", particles, repetition);
     });
@@ -92,7 +92,7 @@ TEST(ClaimRules, ARatioPairsTheSameWorldAndRepetitionAlone) {
 }
 
 /// Times less a baseline, of either sign: one for each repetition, the same in every world.
-Value differences(const std::vector<double>& mist, double ratio) {
+ValueOf differences(const std::vector<double>& mist, double ratio) {
     return [=](const std::string& method, int, int repetition) {
         return (method == "haze" ? ratio : 1) * mist[static_cast<std::size_t>(repetition - 1)];
     };
@@ -293,14 +293,14 @@ TEST(ClaimRules, ChanceIsMeasuredOverSeedsAndPairedByThem) {
     // Clouds differ by a factor of ten; only pairs of one cloud show that haze pops a tenth less.
     const auto value = [](bool haze, int seed) { return (haze ? 0.9 : 1) * seed * scatter(seed, 1, haze ? 7 : 8); };
     const files::CsvTable ten = seedTable(10, value);
-    const ClaimResult result = judgeRule(claimOf(bySeed).rule, ResultRows(ten, nullptr));
+    const ClaimResult result = judgeRule(ruledClaim(bySeed).rule, ResultRows(ten, nullptr));
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
     EXPECT_NEAR(result.measured, 0.9, 0.01);
     EXPECT_LT(result.low, result.high);
     ASSERT_EQ(result.cells.size(), 1u);
     EXPECT_EQ(result.cells[0].turns, 10u);
     const files::CsvTable four = seedTable(4, value);
-    const ClaimResult few = judgeRule(claimOf(bySeed).rule, ResultRows(four, nullptr));
+    const ClaimResult few = judgeRule(ruledClaim(bySeed).rule, ResultRows(four, nullptr));
     EXPECT_EQ(few.verdict, ClaimVerdict::unresolved);
     EXPECT_EQ(few.note, "4 seeds, 5 are needed");
 }
@@ -308,24 +308,24 @@ TEST(ClaimRules, ChanceIsMeasuredOverSeedsAndPairedByThem) {
 TEST(ClaimRules, InvalidRunsAreNotUsed) {
     const auto value = [](bool haze, int seed) { return seed == 3 && haze ? 1e6 : haze ? 0.9 : 1.0; };
     const files::CsvTable rows = seedTable(6, value, 3);
-    const ClaimResult result = judgeRule(claimOf(bySeed).rule, ResultRows(rows, nullptr));
+    const ClaimResult result = judgeRule(ruledClaim(bySeed).rule, ResultRows(rows, nullptr));
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
     EXPECT_EQ(result.cells.at(0).turns, 5u);
     const files::CsvTable one = seedTable(1, value, 1);
-    EXPECT_EQ(judgeRule(claimOf(bySeed).rule, ResultRows(one, nullptr)).note,
+    EXPECT_EQ(judgeRule(ruledClaim(bySeed).rule, ResultRows(one, nullptr)).note,
               "no popping of haze in a run of s that is done and valid: clipped (1 run)");
 }
 
 TEST(ClaimRules, EachVariantOfARatioIsACellOfItsOwn) {
     // Mist in two layouts, of which haze beats one only.
     std::string text = "run_id,status,method,scene,repetition,p.layout,frame_ms_median\n";
-    for (int repetition = 1; repetition <= repetitions; ++repetition)
+    for (int repetition = 1; repetition <= rulesRepetitions; ++repetition)
         for (const auto& [method, layout, ms] :
              {std::tuple("haze", "", 1.0), {"mist", "old", 2.0}, {"mist", "new", 0.5}})
             text += fmt::format("{}{}{},done,{},plain,{},{},{}\n", method, layout, repetition, method, repetition,
                                 layout, ms * scatter(repetition, repetition, ms > 1 ? 1 : 2));
     const files::CsvTable rows = files::CsvTable::parseText(text, "summary.csv");
-    const ClaimResult result = judgeRule(claimOf(faster).rule, ResultRows(rows, nullptr));
+    const ClaimResult result = judgeRule(ruledClaim(faster).rule, ResultRows(rows, nullptr));
     EXPECT_EQ(result.verdict, ClaimVerdict::depends);
     EXPECT_EQ(result.condition, "true with layout old, false with new");
 }
@@ -343,7 +343,7 @@ TEST(ClaimRules, AMatchedRatioIsTakenWhereTheOtherColumnIsTheSame) {
     const std::string rule =
         "quantity = \"matched\"\ncolumn = \"primitives_median\"\nmatch = \"gaps\"\nagainst = \"p.particles\"\n"
         "of = \"haze\"\nwith = \"mist\"\nover = \"seeds\"\nmax = 0.5\n";
-    const ClaimResult result = judgeRule(claimOf(rule).rule, ResultRows(rows, nullptr));
+    const ClaimResult result = judgeRule(ruledClaim(rule).rule, ResultRows(rows, nullptr));
     EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
     EXPECT_NEAR(result.measured, 0.25, 0.002);
     // At 1600 and 3200 haze has fewer gaps than mist ever gets to.
@@ -353,9 +353,9 @@ TEST(ClaimRules, AMatchedRatioIsTakenWhereTheOtherColumnIsTheSame) {
 const std::string slowed =
     "[[claim.control]]\nwhy = \"swapped\"\ngives = \"refuted\"\nof = \"mist\"\nwith = \"haze\"\n";
 
-ClaimResult controlled(const std::string& rule, const Value& value) {
+ClaimResult controlled(const std::string& rule, const ValueOf& value) {
     const files::CsvTable rows = table(value);
-    return judgeWithControls(claimOf(rule),
+    return judgeWithControls(ruledClaim(rule),
                              [&](const Rule& each) { return judgeRule(each, ResultRows(rows, nullptr)); });
 }
 

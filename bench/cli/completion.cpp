@@ -9,7 +9,7 @@ namespace dustbench::cli {
 namespace {
 
 /// A word of a shell, for any text: 'it'\''s'.
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
     std::string result = "'";
     for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
     return result + "'";
@@ -57,7 +57,7 @@ std::string bashCases(const std::string& command, const std::vector<DeclaredOpti
         if (option.isPositional || !option.takesValue()) continue;
         std::vector<std::string> patterns;
         patterns.reserve(option.names.size());
-        for (const std::string& name : option.names) patterns.push_back(quoted(command + " " + name));
+        for (const std::string& name : option.names) patterns.push_back(inQuotes(command + " " + name));
         text += fmt::format("        {}) {}; return ;;\n", fmt::join(patterns, " | "), bashValue(option));
     }
     return text;
@@ -133,13 +133,13 @@ void addZshSpecifications(std::string& text, const std::vector<DeclaredOption>& 
         const std::string message = option.placeholder.empty() ? option.names.front() : zshText(option.placeholder);
         const std::string value = fmt::format(":{}:{}", message, zshValue(option));
         if (option.isPositional) {
-            text += fmt::format(" \\\n{}{}", indent, quoted((option.repeats ? "*" : "") + value));
+            text += fmt::format(" \\\n{}{}", indent, inQuotes((option.repeats ? "*" : "") + value));
             continue;
         }
         for (const std::string& name : option.names)
             text += fmt::format(" \\\n{}{}", indent,
-                                quoted((option.repeats ? "*" : "") + name + "[" + zshText(option.help) + "]" +
-                                       (option.takesValue() ? value : "")));
+                                inQuotes((option.repeats ? "*" : "") + name + "[" + zshText(option.help) + "]" +
+                                         (option.takesValue() ? value : "")));
     }
 }
 
@@ -157,7 +157,7 @@ std::string zshScript(const std::vector<DeclaredCommand>& commands, const std::v
         "    local state\n"
         "    commands=(";
     for (const DeclaredCommand& command : commands)
-        text += "\n        " + quoted(zshText(command.name) + ":" + command.summary);
+        text += "\n        " + inQuotes(zshText(command.name) + ":" + command.summary);
     text += "\n    )\n    _arguments -C";
     addZshSpecifications(text, common, "        ");
     text +=
@@ -183,9 +183,9 @@ std::string zshScript(const std::vector<DeclaredCommand>& commands, const std::v
 
 std::string fishValue(const DeclaredOption& option) {
     if (const auto words = option.words(); !words.empty())
-        return " -x -a " + quoted(fmt::format("{}", fmt::join(words, " ")));
+        return " -x -a " + inQuotes(fmt::format("{}", fmt::join(words, " ")));
     if (const std::string kind = option.listKind(); !kind.empty())
-        return (option.takesFile() ? " -r -a " : " -x -a ") + quoted("(" + idsOf(kind) + ")");
+        return (option.takesFile() ? " -r -a " : " -x -a ") + inQuotes("(" + idsOf(kind) + ")");
     return option.takesFile() ? " -r -F" : " -x";
 }
 
@@ -195,7 +195,7 @@ std::string fishLine(const std::string& condition, const DeclaredOption& option)
         if (!option.isPositional)
             line += (name.starts_with("--") ? " -l " : " -s ") + name.substr(name.rfind('-', 1) + 1);
     if (option.takesValue()) line += fishValue(option);
-    return line + (option.isPositional ? "" : " -d " + quoted(option.help)) + "\n";
+    return line + (option.isPositional ? "" : " -d " + inQuotes(option.help)) + "\n";
 }
 
 std::string fishScript(const std::vector<DeclaredCommand>& commands, const std::vector<DeclaredOption>& common) {
@@ -204,9 +204,9 @@ std::string fishScript(const std::vector<DeclaredCommand>& commands, const std::
     text += "complete -c dustbench -n __fish_use_subcommand -l version -d 'print the version'\n";
     for (const DeclaredCommand& command : commands)
         text += fmt::format("complete -c dustbench -n __fish_use_subcommand -a {} -d {}\n", command.name,
-                            quoted(command.summary));
+                            inQuotes(command.summary));
     for (const DeclaredCommand& command : commands) {
-        const std::string condition = " -n " + quoted("__fish_seen_subcommand_from " + command.name);
+        const std::string condition = " -n " + inQuotes("__fish_seen_subcommand_from " + command.name);
         for (const DeclaredOption& option : command.options) text += fishLine(condition, option);
     }
     return text;

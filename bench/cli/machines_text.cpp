@@ -48,7 +48,7 @@ std::string hardwareText(const MachineComparison& comparison) {
     return textTable(rows);
 }
 
-std::string list(const std::string& head, const std::vector<std::string>& sentences) {
+std::string listOf(const std::string& head, const std::vector<std::string>& sentences) {
     if (sentences.empty()) return "";
     std::string text = "\n" + head + "\n";
     for (const std::string& sentence : sentences) text += "  " + files::printable(sentence) + "\n";
@@ -128,10 +128,10 @@ std::string claimsText(const MachineComparison& comparison) {
 std::string machinesText(const MachineComparison& comparison) {
     const bench::MachineRemarks& remarks = comparison.remarks;
     std::string text = hardwareText(comparison);
-    text += list("cannot be compared", remarks.apart);
-    text += list("the programs differ: so may ratios, whatever the machines", remarks.programs);
-    text += list("to be known", remarks.notes);
-    text += list("missing cells", missingCells(comparison));
+    text += listOf("cannot be compared", remarks.apart);
+    text += listOf("the programs differ: so may ratios, whatever the machines", remarks.programs);
+    text += listOf("to be known", remarks.notes);
+    text += listOf("missing cells", missingCells(comparison));
     for (const MachineExperiment& experiment : comparison.experiments) text += experimentText(comparison, experiment);
     return text + claimsText(comparison);
 }

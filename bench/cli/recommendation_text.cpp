@@ -23,7 +23,7 @@ using bench::Recommendation;
 constexpr std::size_t enoughValues = 6;
 constexpr std::size_t namedIncomplete = 6;
 
-std::string digits(double value) {
+std::string digitsOf(double value) {
     if (std::isnan(value)) return "";
     return std::isfinite(value) ? fmt::format("{:.3g}", value) : "identical";
 }
@@ -109,8 +109,8 @@ std::string valueText(const MeasuredSetting& setting, const PictureMetric& metri
     const auto found = setting.metrics.find(metric.column);
     if (found == setting.metrics.end()) return "-";
     const MedianInterval& value = found->second;
-    if (value.values < 2) return digits(value.median);
-    return fmt::format("{} ({} to {})", digits(value.median), digits(value.low), digits(value.high));
+    if (value.values < 2) return digitsOf(value.median);
+    return fmt::format("{} ({} to {})", digitsOf(value.median), digitsOf(value.low), digitsOf(value.high));
 }
 
 /// What the answer costs in each flaw, beside those that might be taken instead.
@@ -199,7 +199,7 @@ std::string statisticsText(const bench::Rankings& rankings) {
     return text;
 }
 
-std::string namesOf(const std::vector<const bench::Incomplete*>& settings, std::string_view what) {
+std::string namesOfSettings(const std::vector<const bench::Incomplete*>& settings, std::string_view what) {
     if (settings.empty()) return "";
     std::string text = fmt::format("{} ({}):\n", what, settings.size());
     for (std::size_t index = 0; index < std::min(settings.size(), namedIncomplete); ++index)
@@ -240,9 +240,9 @@ std::string incompleteText(const bench::Rankings& rankings) {
         neither += setting.hasTime || setting.hasQuality ? 0 : 1;
     }
     std::string text =
-        namesOf(timed, fmt::format("not ranked, a time without {}", rankings.quality.column)) +
-        namesOf(judged, fmt::format("not ranked, {} without a time of the method", rankings.quality.column)) +
-        namesOf(both, "not ranked, judged over other frames or by another reference than the rest");
+        namesOfSettings(timed, fmt::format("not ranked, a time without {}", rankings.quality.column)) +
+        namesOfSettings(judged, fmt::format("not ranked, {} without a time of the method", rankings.quality.column)) +
+        namesOfSettings(both, "not ranked, judged over other frames or by another reference than the rest");
     if (neither > 0)
         text +=
             fmt::format("not ranked, neither: {} settings, run without the null method and without metrics\n", neither);

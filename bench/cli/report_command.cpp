@@ -30,7 +30,7 @@ struct ReportOptions {
 };
 
 /// Throws if an option was given that applies only to one folder, or only to several.
-void refuseOthers(const ReportOptions& options) {
+void refuseOtherOptions(const ReportOptions& options) {
     static const std::set<std::string> ofOne{"--chart", "--format", "--pictures"}, ofSeveral{"--out", "--label"};
     const bool several = options.folders.size() > 1;
     for (const std::string& name : options.given)
@@ -95,7 +95,7 @@ int reportMachines(const ReportOptions& options) {
 }
 
 int report(const ReportOptions& options) {
-    refuseOthers(options);
+    refuseOtherOptions(options);
     if (options.folders.size() > 1) return reportMachines(options);
     const std::string& folder = options.folders.front();
     if (!options.format.empty() && options.chart.empty())

@@ -70,7 +70,7 @@ void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results)
     for (const std::string& warning : stored.warnings) std::cout << "  warning: " << files::printable(warning) << "\n";
 }
 
-int run(const RunOptions& options) {
+int performRuns(const RunOptions& options) {
     const bench::RunSpec spec = toSpec(options);
     const auto plan = bench::expandParameters(spec, findMethod(spec.method), options.world.parameterLists());
     for (const bench::PlannedRun& each : plan) bench::requireChangesWithinRun(each.spec);
@@ -124,7 +124,7 @@ Command runCommand() {
                 arguments.flag("--force", "measure again what is there already", options->force);
                 arguments.required("--out", "DIR", "folder for the results; created if missing", options->out);
             },
-            [options] { return run(*options); }};
+            [options] { return performRuns(*options); }};
 }
 
 }  // namespace dustbench::cli

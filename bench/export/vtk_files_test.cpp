@@ -35,12 +35,12 @@ namespace dustbench::bench {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr double someSeconds = 2.0 + 1.0 / 60;
+constexpr double vtkSeconds = 2.0 + 1.0 / 60;
 
 void expectTime(vtkDataObject& data) {
     vtkDataArray* time = data.GetFieldData()->GetArray("TimeValue");
     ASSERT_NE(time, nullptr);
-    EXPECT_EQ(time->GetTuple1(0), someSeconds);
+    EXPECT_EQ(time->GetTuple1(0), vtkSeconds);
 }
 
 /// Of all arrays but the particles' numbers.
@@ -67,7 +67,7 @@ TEST(VtiFile, ReadsBackEqual) {
     const TestFolder folder;
     const CollectedVolume volume = TestDust(500, 10, 0.1f, 1).volume();
     const ExtinctionGrid grid = computeGrid(volume, planGrid(volume.bounds(), 45));
-    writeVti(grid, someSeconds, folder.path() / "a.vti");
+    writeVti(grid, vtkSeconds, folder.path() / "a.vti");
 
     vtkNew<vtkXMLImageDataReader> reader;
     read(*reader, folder.path() / "a.vti");
@@ -98,7 +98,7 @@ TEST(VtiFile, ReadsBackEqual) {
 
 TEST(VtiFile, OfAnEmptyCloudCanBeRead) {
     const TestFolder folder;
-    writeVti(computeGrid(CollectedVolume(), planGrid({}, 128)), someSeconds, folder.path() / "a.vti");
+    writeVti(computeGrid(CollectedVolume(), planGrid({}, 128)), vtkSeconds, folder.path() / "a.vti");
     vtkNew<vtkXMLImageDataReader> reader;
     read(*reader, folder.path() / "a.vti");
     EXPECT_EQ(reader->GetOutput()->GetNumberOfCells(), 1);
@@ -107,7 +107,7 @@ TEST(VtiFile, OfAnEmptyCloudCanBeRead) {
 TEST(VtpFile, ReadsBackEqual) {
     const TestFolder folder;
     const TestDust dust(1234, 10, 0.1f, 2);
-    writeVtp(dust.store, someSeconds, folder.path() / "a.vtp");
+    writeVtp(dust.store, vtkSeconds, folder.path() / "a.vtp");
     vtkNew<vtkXMLPolyDataReader> reader;
     read(*reader, folder.path() / "a.vtp");
     vtkPolyData& cloud = *reader->GetOutput();
@@ -138,7 +138,7 @@ TEST(VtpFile, ReadsBackEqual) {
 
 TEST(VtpFile, OfNoParticlesCanBeRead) {
     const TestFolder folder;
-    writeVtp(TestDust(0, 1, 1, 1).store, someSeconds, folder.path() / "a.vtp");
+    writeVtp(TestDust(0, 1, 1, 1).store, vtkSeconds, folder.path() / "a.vtp");
     vtkNew<vtkXMLPolyDataReader> reader;
     read(*reader, folder.path() / "a.vtp");
     EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 0);
@@ -220,7 +220,7 @@ TEST_P(HtgFile, LeavesHoldAllVoxelsOverThemAndEveryDepthKeepsTheMass) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
         const CollectedOctree octree = testOctree(count, depth, levels, seed);
         const TestFolder folder;
-        writeHtg(octree, someSeconds, folder.path() / "a.htg");
+        writeHtg(octree, vtkSeconds, folder.path() / "a.htg");
         vtkNew<vtkXMLHyperTreeGridReader> reader;
         read(*reader, folder.path() / "a.htg");
         auto* grid = vtkHyperTreeGrid::SafeDownCast(reader->GetOutput());
@@ -317,7 +317,7 @@ TEST(SceneFile, BlocksStandWhereTheSceneHasThem) {
     const SmallWorld world;
     const Box cloud{{-20, 0, -10}, {30, 5, 12}};
     for (int again = 0; again < 2; ++again)  // also over an existing file
-        writeScene(world.scene, world.state, groundAround(cloud, world.scene, world.state), someSeconds,
+        writeScene(world.scene, world.state, groundAround(cloud, world.scene, world.state), vtkSeconds,
                    folder.path() / "f000007.vtm");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);  // the file and the folder of its pieces
 
@@ -384,7 +384,7 @@ TEST(SceneFile, AVastGroundIsThinnedOut) {
     const TestFolder folder;
     SmallWorld world;
     world.scene.solids.clear();
-    writeScene(world.scene, world.state, {{-5e4, 0, -5e4}, {5e4, 0, 5e4}}, someSeconds, folder.path() / "a.vtm");
+    writeScene(world.scene, world.state, {{-5e4, 0, -5e4}, {5e4, 0, 5e4}}, vtkSeconds, folder.path() / "a.vtm");
     vtkNew<vtkXMLMultiBlockDataReader> reader;
     read(*reader, folder.path() / "a.vtm");
     auto* ground = vtkPolyData::SafeDownCast(vtkMultiBlockDataSet::SafeDownCast(reader->GetOutput())->GetBlock(0));

@@ -15,7 +15,7 @@
 namespace dustbench::bench {
 namespace {
 
-constexpr int experiments = 2000;
+constexpr int pairedExperiments = 2000;
 
 /// A standard normal number (Box–Muller) of a simulated experiment.
 double normal(std::uint32_t stream, int experiment, std::size_t serial) {
@@ -31,7 +31,7 @@ struct Times {
 
 /// `pairs` rounds of two alternatives. Each round drifts by its own factor, each time scatters; the logarithm of a
 /// pair's ratio has standard deviation `noise`.
-Times simulate(int experiment, std::size_t pairs, double ratio, double noise, double drift = 0.3) {
+Times simulatePairs(int experiment, std::size_t pairs, double ratio, double noise, double drift = 0.3) {
     Times times;
     for (std::size_t i = 0; i < pairs; ++i) {
         const double round = 20 * std::exp(drift * normal(1, experiment, i));
@@ -44,8 +44,8 @@ Times simulate(int experiment, std::size_t pairs, double ratio, double noise, do
 template <typename Holds>
 int countExperiments(std::size_t pairs, double ratio, double noise, const Holds& holds) {
     int count = 0;
-    for (int experiment = 0; experiment < experiments; ++experiment) {
-        const Times times = simulate(experiment, pairs, ratio, noise);
+    for (int experiment = 0; experiment < pairedExperiments; ++experiment) {
+        const Times times = simulatePairs(experiment, pairs, ratio, noise);
         count += holds(comparePaired(times.of, times.with)) ? 1 : 0;
     }
     return count;
@@ -124,7 +124,7 @@ TEST(PairedRatio, FewerThanSixPairsResolveNothing) {
 
 TEST(PairedRatio, ExchangingTheTwoGivesTheInverse) {
     for (int experiment = 0; experiment < 200; ++experiment) {
-        const Times times = simulate(experiment, 6, 0.93 + 0.0007 * experiment, 0.02);
+        const Times times = simulatePairs(experiment, 6, 0.93 + 0.0007 * experiment, 0.02);
         const PairedRatio there = comparePaired(times.of, times.with);
         const PairedRatio back = comparePaired(times.with, times.of);
         EXPECT_NEAR(there.ratio * back.ratio, 1, 1e-12);
@@ -138,8 +138,8 @@ TEST(PairedRatio, ExchangingTheTwoGivesTheInverse) {
 }
 
 TEST(PairedRatio, NeitherTheUnitNorADriftThatHitsBothMatters) {
-    const Times steady = simulate(3, 8, 0.9, 0.02, 0);
-    const Times drifting = simulate(3, 8, 0.9, 0.02, 1.0);
+    const Times steady = simulatePairs(3, 8, 0.9, 0.02, 0);
+    const Times drifting = simulatePairs(3, 8, 0.9, 0.02, 1.0);
     Times nanoseconds = steady;
     for (std::vector<double>* times : {&nanoseconds.of, &nanoseconds.with})
         for (double& time : *times) time *= 1e6;
@@ -159,7 +159,7 @@ TEST(PairedRatio, TheIntervalHoldsTheTruthInNineteenOfTwenty) {
             return result.low <= truth && truth <= result.high;
         });
         // Three standard deviations of a binomial count of 2000 with p = 0.95 are 29.
-        EXPECT_NEAR(held, 0.95 * experiments, 29) << pairs << " pairs";
+        EXPECT_NEAR(held, 0.95 * pairedExperiments, 29) << pairs << " pairs";
     }
 }
 
@@ -168,19 +168,19 @@ TEST(PairedRatio, AMethodAgainstItselfIsSeldomCalledFasterOrSlower) {
         return result.verdict == Verdict::faster || result.verdict == Verdict::slower;
     };
     for (const double noise : {0.002, 0.01, 0.02, 0.05})
-        EXPECT_LE(countExperiments(6, 1, noise, wrong), experiments / 40) << noise;
+        EXPECT_LE(countExperiments(6, 1, noise, wrong), pairedExperiments / 40) << noise;
     // At any noise: at most 1 of 20, plus three standard deviations of the count.
-    EXPECT_LE(countExperiments(6, 1, 0.5, wrong), experiments / 20 + 29);
+    EXPECT_LE(countExperiments(6, 1, 0.5, wrong), pairedExperiments / 20 + 29);
 }
 
 TEST(PairedRatio, SteadyTimesAreResolved) {
     const auto is = [](Verdict verdict) {
         return [verdict](const PairedRatio& result) { return result.verdict == verdict; };
     };
-    EXPECT_GE(countExperiments(6, 0.9, 0.02, is(Verdict::faster)), experiments * 95 / 100);
-    EXPECT_GE(countExperiments(6, 1.1, 0.02, is(Verdict::slower)), experiments * 95 / 100);
-    EXPECT_GE(countExperiments(6, 1, 0.005, is(Verdict::same)), experiments * 95 / 100);
-    EXPECT_GE(countExperiments(6, 1, 0.1, is(Verdict::unresolved)), experiments * 95 / 100);
+    EXPECT_GE(countExperiments(6, 0.9, 0.02, is(Verdict::faster)), pairedExperiments * 95 / 100);
+    EXPECT_GE(countExperiments(6, 1.1, 0.02, is(Verdict::slower)), pairedExperiments * 95 / 100);
+    EXPECT_GE(countExperiments(6, 1, 0.005, is(Verdict::same)), pairedExperiments * 95 / 100);
+    EXPECT_GE(countExperiments(6, 1, 0.1, is(Verdict::unresolved)), pairedExperiments * 95 / 100);
 }
 
 TEST(PairedRatio, RefusesTimesThatAreNoTimes) {

@@ -16,10 +16,10 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-const PictureMetric& psnr = qualityMetrics.front();
+const PictureMetric& psnrMetric = qualityMetrics.front();
 
-Rankings rank(const std::vector<TestRow>& rows) {
-    return rankSettings(runsOf(rows), psnr);
+Rankings rankOf(const std::vector<TestRow>& rows) {
+    return rankSettings(runsOf(rows), psnrMetric);
 }
 
 TEST(Rankings, NeverMixWorlds) {
@@ -29,34 +29,34 @@ TEST(Rankings, NeverMixWorlds) {
         other.ms = "9";
         other.psnr = "40";
         rows.push_back(other);
-        const Rankings rankings = rank(rows);
+        const Rankings rankings = rankOf(rows);
         ASSERT_THAT(rankings.rankings, SizeIs(2));
         EXPECT_EQ(rankings.rankings[0].settings.at(0).ms.values + rankings.rankings[1].settings.at(0).ms.values, 4U);
     }
 }
 
 TEST(Rankings, NeverMixWaysOfTiming) {
-    EXPECT_THAT(rank({{.ms = "1", .psnr = "30"}, {.ms = "9", .psnr = "30", .frames = "400"}}).rankings, SizeIs(2));
+    EXPECT_THAT(rankOf({{.ms = "1", .psnr = "30"}, {.ms = "9", .psnr = "30", .frames = "400"}}).rankings, SizeIs(2));
 }
 
 TEST(Rankings, NeverMixReferences) {
-    EXPECT_THAT(rank({{.method = "a", .ms = "1", .psnr = "30"},
-                      {.method = "b", .ms = "1", .psnr = "30", .reference = "depth=10"},
-                      {.method = "c", .ms = "1", .psnr = "30", .reference = "depth=10"}})
+    EXPECT_THAT(rankOf({{.method = "a", .ms = "1", .psnr = "30"},
+                        {.method = "b", .ms = "1", .psnr = "30", .reference = "depth=10"},
+                        {.method = "c", .ms = "1", .psnr = "30", .reference = "depth=10"}})
                     .rankings,
                 SizeIs(3));
 }
 
 TEST(Rankings, NeverMixMachines) {
     MeasuredRuns runs = runsOf({{.ms = "1", .psnr = "30"}, {.ms = "9", .psnr = "30", .repetition = 2}});
-    EXPECT_THAT(rankSettings(runs, psnr).rankings, SizeIs(1));
+    EXPECT_THAT(rankSettings(runs, psnrMetric).rankings, SizeIs(1));
     runs.machines.emplace_back();
     runs.runs.back().machine = 1;
-    EXPECT_THAT(rankSettings(runs, psnr).rankings, SizeIs(2));
+    EXPECT_THAT(rankSettings(runs, psnrMetric).rankings, SizeIs(2));
 }
 
 TEST(Rankings, KeepSettingsOfAMethodApart) {
-    const Rankings rankings = rank({{.ms = "1", .psnr = "30"}, {.ms = "9", .psnr = "40", .depth = "9"}});
+    const Rankings rankings = rankOf({{.ms = "1", .psnr = "30"}, {.ms = "9", .psnr = "40", .depth = "9"}});
     ASSERT_THAT(rankings.rankings, SizeIs(1));
     EXPECT_THAT(rankings.rankings.front().settings,
                 ElementsAre(Field(&MeasuredSetting::label, "a depth=9"), Field(&MeasuredSetting::label, "a depth=8")));
@@ -67,7 +67,7 @@ TEST(Rankings, JoinTimesAndPicturesOfOtherRuns) {
     add(rows, "a", {1, 2, 3}, "");
     for (const int seed : {1, 2, 3})
         rows.push_back({.psnr = fmt::format("{}", 30 + seed), .seed = seed, .frames = "90"});
-    const Rankings rankings = rank(rows);
+    const Rankings rankings = rankOf(rows);
     ASSERT_THAT(rankings.rankings, SizeIs(1));
     const MeasuredSetting& setting = rankings.rankings.front().settings.at(0);
     EXPECT_EQ(setting.ms.median, 2);
@@ -78,11 +78,11 @@ TEST(Rankings, JoinTimesAndPicturesOfOtherRuns) {
 }
 
 TEST(Rankings, NameSettingsWithoutATimeOrAPicture) {
-    const Rankings rankings = rank({{.method = "timed", .ms = "1"},
-                                    {.method = "judged", .psnr = "30"},
-                                    {.method = "neither"},
-                                    {.method = "whole", .ms = "1", .psnr = "30"},
-                                    {.method = "wrong", .ms = "nan", .psnr = "30"}});
+    const Rankings rankings = rankOf({{.method = "timed", .ms = "1"},
+                                      {.method = "judged", .psnr = "30"},
+                                      {.method = "neither"},
+                                      {.method = "whole", .ms = "1", .psnr = "30"},
+                                      {.method = "wrong", .ms = "nan", .psnr = "30"}});
     ASSERT_THAT(rankings.rankings, SizeIs(1));
     EXPECT_THAT(rankings.rankings.front().settings, ElementsAre(Field(&MeasuredSetting::method, "whole")));
     const auto is = [](const char* label, bool hasTime, bool hasQuality) {
@@ -101,7 +101,7 @@ TEST(Rankings, TakeTheMedianOverSeedsOfTheMediansOverRepetitions) {
                             .psnr = "30",
                             .seed = seed,
                             .repetition = repetition});
-    const Rankings rankings = rank(rows);
+    const Rankings rankings = rankOf(rows);
     const MedianInterval& ms = rankings.rankings.at(0).settings.at(0).ms;
     EXPECT_EQ(ms.median, 22);
     EXPECT_EQ(ms.low, 12);
@@ -113,7 +113,7 @@ TEST(Rankings, HaveAFrontWhereIntervalsSeparate) {
     add(rows, "best", {7, 8, 9}, "40");
     add(rows, "beaten", {7, 8, 9}, "35");
     add(rows, "cheap", {1, 2, 3}, "30");
-    const Rankings rankings = rank(rows);
+    const Rankings rankings = rankOf(rows);
     const auto front = [](const char* method, bool isOnFront) {
         return AllOf(Field(&MeasuredSetting::method, method), Field(&MeasuredSetting::onFront, isOnFront));
     };
@@ -130,7 +130,7 @@ TEST(MeasuredRuns, LeaveOutWhatIsInvalidOrNotDoneAndCountIt) {
     EXPECT_EQ(runs.notDone, 1U);
     EXPECT_EQ(runs.invalid, 2U);
     EXPECT_THAT(runs.whyInvalid, ElementsAre(testing::Pair("clipped is 3", 2U)));
-    const Rankings rankings = rankSettings(runs, psnr);
+    const Rankings rankings = rankSettings(runs, psnrMetric);
     ASSERT_THAT(rankings.rankings, SizeIs(1));
     EXPECT_EQ(rankings.rankings.front().settings.at(0).ms.high, 1);
     EXPECT_EQ(rankings.rankings.front().settings.at(0).quality.high, 30);

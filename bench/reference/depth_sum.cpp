@@ -56,12 +56,12 @@ struct Row {
 };
 
 /// Coefficients of one puff in one row: exponent = logDepth − (γ·(X − X0)² + κ)/D, to base 2.
-struct RowPuff {
+struct DepthPuff {
     double logDepth, gamma, x0, kappa;
     double footAtZero, footPerSlope, inverseWidth;  ///< 1/(√2·s)
 };
 
-void addWhole(const RowPuff& puff, const double* slopesX, Row& row, std::size_t first) {
+void addWhole(const DepthPuff& puff, const double* slopesX, Row& row, std::size_t first) {
     double* const sums = row.sums.data();
     const double* const inverseSquare = row.inverseSquare.data();
 #pragma GCC ivdep
@@ -74,7 +74,7 @@ void addWhole(const RowPuff& puff, const double* slopesX, Row& row, std::size_t 
 
 /// ½[erf((t1 − tc)/√2s) − erf((0 − tc)/√2s)] of each pixel; far from the eye the second term is −1.
 template <bool cutByEye>
-void addCut(const RowPuff& puff, const double* slopesX, Row& row, std::size_t first) {
+void addCut(const DepthPuff& puff, const double* slopesX, Row& row, std::size_t first) {
     const HalfErrorFunction& halfErf = row.halfErf;
     double* const sums = row.sums.data();
     const double* const inverseSquare = row.inverseSquare.data();
@@ -93,7 +93,7 @@ void addCut(const RowPuff& puff, const double* slopesX, Row& row, std::size_t fi
 }
 
 /// Groups [first, end) of the row. Returns how many pixels were computed.
-std::int64_t addGroups(const RowPuff& puff, double extentMetres, double footRangeMetres, const double* slopesX,
+std::int64_t addGroups(const DepthPuff& puff, double extentMetres, double footRangeMetres, const double* slopesX,
                        Row& row, std::size_t first, std::size_t end) {
     std::int64_t computed = 0;
     for (std::size_t g = first; g < end; ++g) {
@@ -147,13 +147,13 @@ DepthSum sumDepths(const std::vector<Puff>& puffs, const CameraRays& rays, const
                     const RowGeometry geometry = rowGeometry(puff, row.slopeY);
                     const Columns columns = columnsOf(puff, geometry, row.slopeY, rays);
                     if (columns.first == columns.end) continue;
-                    const RowPuff rowPuff{logDepth,
-                                          geometry.gamma * scale,
-                                          geometry.x0,
-                                          geometry.kappa * scale,
-                                          geometry.footAtZero,
-                                          geometry.footPerSlope,
-                                          1 / (std::numbers::sqrt2 * puff.deviationMetres)};
+                    const DepthPuff rowPuff{logDepth,
+                                            geometry.gamma * scale,
+                                            geometry.x0,
+                                            geometry.kappa * scale,
+                                            geometry.footAtZero,
+                                            geometry.footPerSlope,
+                                            1 / (std::numbers::sqrt2 * puff.deviationMetres)};
                     done += addGroups(rowPuff, extent, footRange, slopesX.data(), row,
                                       static_cast<std::size_t>(columns.first) / group,
                                       (static_cast<std::size_t>(columns.end) + group - 1) / group);

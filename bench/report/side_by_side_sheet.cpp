@@ -49,7 +49,7 @@ pictures::Image readPicture(const ResultsFolder& results, const SheetRun& run, c
                                fmt::format("f{:06}{}.exr", static_cast<std::int64_t>(number), what));
 }
 
-files::CsvTable metricsOf(const ResultsFolder& results, const SheetRun& run) {
+files::CsvTable metricsOfRun(const ResultsFolder& results, const SheetRun& run) {
     return files::CsvTable::parseFile(results.runFolder(run.runId) / "metrics.csv");
 }
 
@@ -62,7 +62,7 @@ std::vector<std::size_t> rowsWithPicture(const files::CsvTable& metrics) {
 }
 
 std::vector<Moment> readReferences(const ResultsFolder& results, const SheetRun& run) {
-    const files::CsvTable metrics = metricsOf(results, run);
+    const files::CsvTable metrics = metricsOfRun(results, run);
     std::vector<Moment> moments;
     for (const std::size_t row : rowsWithPicture(metrics)) {
         const std::string& frame = metrics.cell(row, "frame");
@@ -75,7 +75,7 @@ std::vector<Moment> readReferences(const ResultsFolder& results, const SheetRun&
 }
 
 void addJudged(const ResultsFolder& results, const SheetRun& run, std::vector<Moment>& moments) {
-    const files::CsvTable metrics = metricsOf(results, run);
+    const files::CsvTable metrics = metricsOfRun(results, run);
     std::size_t number = 0;
     for (const std::size_t row : rowsWithPicture(metrics)) {
         Moment& moment = moments.at(number++);

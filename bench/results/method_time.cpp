@@ -14,7 +14,7 @@
 namespace dustbench::bench {
 namespace {
 
-constexpr std::string_view column = "method_ms_median";
+constexpr std::string_view methodColumn = "method_ms_median";
 
 std::optional<double> frameMs(const StoredRun& run) {
     const auto cell = run.cells.find("frame_ms_median");
@@ -62,7 +62,7 @@ void addMethodTimes(StoredRuns& runs) {
         if (info && isBaseline(run, *info) && frameMs(run))
             if (auto key = pairKey(run)) baselines.emplace(std::move(*key), &run);
     for (auto& [id, run] : runs) {
-        run.cells.erase(std::string(column));
+        run.cells.erase(std::string(methodColumn));
         const auto ms = frameMs(run);
         if (!ms || baselines.empty() || isBaseline(run, *info)) continue;
         const auto key = pairKey(run);
@@ -70,7 +70,7 @@ void addMethodTimes(StoredRuns& runs) {
         const auto [begin, end] = baselines.equal_range(*key);
         const auto paired = std::find_if(
             begin, end, [&](const auto& entry) { return differences(run, *entry.second, machineFields()).empty(); });
-        if (paired != end) run.cells.emplace(column, files::csvNumber(*ms - *frameMs(*paired->second)));
+        if (paired != end) run.cells.emplace(methodColumn, files::csvNumber(*ms - *frameMs(*paired->second)));
     }
 }
 

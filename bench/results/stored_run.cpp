@@ -20,7 +20,7 @@ using simdjson::dom::element;
 using simdjson::dom::object;
 
 /// Text of a value in a table; empty for null, arrays and objects.
-std::string cellText(element value) {
+std::string textOfCell(element value) {
     switch (value.type()) {
         case simdjson::dom::element_type::STRING:
             return std::string(std::string_view(value));
@@ -69,7 +69,7 @@ std::string shortened(std::string text) {
 template <typename Map>
 void readCells(object fields, Map& cells) {
     for (const auto& [name, value] : fields)
-        if (!value.is_array() && !value.is_object()) cells[std::string(name)] = cellText(value);
+        if (!value.is_array() && !value.is_object()) cells[std::string(name)] = textOfCell(value);
 }
 
 std::string textOf(element value) {
@@ -77,7 +77,7 @@ std::string textOf(element value) {
 }
 
 OutputFile outputOf(element value) {
-    OutputFile output{textOf(value["file"]), std::uint64_t(value["bytes"]), cellText(value["sha256"])};
+    OutputFile output{textOf(value["file"]), std::uint64_t(value["bytes"]), textOfCell(value["sha256"])};
     if (!isWithin(output.file))
         throw InputError(
             fmt::format("outputs: got the file '{}', expected one below the run's folder", output.file.substr(0, 200)));
@@ -108,8 +108,8 @@ StoredRun readRunFile(const std::filesystem::path& file) {
         readCells(json["parameters"], run.parameters);
         readCells(json["summary"], run.cells);
         for (const element warning : json["warnings"].get_array()) run.warnings.push_back(shortened(textOf(warning)));
-        run.stateHash = cellText(json["state_hash"]);
-        run.methodHash = cellText(json["method_hash"]);
+        run.stateHash = textOfCell(json["state_hash"]);
+        run.methodHash = textOfCell(json["method_hash"]);
         readCells(json["provenance"], run.provenance);
         for (const element input : json["provenance"]["inputs"].get_array())
             run.inputs.push_back({textOf(input["file"]), textOf(input["sha256"])});

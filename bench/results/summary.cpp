@@ -10,7 +10,7 @@
 namespace dustbench::bench {
 namespace {
 
-std::vector<double> column(std::span<const FrameRecord> frames, const std::function<double(const FrameRecord&)>& of) {
+std::vector<double> columnOf(std::span<const FrameRecord> frames, const std::function<double(const FrameRecord&)>& of) {
     std::vector<double> values;
     values.reserve(frames.size());
     for (const FrameRecord& frame : frames) values.push_back(of(frame));
@@ -132,7 +132,7 @@ Columns identityColumns(const RunRecord& record, int threads) {
 }
 
 Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run) {
-    const auto frameMs = column(frames, [](const FrameRecord& frame) { return frame.frameMs; });
+    const auto frameMs = columnOf(frames, [](const FrameRecord& frame) { return frame.frameMs; });
     Columns columns{{"frames", static_cast<std::int64_t>(frames.size())},
                     {"fps_avg", averageFps(frameMs)},
                     {"frame_ms_median", median(frameMs)},
@@ -146,22 +146,22 @@ Columns measuredColumns(std::span<const FrameRecord> frames, const WholeRun& run
     for (std::size_t stage = 0; stage < stageNames.size(); ++stage)
         columns.emplace_back(
             std::string(stageNames[stage]) + "_ms_median",
-            median(column(frames, [stage](const FrameRecord& frame) { return frame.stageMs[stage]; })));
+            median(columnOf(frames, [stage](const FrameRecord& frame) { return frame.stageMs[stage]; })));
     columns.emplace_back("cpu_bytes", largest(frames, &FrameRecord::cpuBytes));
     columns.emplace_back("gpu_bytes", largest(frames, &FrameRecord::gpuBytes));
     columns.emplace_back("rss_peak_bytes", run.peakResidentBytes);
     columns.emplace_back(
         "particles_median",
-        median(column(frames, [](const FrameRecord& frame) { return static_cast<double>(frame.particles); })));
+        median(columnOf(frames, [](const FrameRecord& frame) { return static_cast<double>(frame.particles); })));
     columns.emplace_back(
         "primitives_median",
-        median(column(frames, [](const FrameRecord& frame) { return static_cast<double>(frame.primitives); })));
+        median(columnOf(frames, [](const FrameRecord& frame) { return static_cast<double>(frame.primitives); })));
     std::vector<double> gpuMs;
     for (const FrameRecord& frame : frames)
         if (frame.gpuMs) gpuMs.push_back(*frame.gpuMs);
     columns.emplace_back("gpu_ms_median", median(gpuMs));
     columns.emplace_back("harness_us_median",
-                         median(column(frames, [](const FrameRecord& frame) { return frame.harnessMs() * 1000; })));
+                         median(columnOf(frames, [](const FrameRecord& frame) { return frame.harnessMs() * 1000; })));
     const auto add = [&columns](const char* name, const auto& value) {
         if (value) columns.emplace_back(name, *value);
     };

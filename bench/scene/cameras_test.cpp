@@ -10,7 +10,7 @@
 namespace dustbench::bench {
 namespace {
 
-void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-9) {
+void expectNearly(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-9) {
     EXPECT_LT(glm::distance(a, b), tolerance) << a.x << ' ' << a.y << ' ' << a.z;
 }
 
@@ -26,7 +26,7 @@ TEST(Cameras, ChaseGoesAlongWithTheVehicle) {
     const scene::Camera camera =
         cameraAt(CameraKind::chase, cameras, state, CameraLag::at(state.vehicle), scene::Terrain{});
     const glm::dvec3 offset = cameras.chase.offset;
-    expectNear(camera.eye, {100 + offset.z, offset.y, 50 - offset.x});
+    expectNearly(camera.eye, {100 + offset.z, offset.y, 50 - offset.x});
 }
 
 TEST(Cameras, ChaseShowsTheCarAndFortyMetresOfItsTrail) {
@@ -56,8 +56,8 @@ TEST(Cameras, LagFollowsExponentiallyWhateverTheStep) {
 TEST(Cameras, FixedStands) {
     const CameraSet cameras;
     const scene::Camera camera = cameraAt(CameraKind::fixed, cameras, at(7, 8, 2), {}, scene::Terrain{});
-    expectNear(camera.eye, cameras.fixed.eye);
-    expectNear(camera.target, cameras.fixed.target);
+    expectNearly(camera.eye, cameras.fixed.eye);
+    expectNearly(camera.target, cameras.fixed.target);
 }
 
 TEST(Cameras, OrbitKeepsItsRadiusAndTurnsAtItsRate) {
@@ -80,8 +80,8 @@ TEST(Cameras, TheWheelsRidesAlongWithoutLag) {
     const scene::SceneState state = at(100, 50, std::numbers::pi / 2);  // looks along −Z, its right is +X
     const scene::Camera camera = cameraAt(CameraKind::wheel, cameras, state, {0, 7}, scene::Terrain{});
     const auto inWorld = [](const glm::dvec3& p) { return glm::dvec3(100 + p.z, p.y, 50 - p.x); };
-    expectNear(camera.eye, inWorld(cameras.wheel.offset));
-    expectNear(camera.target, inWorld(cameras.wheel.lookAt));
+    expectNearly(camera.eye, inWorld(cameras.wheel.offset));
+    expectNearly(camera.target, inWorld(cameras.wheel.lookAt));
 }
 
 TEST(Cameras, NeverSinkIntoTheGround) {

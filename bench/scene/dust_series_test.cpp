@@ -31,11 +31,11 @@ class DustSeriesFile : public testing::Test {
     particles::ParticleStore store_{ledger_};
 };
 
-constexpr const char* header = "time_s,id,x,y,z,radius,opacity\n";
+constexpr const char* dustHeader = "time_s,id,x,y,z,radius,opacity\n";
 
 TEST_F(DustSeriesFile, MovesInAStraightLineBetweenTwoMomentsByIdNotByRow) {
     const DustSeries series =
-        read(std::string(header) + "5,1,0,0,0,1,0.2\n5,2,10,0,0,1,0.2\n" + "7,2,14,0,0,2,0.4\n7,1,0,8,0,1,0.2\n");
+        read(std::string(dustHeader) + "5,1,0,0,0,1,0.2\n5,2,10,0,0,1,0.2\n" + "7,2,14,0,0,2,0.4\n7,1,0,8,0,1,0.2\n");
     EXPECT_DOUBLE_EQ(series.seconds(), 2);
     const Puffs dust = at(series, 0.5);
     EXPECT_THAT(std::vector<std::uint64_t>(dust.serial.begin(), dust.serial.end()), ElementsAre(1, 2));
@@ -63,7 +63,7 @@ TEST_F(DustSeriesFile, BirthsAndDeathsHappenAtTheMomentsOfTheFiles) {
 
 TEST_F(DustSeriesFile, RoundedTimesAreTheMomentsThatTheyMean) {
     const DustSeries series =
-        read(std::string(header) + "0,1,0,0,0,1,0.2\n0.0166667,1,0.1,0,0,1,0.2\n" + "0.0333333,1,0.7,0,0,1,0.2\n");
+        read(std::string(dustHeader) + "0,1,0,0,0,1,0.2\n0.0166667,1,0.1,0,0,1,0.2\n" + "0.0333333,1,0.7,0,0,1,0.2\n");
     EXPECT_EQ(at(series, 1 / 60.0).x[0], 0.1f);
     EXPECT_EQ(at(series, 2 / 60.0).x[0], 0.7f);
 }
@@ -104,9 +104,10 @@ TEST_F(DustSeriesFile, EachFaultIsOneClearLine) {
     EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,0.1\n", "up=x"), HasSubstr("up: got 'x', allowed: y, z"));
     EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,0.1\n", "scale"), HasSubstr("expected key=COLUMN"));
     const std::string one = "0,1,0,0,0,1,0.2\n";
-    EXPECT_THAT(refusal(header + one + one), HasSubstr("id: 1 is there twice"));
-    EXPECT_THAT(refusal(header + std::string("0,1.5,0,0,0,1,0.2\n")), HasSubstr("id is 1.5, allowed: whole numbers"));
-    EXPECT_THAT(refusal(header + std::string("1,1,0,0,0,1,0.2\n") + one), HasSubstr("expected more than 1 s"));
+    EXPECT_THAT(refusal(dustHeader + one + one), HasSubstr("id: 1 is there twice"));
+    EXPECT_THAT(refusal(dustHeader + std::string("0,1.5,0,0,0,1,0.2\n")),
+                HasSubstr("id is 1.5, allowed: whole numbers"));
+    EXPECT_THAT(refusal(dustHeader + std::string("1,1,0,0,0,1,0.2\n") + one), HasSubstr("expected more than 1 s"));
     EXPECT_THAT(refusal("time_s,x,y,z,radius,opacity\n0,1,1,1,1,0.1\n1,1,1,1,1,0.1\n1,1,1,1,1,0.1\n"),
                 HasSubstr("has 2 particles, expected 1"));
 }

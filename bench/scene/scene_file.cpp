@@ -17,7 +17,7 @@ namespace {
 
 using files::TomlReader;
 
-constexpr double far = 1e5;  ///< metres: the maximum coordinate in a file
+constexpr double furthestMetres = 1e5;  ///< metres: the maximum coordinate in a file
 
 /// Reads the table under a key if present, and rejects unknown keys in it.
 template <typename Read>
@@ -143,8 +143,8 @@ SceneFile readScene(const std::filesystem::path& file) {
     result.dust = files::fromFile(file, root.text("dust", "wheel_dust"), ".toml");
     readTable(root, "terrain", [&](TomlReader& table) { readTerrain(table, folder, result); });
     readTable(root, "start", [&](TomlReader& table) {
-        result.start.x = table.number("x", -far, far, 0);
-        result.start.z = table.number("z", -far, far, 0);
+        result.start.x = table.number("x", -furthestMetres, furthestMetres, 0);
+        result.start.z = table.number("z", -furthestMetres, furthestMetres, 0);
         result.start.heading = readAngle(table, "heading_degrees", -360, 360, 0);
     });
     readLights(root, result.scene.lights);

@@ -17,19 +17,19 @@ namespace {
 
 using ::testing::HasSubstr;
 
-SceneFile builtIn(const std::string& id) {
+SceneFile builtInScene(const std::string& id) {
     return readScene(files::findData("scene", "scenes", id, ".toml"));
 }
 
 TEST(SceneFile, ReadsTheBuiltInScenes) {
-    const SceneFile plain = builtIn("plain");
+    const SceneFile plain = builtInScene("plain");
     EXPECT_TRUE(plain.scene.terrain.isFlat());
     EXPECT_EQ(plain.scene.id, "plain");
     EXPECT_EQ(plain.drive, "straight");
     EXPECT_GE(plain.scene.solids.size(), 5u);
     EXPECT_EQ(plain.scene.solids.size(), plain.scene.solidPoses.size());
     EXPECT_TRUE(plain.scene.vehicle.has_value());
-    const SceneFile dunes = builtIn("dunes");
+    const SceneFile dunes = builtInScene("dunes");
     EXPECT_EQ(dunes.scene.terrain.columns(), 257);
     EXPECT_EQ(dunes.scene.terrain.rows(), 257);
 }
@@ -65,7 +65,7 @@ TEST(SceneFile, MeshesLieBesideTheFileElseAmongTheData) {
 TEST(SceneFile, SolidsOfTheBuiltInScenesAreClosedAndWoundAsSeenFromOutside) {
     int solids = 0;
     for (const std::string& id : files::listData("scenes", ".toml"))
-        for (const scene::Solid& solid : builtIn(id).scene.solids) {
+        for (const scene::Solid& solid : builtInScene(id).scene.solids) {
             const glm::dvec3 volume = volumes(*solid.mesh);
             EXPECT_GT(volume.x, 0) << id << ' ' << solid.name;
             EXPECT_NEAR(volume.y / volume.x, 1, 1e-3) << id << ' ' << solid.name;
@@ -78,7 +78,7 @@ TEST(SceneFile, SolidsOfTheBuiltInScenesAreClosedAndWoundAsSeenFromOutside) {
 TEST(SceneFile, ManualShowsTheDefaults) {
     const TestFolder folder;
     const SceneFile bare = readScene(folder.write("bare.toml", "description = \"bare\"\n"));
-    const SceneFile manual = builtIn("plain");
+    const SceneFile manual = builtInScene("plain");
     const scene::VehicleParameters a = bare.scene.vehicle->parameters, b = manual.scene.vehicle->parameters;
     EXPECT_NEAR(a.steerLimit, b.steerLimit, 1e-5);
     EXPECT_NEAR(a.steerRateLimit, b.steerRateLimit, 1e-5);
@@ -115,7 +115,7 @@ TEST(SceneFile, SunStandsWhereItsAnglesSay) {
 }
 
 TEST(SceneFile, DunesAreDrivableAndLevelAtTheRim) {
-    const scene::Terrain& terrain = builtIn("dunes").scene.terrain;
+    const scene::Terrain& terrain = builtInScene("dunes").scene.terrain;
     float steepest = 0, highest = 0;
     for (float x = -400; x <= 400; x += 1.3f)
         for (float z = -400; z <= 400; z += 1.7f) {

@@ -13,7 +13,7 @@ namespace {
 constexpr double circle = 2 * std::numbers::pi;
 
 /// Keys at uneven times from 0 on. With `returns` the last is as the first, but for a whole turn about y.
-std::vector<SolidKey> randomKeys(int count, unsigned seed, bool returns = false) {
+std::vector<SolidKey> randomSolidKeys(int count, unsigned seed, bool returns = false) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> number(-2, 2);
     std::vector<SolidKey> keys;
@@ -47,7 +47,7 @@ glm::dvec3 velocityOf(const SolidPath& path, double seconds, const glm::dvec3& l
 TEST(SolidPath, VelocitiesAreTheDerivativesOfPlacesToSecondOrder) {
     const glm::dvec3 local(0.3, -0.5, 0.8);
     for (unsigned seed = 1; seed <= 5; ++seed) {
-        const std::vector<SolidKey> keys = randomKeys(6, seed, seed % 2 == 0);
+        const std::vector<SolidKey> keys = randomSolidKeys(6, seed, seed % 2 == 0);
         const SolidPath path(keys, seed % 2 == 0);
         double coarse = 0, fine = 0, speed = 0, ofWeights = 0;
         for (std::size_t k = 0; k + 1 < keys.size(); ++k)
@@ -72,7 +72,7 @@ TEST(SolidPath, VelocitiesAreTheDerivativesOfPlacesToSecondOrder) {
 TEST(SolidPath, VelocitiesAreContinuousAtKeysAndAtTheSeamOfARepetition) {
     const glm::dvec3 local(0.3, -0.5, 0.8);
     for (const bool repeats : {false, true}) {
-        const std::vector<SolidKey> keys = randomKeys(5, 7, repeats);
+        const std::vector<SolidKey> keys = randomSolidKeys(5, 7, repeats);
         const SolidPath path(keys, repeats);
         for (const SolidKey& key : keys) {
             const double before = key.seconds - 1e-9, after = key.seconds + 1e-9;
@@ -85,7 +85,7 @@ TEST(SolidPath, VelocitiesAreContinuousAtKeysAndAtTheSeamOfARepetition) {
 }
 
 TEST(SolidPath, RestsBeforeItsFirstKeyAndAfterItsLastOrRepeats) {
-    const std::vector<SolidKey> keys = randomKeys(4, 3, true);
+    const std::vector<SolidKey> keys = randomSolidKeys(4, 3, true);
     const SolidPath once(keys, false), again(keys, true);
     const double last = keys.back().seconds;
     for (const double seconds : {-5.0, 0.0, last, last + 3}) {

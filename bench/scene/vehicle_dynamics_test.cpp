@@ -13,7 +13,7 @@ using scene::Terrain;
 using scene::VehicleParameters;
 using scene::VehicleState;
 
-constexpr double tick = 1.0 / 60;
+constexpr double dynamicsTick = 1.0 / 60;
 
 VehicleParameters withoutResistance() {
     VehicleParameters parameters;
@@ -38,16 +38,16 @@ TEST(VehicleDynamics, DrivesACircleOfRadiusWheelbaseOverTanSteer) {
     state.steerAngle = delta;
     const glm::dvec3 centre(0, 0, -radius);  // to the left
     for (int n = 0; n < 2000; ++n) {
-        state = step(p, state, {0, 0, delta / p.steerLimit}, {}, tick);
+        state = step(p, state, {0, 0, delta / p.steerLimit}, {}, dynamicsTick);
         ASSERT_NEAR(glm::distance(state.position, centre), radius, 1e-9);
-        ASSERT_NEAR(state.heading, 5 * tick * (n + 1) / radius, 1e-9);
+        ASSERT_NEAR(state.heading, 5 * dynamicsTick * (n + 1) / radius, 1e-9);
     }
 }
 
 TEST(VehicleDynamics, StopsAfterSpeedSquaredOverTwiceTheDeceleration) {
     const VehicleParameters p = withoutResistance();
     VehicleState state = placeVehicle(p, {}, 0, 0, 0, 31.7);
-    for (int n = 0; n < 600; ++n) state = step(p, state, {0, 0.75, 0}, {}, tick);
+    for (int n = 0; n < 600; ++n) state = step(p, state, {0, 0.75, 0}, {}, dynamicsTick);
     EXPECT_EQ(state.speed, 0);
     EXPECT_NEAR(state.position.x, 31.7 * 31.7 / (2 * 0.75 * p.brakeDecelerationLimit), 1e-9);
 }
@@ -56,7 +56,7 @@ TEST(VehicleDynamics, ReachesTheSpeedWherePowerEqualsResistance) {
     VehicleParameters p;
     p.topSpeed = 200;
     VehicleState state = placeVehicle(p, {}, 0, 0, 0, 0);
-    for (int n = 0; n < 60 * 300; ++n) state = step(p, state, {1, 0, 0}, {}, tick);
+    for (int n = 0; n < 60 * 300; ++n) state = step(p, state, {1, 0, 0}, {}, dynamicsTick);
     EXPECT_NEAR(state.speed * resistanceDeceleration(p, state.speed) * p.massKilograms, p.drivePowerWatts, 1);
 }
 
@@ -65,7 +65,7 @@ TEST(VehicleDynamics, NeverExceedsTheTopSpeed) {
     p.topSpeed = 17.3;
     VehicleState state = placeVehicle(p, {}, 0, 0, 0, 0);
     for (int n = 0; n < 1200; ++n) {
-        state = step(p, state, {1, 0, 0}, {}, tick);
+        state = step(p, state, {1, 0, 0}, {}, dynamicsTick);
         ASSERT_LE(state.speed, p.topSpeed + 1e-12);
     }
     EXPECT_NEAR(state.speed, p.topSpeed, 1e-9);
@@ -77,7 +77,7 @@ TEST(VehicleDynamics, ChangesItsEnergyByTheWorkOfItsForces) {
     double work = 0;
     for (int n = 0; n < 1800; ++n) {
         const double before = state.position.x;
-        state = step(p, state, n % 300 < 240 ? Controls{0.7, 0, 0} : Controls{0, 0.2, 0}, {}, tick);
+        state = step(p, state, n % 300 < 240 ? Controls{0.7, 0, 0} : Controls{0, 0.2, 0}, {}, dynamicsTick);
         work += state.acceleration * (state.position.x - before);
         ASSERT_NEAR(work, state.speed * state.speed / 2, 1e-9 * (1 + work)) << n;
     }
@@ -89,7 +89,7 @@ TEST(VehicleDynamics, TradesHeightForSpeedWhenItCoasts) {
     const Terrain slope({0, -100, 0, -100}, 2, 2, 1000, 0, -500);
     VehicleState state = placeVehicle(p, slope, 10, 0, 0, 1);
     const double start = state.position.y;
-    for (int n = 0; n < 600; ++n) state = step(p, state, {}, slope, tick);
+    for (int n = 0; n < 600; ++n) state = step(p, state, {}, slope, dynamicsTick);
     EXPECT_NEAR(state.speed * state.speed / 2 - 0.5, gravity * (start - state.position.y), 1e-3 * gravity);
     EXPECT_NEAR(state.forward().y, -0.1 / std::hypot(1, 0.1), 1e-6);
 }
@@ -129,7 +129,7 @@ TEST(VehicleDynamics, FrontWheelsPointAtRightAnglesToTheCommonCentre) {
 TEST(VehicleDynamics, HubsMoveAlongTheirWheelsAndSpinWithoutSlip) {
     const VehicleParameters p;
     VehicleState state = placeVehicle(p, {}, 3, 4, 0.5, 9);
-    for (int n = 0; n < 200; ++n) state = step(p, state, {0.3, 0, 0.5}, {}, tick);
+    for (int n = 0; n < 200; ++n) state = step(p, state, {0.3, 0, 0.5}, {}, dynamicsTick);
     const VehicleState next = step(p, state, {0.3, 0, 0.5}, {}, 1e-5);
     for (std::size_t i = 0; i < 4; ++i) {
         const scene::WheelState& wheel = state.wheels[i];
@@ -151,7 +151,7 @@ TEST(VehicleDynamics, NeverReversesWhateverThePedals) {
         const double throttle = static_cast<double>(random() % 100) / 300;
         const double brake = static_cast<double>(random() % 100) / 300;
         const double steer = static_cast<double>(random() % 201) / 100 - 1;
-        const VehicleState next = step(p, state, {throttle, brake, steer}, terrain, tick);
+        const VehicleState next = step(p, state, {throttle, brake, steer}, terrain, dynamicsTick);
         ASSERT_GE(next.speed, 0);
         ASSERT_GE(glm::dot(next.position - state.position, state.forward()), -1e-9);
         for (std::size_t i = 0; i < 4; ++i) ASSERT_GE(next.wheels[i].spinAngle, state.wheels[i].spinAngle);
@@ -163,8 +163,8 @@ TEST(VehicleDynamics, KeepsTheLimitsOfSteeringRateAndLateralAcceleration) {
     const VehicleParameters p;
     VehicleState state = placeVehicle(p, {}, 0, 0, 0, 2);
     for (int n = 0; n < 1200; ++n) {
-        const VehicleState next = step(p, state, {1, 0, n % 200 < 100 ? 1.0 : -1.0}, {}, tick);
-        ASSERT_LE(std::abs(next.steerAngle - state.steerAngle), p.steerRateLimit * tick + 1e-12);
+        const VehicleState next = step(p, state, {1, 0, n % 200 < 100 ? 1.0 : -1.0}, {}, dynamicsTick);
+        ASSERT_LE(std::abs(next.steerAngle - state.steerAngle), p.steerRateLimit * dynamicsTick + 1e-12);
         ASSERT_LE(next.speed * next.speed * std::abs(std::tan(next.steerAngle)) / p.wheelbaseMetres,
                   p.lateralAccelerationLimit + 1e-9);
         state = next;

@@ -17,8 +17,8 @@ namespace {
 using volumes::GridPlace;
 using volumes::VolumeGrid;
 
-constexpr double maximumOpacity = 0.999;  ///< as of all particles
-constexpr double maximumIds = 9e15;       ///< as of all files of dust
+constexpr double maximumPuffOpacity = 0.999;  ///< as of all particles
+constexpr double maximumIds = 9e15;           ///< as of all files of dust
 
 /// The sum over the cells of a block.
 struct Block {
@@ -113,12 +113,12 @@ void add(DustMoment& moment, const Block& block, const Blocks& blocks, const vol
     const double edge = blocks.edgeMetres(), s = puffDeviationCells * edge;
     const double mass = block.density * setup.extinctionPerMetre * std::pow(edge / setup.blockCells, 3);
     const double opacity = -std::expm1(-mass / (2 * std::numbers::pi * s * s));
-    if (opacity > maximumOpacity)
-        throw InputError(
-            fmt::format("{}: a cell has an optical depth of {:.3g} by its edge, allowed for particles: {:.3g}; a lower "
-                        "extinction_per_metre in a .toml, or finer cells",
-                        moment.file, mass / (edge * edge),
-                        -std::log1p(-maximumOpacity) * 2 * std::numbers::pi * puffDeviationCells * puffDeviationCells));
+    if (opacity > maximumPuffOpacity)
+        throw InputError(fmt::format(
+            "{}: a cell has an optical depth of {:.3g} by its edge, allowed for particles: {:.3g}; a lower "
+            "extinction_per_metre in a .toml, or finer cells",
+            moment.file, mass / (edge * edge),
+            -std::log1p(-maximumPuffOpacity) * 2 * std::numbers::pi * puffDeviationCells * puffDeviationCells));
     const glm::dvec3 middle = blocks.middleOf(block.id);
     moment.id.push_back(block.id);
     moment.x.push_back(static_cast<float>(middle.x));

@@ -28,7 +28,7 @@ std::vector<MethodLibrary>& libraries() {
     return list;
 }
 
-std::vector<std::string> split(std::string_view text, char separator) {
+std::vector<std::string> partsOf(std::string_view text, char separator) {
     std::vector<std::string> parts;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find(separator), text.size());
@@ -50,7 +50,8 @@ std::string checkedFolder(std::string_view option, const std::string& named) {
 std::vector<fs::path> folders() {
     std::vector<fs::path> list;
     const char* named = std::getenv(variable);
-    for (const std::string& folder : split(named ? named : "", ':')) list.emplace_back(checkedFolder(variable, folder));
+    for (const std::string& folder : partsOf(named ? named : "", ':'))
+        list.emplace_back(checkedFolder(variable, folder));
     const fs::path installed = fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "lib/dustbench/methods";
     if (fs::is_directory(installed)) list.push_back(installed);
     return list;
@@ -165,7 +166,7 @@ std::string loadLibrary(const fs::path& file, const std::string& id, LibraryCont
 std::string fingerprintDifference(std::string_view got, std::string_view expected) {
     const auto facts = [](std::string_view text) {
         std::map<std::string, std::string> byName;
-        for (const std::string& fact : split(text, ';')) {
+        for (const std::string& fact : partsOf(text, ';')) {
             const std::size_t equals = std::min(fact.find('='), fact.size());
             const std::string name = fact.substr(0, equals), value = fact.substr(std::min(equals + 1, fact.size()));
             byName[name] = value == name ? "undefined" : value.empty() ? "defined" : value;

@@ -55,7 +55,7 @@ auto ratioIs(double ratio) {
     };
 }
 
-std::string messageOf(const std::string& compare, const std::string& more = "") {
+std::string refusalOf(const std::string& compare, const std::string& more = "") {
     try {
         (void)parseSuite("methods = [\"billboard\"]\n" + more + "[[compare]]\n" + compare, "s.toml", false);
     } catch (const InputError& error) {
@@ -244,7 +244,7 @@ TEST(SuiteComparison, MistakesNameFileLineAndWhatIsNear) {
     const std::string of = "of = \"billboard sort=radix\"\n", with = "with = \"billboard sort=none\"\n";
     const std::string columns = "columns = [\"fps_avg\"]\n";
     const std::string sorts = "[parameters]\nsort = [\"radix\", \"none\"]\n";
-    EXPECT_EQ(messageOf(of + with + columns, sorts), "nothing thrown");
+    EXPECT_EQ(refusalOf(of + with + columns, sorts), "nothing thrown");
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {"of = \"bilboard\"\n" + with + columns, "s.toml:5: key 'compare.of': unknown method of this suite 'bilboard'"},
         {"of = \"\"\n" + with + columns, "s.toml:5: key 'compare.of': got no method"},
@@ -261,7 +261,7 @@ TEST(SuiteComparison, MistakesNameFileLineAndWhatIsNear) {
         {"of = \"billboard sort=quicksort\"\n" + with + columns, "s.toml:4: compare: got 'billboard sort=quicksort'"},
         {"of = \"billboard\"\nwith = \"billboard\"\n" + columns, "no two different runs"},
     };
-    for (const auto& [text, expected] : mistakes) EXPECT_THAT(messageOf(text, sorts), HasSubstr(expected)) << text;
+    for (const auto& [text, expected] : mistakes) EXPECT_THAT(refusalOf(text, sorts), HasSubstr(expected)) << text;
     try {
         (void)parseSuite("compare = 5", "s.toml", false);
         FAIL() << "nothing thrown";

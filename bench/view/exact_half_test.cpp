@@ -20,7 +20,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-bool hasMethod(std::string_view id) {
+bool isBuilt(std::string_view id) {
     return std::ranges::any_of(methods(), [id](const MethodInfo& info) { return info.id == id; });
 }
 
@@ -34,7 +34,7 @@ ViewState small(const std::string& method) {
 }
 
 TEST(ExactHalf, GivesTheNumbersAndThePictureOfAJudgedRun) {
-    if (!hasMethod("billboard")) GTEST_SKIP() << "no billboards here";
+    if (!isBuilt("billboard")) GTEST_SKIP() << "no billboards here";
     const TestFolder folder;
     ViewState state = small("billboard");
     state.drive = "slalom";
@@ -90,10 +90,10 @@ TEST_F(ExactInViewer, IsDrawnAtRestAndNeverOfAnotherMomentThanA) {
     viewer.advance(1e9);
     for (int n = 0; n < 3; ++n) viewer.advance();
     EXPECT_FALSE(viewer.session().isJudged());
-    EXPECT_EQ(viewer.session().isCurrent(Half::b), hasMethod(liveTruth));
-    EXPECT_EQ(viewer.settingsNow().shown, hasMethod(liveTruth) ? Shown::wipe : Shown::a);
+    EXPECT_EQ(viewer.session().isCurrent(Half::b), isBuilt(liveTruth));
+    EXPECT_EQ(viewer.settingsNow().shown, isBuilt(liveTruth) ? Shown::wipe : Shown::a);
     EXPECT_THAT(viewer.stamp(), HasSubstr("frame 3: A " + methods().front().id));
-    EXPECT_EQ(viewer.stamp().find("| B exact") != std::string::npos, hasMethod(liveTruth));
+    EXPECT_EQ(viewer.stamp().find("| B exact") != std::string::npos, isBuilt(liveTruth));
     viewer.press(Key::space, false);
     viewer.advance();
     viewer.advance();
@@ -113,7 +113,7 @@ TEST_F(ExactInViewer, IsDrawnAtRestAndNeverOfAnotherMomentThanA) {
 
 /// While the world moves, half B is the truth as a method.
 TEST_F(ExactInViewer, IsDrawnLiveByTheTruthAsAMethodAndIsTheJudgesPictureTo1e5) {
-    if (!hasMethod(liveTruth) || !hasMethod("billboard")) GTEST_SKIP() << "no truth as a method, or no billboards";
+    if (!isBuilt(liveTruth) || !isBuilt("billboard")) GTEST_SKIP() << "no truth as a method, or no billboards";
     ViewState state = small("billboard");
     state.world["camera"] = "fixed";  // a camera that moves would be listed for anyway
     state.frame = 3;
@@ -186,7 +186,7 @@ TEST_F(ExactInViewer, IsShownAsItsPictureIs) {
 }
 
 TEST_F(ExactInViewer, GivesNoNumbersToAMethodWithASimulationOfItsOwn) {
-    if (!hasMethod("plugin_particles")) GTEST_SKIP() << "no method with a simulation of its own here";
+    if (!isBuilt("plugin_particles")) GTEST_SKIP() << "no method with a simulation of its own here";
     Viewer viewer(small("plugin_particles"), device_, folder_.path());
     viewer.advance(1e9);
     viewer.press(Key::e, false);

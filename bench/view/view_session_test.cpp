@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 constexpr float sameColour = 0.5f / 255;
 
-ViewState small(const std::string& method) {
+ViewState smallView(const std::string& method) {
     ViewState state;
     state.size = {64, 48};
     state.world = {{"particles", "300"}, {"preroll", "0.3"}};
@@ -57,7 +57,7 @@ float maximumDifference(const pictures::Image& a, const pictures::Image& b) {
 TEST(SessionAndRun, ShowThePictureOfTheCommandLine) {
     const TestFolder folder;
     for (const MethodInfo& method : methods()) {
-        ViewState state = small(method.id);
+        ViewState state = smallView(method.id);
         state.drive = "slalom";
         state.seed = 5;
         state.frame = 7;
@@ -82,7 +82,7 @@ TEST(SessionAndRun, ShowThePictureOfTheCommandLine) {
 
 TEST_F(Session, AHalfIsWhatItIsAlone) {
     if (!hasMethod("billboard") || !hasMethod("octree_search")) GTEST_SKIP() << "one of the methods is missing";
-    ViewState alone = small("octree_search");
+    ViewState alone = smallView("octree_search");
     alone.frame = 5;
     ViewState both = alone;
     both.b = HalfState{"billboard", {{"soft", "on"}}};
@@ -105,7 +105,7 @@ TEST_F(Session, AHalfIsWhatItIsAlone) {
 
 TEST_F(Session, AMethodAgainstItselfIsTheSamePicture) {
     const std::string method = methods().front().id;
-    ViewState state = small(method);
+    ViewState state = smallView(method);
     state.b = state.a;
     state.frame = 3;
     ViewSession session(state, device_);
@@ -115,7 +115,7 @@ TEST_F(Session, AMethodAgainstItselfIsTheSamePicture) {
 
 TEST_F(Session, ANewHalfAndAnotherCameraLeaveTheWorldGoingOn) {
     if (!hasMethod("billboard") || !hasMethod("octree_search")) GTEST_SKIP() << "one of the methods is missing";
-    ViewState state = small("billboard");
+    ViewState state = smallView("billboard");
     state.frame = 10;
     ViewSession session(state, device_);
     goOn(session);
@@ -144,7 +144,7 @@ TEST_F(Session, ANewHalfAndAnotherCameraLeaveTheWorldGoingOn) {
 }
 
 TEST_F(Session, AnErrorChangesNothing) {
-    ViewState state = small(methods().front().id);
+    ViewState state = smallView(methods().front().id);
     state.frame = 2;
     ViewSession session(state, device_);
     goOn(session);
@@ -167,7 +167,7 @@ TEST_F(Session, AnErrorChangesNothing) {
 }
 
 TEST_F(Session, RestartedItDoesTheSameAgain) {
-    ViewState state = small(methods().front().id);
+    ViewState state = smallView(methods().front().id);
     state.frame = 6;
     ViewSession session(state, device_);
     goOn(session);
@@ -183,7 +183,7 @@ TEST(SessionAndRun, EndARecordedDriveInTheSameState) {
     const TestFolder folder;
     for (const unsigned seed : {1u, 2u, 3u}) {
         std::mt19937 random(seed);
-        ViewState state = small(methods().front().id);
+        ViewState state = smallView(methods().front().id);
         state.drive = keyboardDrive;
         state.seed = seed;
         state.world["speed"] = "20";  // without effect on the keyboard's car
@@ -210,7 +210,7 @@ TEST_F(Session, RefusesASceneThatItsMethodCannotTake) {
     for (const MethodInfo& method : methods()) {
         const World world("plain", "", ParameterValues(worldParameters()), 1);
         if (takes(method, world)) continue;
-        EXPECT_THAT(inputError([&] { ViewSession(small(method.id), device_); }),
+        EXPECT_THAT(inputError([&] { ViewSession(smallView(method.id), device_); }),
                     HasSubstr("cannot take scene 'plain'"));
     }
 }

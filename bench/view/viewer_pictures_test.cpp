@@ -20,7 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr float sameColour = 0.51f / 255;
+constexpr float nearColour = 0.51f / 255;
 
 class ViewerPictures : public testing::Test {
  protected:
@@ -74,7 +74,7 @@ TEST_F(ViewerPictures, FlipIsThatOfTheMetric) {
     viewer_->advance();
     EXPECT_EQ(viewer_->maps().flipMean(), 0.0);
     for (const glm::vec4& pixel : shown().pixels)
-        ASSERT_NEAR(pixel.r, pictures::encodeSrgb(heatColour(0).r), sameColour);
+        ASSERT_NEAR(pixel.r, pictures::encodeSrgb(heatColour(0).r), nearColour);
     if (!hasMethod("billboard") || !hasMethod("octree_search")) GTEST_SKIP() << "one of the methods is missing";
     open("billboard", "octree_search");
     viewer_->split.shown = Shown::flip;
@@ -87,7 +87,7 @@ TEST_F(ViewerPictures, FlipIsThatOfTheMetric) {
     const pictures::Image colours = heatMap(expected.map), image = shown();
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
         for (int channel = 0; channel < 3; ++channel)
-            ASSERT_NEAR(image.pixels[i][channel], pictures::encodeSrgb(colours.pixels[i][channel]), sameColour);
+            ASSERT_NEAR(image.pixels[i][channel], pictures::encodeSrgb(colours.pixels[i][channel]), nearColour);
     EXPECT_THAT(viewer_->stamp(), HasSubstr("frame 2: FLIP of A billboard, B octree_search being the reference"));
     const pictures::Image before = shown();
     viewer_->press(Key::period, false);
@@ -110,7 +110,7 @@ TEST_F(ViewerPictures, OverdrawCountsThePrimitivesOverEachPixel) {
     const pictures::Image image = shown();
     for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 64; ++x)
-            ASSERT_NEAR(image.at(x, y).g, pictures::encodeSrgb(heatColour(map.at(x, y) / maximum).g), sameColour);
+            ASSERT_NEAR(image.at(x, y).g, pictures::encodeSrgb(heatColour(map.at(x, y) / maximum).g), nearColour);
 }
 
 TEST_F(ViewerPictures, FaultsAreCountedWithTheFirst) {

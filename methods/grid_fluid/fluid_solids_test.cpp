@@ -21,7 +21,7 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double edge = 0.1;
 constexpr glm::ivec3 cells{44, 40, 42};
 

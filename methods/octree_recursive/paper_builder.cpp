@@ -26,10 +26,10 @@ struct Voxel {
     double massSquareMetres = 0;
 };
 
-class Construction {
+class PaperConstruction {
  public:
-    Construction(const ParticlePlace& place, const VoxelRule& rule, std::vector<PaperBuilder::List>& lists,
-                 Octree& tree)
+    PaperConstruction(const ParticlePlace& place, const VoxelRule& rule, std::vector<PaperBuilder::List>& lists,
+                      Octree& tree)
         : place_(place), rule_(rule), lists_(lists), tree_(tree) {}
 
     /// Steps 2 to 4 of the paper.
@@ -106,7 +106,7 @@ std::int64_t PaperBuilder::build(const Puffs& store, const Lattice& lattice, con
     const std::int64_t clipped = listActive(store, place, active_);
     tree.clear(settings.depth);
     tree.setVoxels(active_.size(), rule.accumulates());
-    Construction construction(place, rule, lists_, tree);
+    PaperConstruction construction(place, rule, lists_, tree);
     construction.subdivide({place.corner(), place.edge(), 0, 0, 0}, active_);
     tree.setVoxels(construction.count(), rule.accumulates());
     return clipped;

@@ -74,16 +74,16 @@ TEST(LastPositions, AreThoseOfTheSameParticleWhateverItsPlaceInTheStore) {
     }
 }
 
-Look lookOf(const char* part, const NamedValues& values) {
+Look curveLook(const char* part, const NamedValues& values) {
     return particles::makePartOf<particles::RenderPart>(particles::PartKind::render, part, values)->look();
 }
 
 /// One particle, 10 m before an eye that looks along −Z; coordinates across the picture in pixels from its middle.
-class Canvas : public TestMoment {
+class CurveCanvas : public TestMoment {
  public:
     static constexpr float distance = 10;
 
-    Canvas() : TestMoment(1, 160, 120, {0, 0, 0}, {0, 0, -1}) {
+    CurveCanvas() : TestMoment(1, 160, 120, {0, 0, 0}, {0, 0, -1}) {
         dust.keepOneColour(false);
         dust.serial[0] = 7;
         dust.red[0] = dust.green[0] = dust.blue[0] = 1;
@@ -136,11 +136,11 @@ std::array<Throw, 3> throwsOver(int steps) {
 TEST(CurvePass, IsTheParabolaOfABodyUnderAConstantForce) {
     for (const int steps : {1, 2, 5})
         for (const Throw& thrown : throwsOver(steps)) {
-            Canvas canvas;
+            CurveCanvas canvas;
             SystemPicture shown(
-                Canvas::device(),
-                lookOf("curves",
-                       {{"blend", "alpha"}, {"fade", "off"}, {"pieces", "16"}, {"steps", std::to_string(steps)}}),
+                CurveCanvas::device(),
+                curveLook("curves",
+                          {{"blend", "alpha"}, {"fade", "off"}, {"pieces", "16"}, {"steps", std::to_string(steps)}}),
                 {});
             for (int back = steps + 3; back >= 0; --back) {
                 canvas.put(thrown.at(static_cast<float>(back)), thrown.velocityAt(static_cast<float>(back)));
@@ -174,10 +174,10 @@ TEST(CurvePass, IsTheLineWhenItHasOnePieceOrNothingBendsIt) {
     for (const char* pieces : {"1", "8"})
         for (const char* fade : {"on", "off"})
             for (const float age : {100.0f, 0.3f * stepSeconds}) {
-                Canvas canvas;
-                SystemPicture curve(Canvas::device(),
-                                    lookOf("curves", {{"blend", "alpha"}, {"fade", fade}, {"pieces", pieces}}), {});
-                SystemPicture line(Canvas::device(), lookOf("lines", {{"blend", "alpha"}, {"fade", fade}}), {});
+                CurveCanvas canvas;
+                SystemPicture curve(CurveCanvas::device(),
+                                    curveLook("curves", {{"blend", "alpha"}, {"fade", fade}, {"pieces", pieces}}), {});
+                SystemPicture line(CurveCanvas::device(), curveLook("lines", {{"blend", "alpha"}, {"fade", fade}}), {});
                 canvas.put({25.3f, 11.7f}, {500, 310});
                 canvas.dust.age[0] = age;
                 canvas.upload(curve);
@@ -197,9 +197,9 @@ TEST(CurvePass, IsTheLineWhenItHasOnePieceOrNothingBendsIt) {
 /// ∫ α·(1 − s) ds over a path of L pixels is α·L/2.
 TEST(CurvePass, FadesLinearlyToItsOldEndOverAllSteps) {
     for (const int steps : {1, 4}) {
-        Canvas canvas;
-        SystemPicture shown(Canvas::device(), lookOf("curves", {{"blend", "alpha"}, {"steps", std::to_string(steps)}}),
-                            {});
+        CurveCanvas canvas;
+        SystemPicture shown(CurveCanvas::device(),
+                            curveLook("curves", {{"blend", "alpha"}, {"steps", std::to_string(steps)}}), {});
         constexpr float pixelsPerStep = 20;
         for (int back = steps + 2; back >= 0; --back) {
             canvas.put({40.5f - pixelsPerStep * static_cast<float>(back), 0.5f}, {pixelsPerStep / stepSeconds, 0});
@@ -220,8 +220,9 @@ TEST(CurvePass, FadesLinearlyToItsOldEndOverAllSteps) {
 }
 
 TEST(CurvePass, BeginsWhereTheParticleWasBorn) {
-    Canvas canvas;
-    SystemPicture shown(Canvas::device(), lookOf("curves", {{"blend", "alpha"}, {"fade", "off"}, {"steps", "6"}}), {});
+    CurveCanvas canvas;
+    SystemPicture shown(CurveCanvas::device(),
+                        curveLook("curves", {{"blend", "alpha"}, {"fade", "off"}, {"steps", "6"}}), {});
     float lit = 0;
     for (int step = 0; step < 4; ++step) {
         // Born half a step before the first upload; 16 pixels a step.
@@ -237,8 +238,8 @@ TEST(CurvePass, BeginsWhereTheParticleWasBorn) {
 }
 
 TEST(CurvePass, SaysItsMemory) {
-    Canvas canvas;
-    SystemPicture shown(Canvas::device(), lookOf("curves", {{"steps", "3"}}), {});
+    CurveCanvas canvas;
+    SystemPicture shown(CurveCanvas::device(), curveLook("curves", {{"steps", "3"}}), {});
     canvas.put({0, 0}, {1, 0});
     canvas.upload(shown);
     std::size_t remembered = 0;

@@ -11,12 +11,6 @@ namespace {
 
 constexpr double enoughSeconds = 2e-3;  // per round, so that the clock's step does not count
 
-scene::Relief flatRelief(int side) {
-    scene::Relief relief{side, side, {}, {}};
-    relief.depth.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0.5f);
-    return relief;
-}
-
 std::vector<Impact> randomImpacts(const CostSweep& sweep, int side, int hits, int round) {
     const auto within = static_cast<float>(std::min(side, sweep.reach));
     std::vector<Impact> impacts;
@@ -43,6 +37,12 @@ double secondsToAge(WornSurface& surface, Search search, const std::vector<Impac
 }
 
 }  // namespace
+
+scene::Relief flatRelief(int side) {
+    scene::Relief relief{side, side, {}, {}};
+    relief.depth.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0.5f);
+    return relief;
+}
 
 std::vector<CostCell> measureCost(const CostSweep& sweep) {
     std::vector<CostCell> cells;

@@ -16,6 +16,9 @@ namespace dustbench::relief::ageing {
 
 constexpr double maximumTests = 1e11;
 
+/// A surface of side × side texels, all at half of its depth.
+[[nodiscard]] scene::Relief flatRelief(int side);
+
 struct CostSweep {
     Search search = Search::gather;
     std::vector<int> sides, hits;

@@ -19,12 +19,6 @@ using findings::meanOf;
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-scene::Relief flatRelief(int side) {
-    scene::Relief relief{side, side, {}, {}};
-    relief.depth.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0.5f);
-    return relief;
-}
-
 std::string cellName(const char* search, const CostCell& cell) {
     return fmt::format("{}_ms_{}_{}", search, cell.hits, cell.side);
 }

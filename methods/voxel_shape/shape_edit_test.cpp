@@ -12,10 +12,10 @@ namespace dustbench::voxel_shape {
 namespace {
 
 /// A block of 8³ voxels of 0.25 m from (−1, 0, −1) to (1, 2, 1).
-const std::string block = "description = \"\"\nparticles = 512\n[grid]\ncells = [8, 8, 8]\nedge_metres = 0.25\n";
+const std::string editedBlock = "description = \"\"\nparticles = 512\n[grid]\ncells = [8, 8, 8]\nedge_metres = 0.25\n";
 
 /// A closed tetrahedron: x, y, z ≥ 0 and x + y + z ≤ 1.
-const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+const std::string editedTetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
 ShapeSystem built(MemoryLedger& ledger, const std::filesystem::path& file) {
     return buildShape(ledger, readShape(file), {}, TestMoment::device(), 1);
@@ -23,8 +23,8 @@ ShapeSystem built(MemoryLedger& ledger, const std::filesystem::path& file) {
 
 TEST(ShapeEdit, OfAMeshMeetsTheVoxelsWhoseMiddlesLieInIt) {
     const TestFolder folder;
-    folder.write("corner.obj", tetrahedron);
-    const auto file = folder.write("world.toml", block +
+    folder.write("corner.obj", editedTetrahedron);
+    const auto file = folder.write("world.toml", editedBlock +
                                                      "[place]\nfollow = \"world\"\n"
                                                      "[[edit]]\nmesh = \"corner.obj\"\nposition = [-1, 0, -1]\n"
                                                      "scale = 1.5\ncolour = [1, 0, 0]\n");
@@ -42,10 +42,10 @@ TEST(ShapeEdit, OfAMeshMeetsTheVoxelsWhoseMiddlesLieInIt) {
 
 TEST(ShapeEdit, CarvesPaintsAndPushesAndIsSavedAndReadBack) {
     const TestFolder folder;
-    folder.write("corner.obj", tetrahedron);
+    folder.write("corner.obj", editedTetrahedron);
     const std::string place = "[place]\nfollow = \"world\"\n";
     const auto first =
-        folder.write("first.toml", "save_voxels_as = \"edited.vti\"\n" + block + place +
+        folder.write("first.toml", "save_voxels_as = \"edited.vti\"\n" + editedBlock + place +
                                        "[[edit]]\nmesh = \"corner.obj\"\nposition = [-1, 0, -1]\nactive = false\n"
                                        "[[edit]]\ncentre = [0.5, 1.5, 0.5]\nradius_metres = 0.4\ncolour = [0, 0, 1]\n"
                                        "[[edit]]\nmin = [-1, 1.5, -1]\nmax = [1, 2, 1]\n"
@@ -70,7 +70,7 @@ TEST(ShapeEdit, CarvesPaintsAndPushesAndIsSavedAndReadBack) {
 
 TEST(ShapeEdit, ASweptSphereIsTheUnionOfAllSpheresAlongItsLine) {
     const TestFolder folder;
-    const auto file = folder.write("s.toml", block +
+    const auto file = folder.write("s.toml", editedBlock +
                                                  "[[edit]]\ncentre = [-0.5, 0.5, 0.2]\nto = [0.7, 1.3, -0.1]\n"
                                                  "radius_metres = 0.3\ncolour = [1, 0, 0]\n");
     const VoxelEdit edit = readShape(file).edits.at(0);
@@ -93,7 +93,7 @@ TEST(ShapeEdit, ASweptSphereIsTheUnionOfAllSpheresAlongItsLine) {
 TEST(ShapeEdit, SaysThatAnOpenMeshHasNoInside) {
     const TestFolder folder;
     folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    const auto file = folder.write("s.toml", block + "[[edit]]\nmesh = \"open.obj\"\ncolour = [1, 0, 0]\n");
+    const auto file = folder.write("s.toml", editedBlock + "[[edit]]\nmesh = \"open.obj\"\ncolour = [1, 0, 0]\n");
     const std::string message = inputError([&] { (void)readShape(file); });
     EXPECT_NE(message.find("3 open edges"), std::string::npos) << message;
 }

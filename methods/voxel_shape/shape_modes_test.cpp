@@ -56,9 +56,9 @@ TEST(ShapeFile, MeshesLieBesideTheFileElseAmongTheData) {
                                testing::HasSubstr("did you mean '" + (folder.path() / "ball.obj").string() + "'?")));
 }
 
-class Moment : public TestMoment {
+class ModesMoment : public TestMoment {
  public:
-    Moment() : TestMoment(0, 160, 120, {0, 1, 5}, {0, 0, -1}) {}
+    ModesMoment() : TestMoment(0, 160, 120, {0, 1, 5}, {0, 0, -1}) {}
 
     void run(Method& method, int steps) {
         method.prepare(scene, {}, device());
@@ -80,7 +80,7 @@ const ShapeSystem& systemOf(const Method& method) {
 }
 
 TEST(ShapeModes, OfThePaperTakeItsSlicesAndItsLaw) {
-    Moment moment;
+    ModesMoment moment;
     moment.scene.vehicle.emplace();  // the figure follows it
     const auto activeAndHeld = [&](const std::vector<std::pair<const char*, const char*>>& more) {
         std::vector<std::pair<const char*, const char*>> settings{
@@ -112,7 +112,7 @@ TEST(ShapeModes, OfThePaperIsTheLawOfTheOtherShapesToo) {
                      "description = \"\"\nparticles = 64\n[grid]\ncells = [4, 4, 4]\nedge_metres = 0.25\n[place]\n"
                      "follow = \"world\"\nposition = [9, 0, 0]\n[[also]]\nshape = \"drifting.toml\"\n");
     const auto insideAfter = [&](const char* mode) {
-        Moment moment;
+        ModesMoment moment;
         const auto method = presetWith({{"shape", both.c_str()}, {"mode", mode}});
         moment.run(*method, 90);
         return std::get<std::int64_t>(*moment.fact(*method, "inside"));
@@ -125,7 +125,7 @@ TEST(ShapeModes, ANumberIsHeldToItsVeryMargin) {
     const TestFolder folder;
     Shape shape = readShape(ballFile(folder, "[motion]\nbirth_speed = 0.1\nfill_seconds = 0.1\n"));
     const auto insideWithin = [&](double margin) {
-        Moment moment;
+        ModesMoment moment;
         shape.heldWithin = margin;
         const auto method = std::make_unique<VoxelShape>(shape);
         moment.run(*method, 60);
@@ -146,7 +146,7 @@ TEST(ShapeModes, ARunThatDoesNotHoldItsNumberIsNone) {
     const TestFolder folder;
     Shape shape = readShape(ballFile(folder, "[motion]\nbirth_speed = 0.02\nfill_seconds = 0.05\n"));
     shape.heldWithin = 0.02;
-    Moment moment;
+    ModesMoment moment;
     const auto held = std::make_unique<VoxelShape>(shape), early = std::make_unique<VoxelShape>(shape);
     moment.run(*held, 60);
     EXPECT_NEAR(static_cast<double>(std::get<std::int64_t>(*moment.fact(*held, "inside"))), 4000, 80);
@@ -173,9 +173,9 @@ TEST(ShapeModes, SeveralShapesAreDrawnTogetherAndCrossEachOther) {
                  "description = \"\"\nmesh = \"ball.obj\"\nresolution = 20\nparticles = 4000\n[place]\n"
                  "follow = \"world\"\n[[place.key]]\ntime_seconds = 0\nposition = [-3, 1, 0]\n"
                  "[[place.key]]\ntime_seconds = 2\nposition = [3, 1, 0]\n");
-    Moment moment;
+    ModesMoment moment;
     const auto method = std::make_unique<VoxelShape>(readShape(both));
-    method->prepare(moment.scene, {}, Moment::device());
+    method->prepare(moment.scene, {}, ModesMoment::device());
     for (int step = 0; step < 60; ++step) {
         moment.state.timeSeconds = step / 60.0;
         method->update(moment.frame());

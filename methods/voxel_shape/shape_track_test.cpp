@@ -5,7 +5,7 @@
 namespace dustbench::voxel_shape {
 namespace {
 
-constexpr double dt = 1.0 / 60;
+constexpr double trackStep = 1.0 / 60;
 
 /// Returns a vehicle on a circle at a time: speed v = a·t, distance ½·a·t².
 scene::SceneState onCircle(double radius, double acceleration, double time) {
@@ -24,8 +24,8 @@ TEST(ShapeTrack, GivesTheVelocitiesOfItsPoses) {
     ShapeTrack moving(track);
     scene::SceneState state;
     for (int step = 0; step < 2; ++step) {
-        state.timeSeconds = step * dt;
-        const Pose pose = moving.advance(state, dt);
+        state.timeSeconds = step * trackStep;
+        const Pose pose = moving.advance(state, trackStep);
         EXPECT_NEAR(pose.velocity.x, 2, 1e-5f) << "from the very first moment on";
         EXPECT_NEAR(pose.angularVelocity.y, 0.5f, 1e-5f);
         EXPECT_NEAR(pose.growth, 0.5 / (1 + state.timeSeconds / 2), 1e-5);
@@ -40,8 +40,8 @@ TEST(ShapeTrack, TakesTheWayBackToItsFirstKeyForAJump) {
     ShapeTrack moving(track);
     scene::SceneState state;
     for (int step = 0; step < 150; ++step) {
-        state.timeSeconds = step * dt;
-        EXPECT_NEAR(moving.advance(state, dt).velocity.x, 6, 1e-5f) << step;
+        state.timeSeconds = step * trackStep;
+        EXPECT_NEAR(moving.advance(state, trackStep).velocity.x, 6, 1e-5f) << step;
     }
 }
 
@@ -50,14 +50,14 @@ void expectVelocityOfItsMoment(const Track& track, int firstStep) {
     ShapeTrack beside(track);
     const double radius = 30, acceleration = 3;
     for (int step = 0; step < 240; ++step) {
-        const double time = step * dt, h = 1e-4;
-        const Pose pose = beside.advance(onCircle(radius, acceleration, time), dt);
+        const double time = step * trackStep, h = 1e-4;
+        const Pose pose = beside.advance(onCircle(radius, acceleration, time), trackStep);
         if (step < firstStep) continue;
         ShapeTrack before(track), after(track);
         const glm::dvec3 difference = glm::dvec3(after.advance(onCircle(radius, acceleration, time + h), h).position) -
                                       glm::dvec3(before.advance(onCircle(radius, acceleration, time - h), h).position);
         // The turn is the one since the last frame, so half a step old: 3 mm/s at 3.6 m from the vehicle's origin.
-        const double turnIsLate = step == 0 ? 0 : acceleration / radius * dt / 2 * 3.7;
+        const double turnIsLate = step == 0 ? 0 : acceleration / radius * trackStep / 2 * 3.7;
         EXPECT_LT(glm::distance(difference / (2 * h), glm::dvec3(pose.velocity)), turnIsLate + 0.03) << step;
     }
 }

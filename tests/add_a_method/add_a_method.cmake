@@ -75,7 +75,7 @@ endif()
 write_from_page(methods/dots/dots.cpp)
 write_from_page(data/suites/dots.toml)
 write_from_page(methods/kit/particles/parts/force/updraught.cpp)
-must_run(IGNORED ${CMAKE_COMMAND} -S ${TREE} -B ${BUILD} -G Ninja -DCMAKE_BUILD_TYPE=Release -DDUSTBENCH_ARCH=${ARCH} -DDUSTBENCH_WERROR=${WERROR}
+must_run(IGNORED ${CMAKE_COMMAND} -S ${TREE} --preset release -DDUSTBENCH_ARCH=${ARCH} -DDUSTBENCH_WERROR=${WERROR}
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_C_COMPILER=${C_COMPILER})
 build_copy()
 

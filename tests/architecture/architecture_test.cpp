@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "source_folder.h"
+#include "tests/architecture/own_names.h"
 #include "tests/architecture/source_rules.h"
 
 namespace dustbench::architecture {
@@ -92,6 +93,12 @@ TEST(Architecture, FilesAreShortOrSayWhyNot) {
 
 TEST(Architecture, HeadersSayWhatTheyAreFor) {
     EXPECT_EQ(faultsOfAll(purposeFaults), "");
+}
+
+TEST(Architecture, FilesOfAModuleShareNoNamesThatTheyKeepToThemselves) {
+    std::string all;
+    for (const std::string& fault : sharedNameFaults(sources())) all += fault + "\n";
+    EXPECT_EQ(all, "");
 }
 
 TEST(Architecture, EveryCitationIsInTheBibliography) {

@@ -23,8 +23,7 @@ rm -rf "${tree:?}/methods/$method" "$tree/reports/out"
 "$source/.ci/drop-stale-builds" "$build"
 export CCACHE_BASEDIR="$tree"
 unset DUSTBENCH_DATA
-cmake -S "$tree" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DDUSTBENCH_ARCH=native \
-    -DDUSTBENCH_WERROR="${DUSTBENCH_WERROR:-OFF}" > "$work/configure.log" ||
+cmake -S "$tree" --preset release -DDUSTBENCH_WERROR="${DUSTBENCH_WERROR:-OFF}" > "$work/configure.log" ||
     { cat "$work/configure.log" >&2; exit 1; }
 cmake --build "$build" --target dustbench
 

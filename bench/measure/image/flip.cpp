@@ -15,7 +15,7 @@
 namespace dustbench::bench {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// One term of the eye's contrast sensitivity: a·√(π/b)·exp(−π²d²/b), d in degrees. As a Gaussian of d it has
 /// σ = √(b/2)/π.
@@ -97,11 +97,11 @@ float colourError(glm::vec3 referenceOpponent, glm::vec3 pictureOpponent) {
     if (referenceOpponent == pictureOpponent) return 0;  // most of a frame: saves cube roots and powers
     static const float largest = colourDistance(huntLab({0, 1, 0}), huntLab({0, 0, 1}));
     constexpr auto top = static_cast<float>(kneeOfError);
-    const float knee = static_cast<float>(kneeOfColour) * largest;
+    const float kneeDistance = static_cast<float>(kneeOfColour) * largest;
     const auto lab = [](glm::vec3 value) { return huntLab(glm::clamp(linearFromOpponent(value), 0.0f, 1.0f)); };
     const float distance = colourDistance(lab(referenceOpponent), lab(pictureOpponent));
-    if (distance < knee) return distance * top / knee;
-    return std::min(1.0f, top + (distance - knee) / (largest - knee) * (1 - top));
+    if (distance < kneeDistance) return distance * top / kneeDistance;
+    return std::min(1.0f, top + (distance - kneeDistance) / (largest - kneeDistance) * (1 - top));
 }
 
 /// Samples of a Gaussian and its first two derivatives; the positive samples of a derivative sum to 1, the negative

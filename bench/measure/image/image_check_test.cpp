@@ -21,25 +21,25 @@ namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
 
-pictures::Image grey(int width, int height) {
+pictures::Image greyImage(int width, int height) {
     return imageOf(width, height, [](int, int, int) { return 0.5; });
 }
 
 TEST(ImageCheck, CountsAndNamesPixelsThatAreNotFinite) {
-    pictures::Image image = grey(7, 5);
+    pictures::Image image = greyImage(7, 5);
     image.pixels[7 * 2 + 3].g = nan;
     image.pixels[7 * 2 + 4] = {inf, nan, 0, 1};
     image.pixels[7 * 4].a = -inf;
     EXPECT_EQ(inputError([&] { static_cast<void>(preparePicture(image, "'a.exr'")); }),
               "'a.exr': 3 pixels are not finite, the first at (3, 2)");
-    image = grey(2, 2);
+    image = greyImage(2, 2);
     image.pixels[1].b = inf;
     EXPECT_EQ(inputError([&] { requireFinite(image, "the reference"); }),
               "the reference: 1 pixel is not finite, the first at (1, 0)");
 }
 
 TEST(ImageCheck, RefusesAlphaWhereNoneIsExpected) {
-    pictures::Image image = grey(3, 2);
+    pictures::Image image = greyImage(3, 2);
     image.pixels[4].a = 0.5f;
     EXPECT_EQ(inputError([&] { static_cast<void>(preparePicture(image, "b.png")); }),
               "b.png: 1 pixel is not opaque (expected alpha 1), the first at (1, 1)");
@@ -48,7 +48,7 @@ TEST(ImageCheck, RefusesAlphaWhereNoneIsExpected) {
 }
 
 TEST(ImageCheck, RefusesAlphasThatAreNone) {
-    pictures::Image layer = grey(3, 2);
+    pictures::Image layer = greyImage(3, 2);
     layer.pixels[5].a = 1.5f;
     EXPECT_EQ(inputError([&] { static_cast<void>(alphaOf(layer, "the layer")); }),
               "the layer: 1 pixel is of an alpha outside 0..1, the first at (2, 1)");
@@ -68,7 +68,7 @@ TEST(ImageCheck, RefusesImagesWithoutPixels) {
 }
 
 TEST(ImageCheck, EveryMetricRefusesDifferentSizes) {
-    const Picture a = preparePicture(grey(16, 12), "a.png"), b = preparePicture(grey(12, 16), "b.png");
+    const Picture a = preparePicture(greyImage(16, 12), "a.png"), b = preparePicture(greyImage(12, 16), "b.png");
     const std::string both = "images of different size: a.png has 16x12, b.png has 12x16";
     EXPECT_EQ(inputError([&] { static_cast<void>(pictureError(a, b)); }), both);
     EXPECT_EQ(inputError([&] { static_cast<void>(ssim(a, b)); }), both);
@@ -86,7 +86,7 @@ TEST(ImageCheck, EveryMetricRefusesDifferentSizes) {
 }
 
 TEST(ImageCheck, FlipRefusesViewingDistancesThatAreNone) {
-    const Picture a = preparePicture(grey(16, 12), "a.png");
+    const Picture a = preparePicture(greyImage(16, 12), "a.png");
     for (const double wrong : {0.0, -67.0, 1e6, static_cast<double>(nan)})
         EXPECT_THAT(inputError([&] { static_cast<void>(flip(a, a, wrong)); }), testing::HasSubstr("allowed: 1..1000"));
 }

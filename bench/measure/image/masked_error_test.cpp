@@ -30,16 +30,16 @@ struct Cloud {
     }
 };
 
-struct Scores {
+struct MaskScores {
     std::optional<double> psnr, rmse, maximum, ssim, flip;
     double wholeSsim, wholeRmse;
-    bool operator==(const Scores&) const = default;
+    bool operator==(const MaskScores&) const = default;
 };
 
 constexpr std::array<double, 3> dust{0.7, 0.5, 0.3}, sky{0.25, 0.45, 0.8};
 
 /// The cloud in the middle of a picture, with `border` pixels of sky around.
-Scores scoresWithSky(const Cloud& cloud, int border) {
+MaskScores scoresWithSky(const Cloud& cloud, int border) {
     const int width = 70 + 2 * border, height = 60 + 2 * border;
     const auto alphaAt = [&](double shift) {
         return [=](int x, int y) { return cloud.alpha(x - 0.5 * width + 0.5, y - 0.5 * height + 0.5, shift); };
@@ -65,10 +65,10 @@ Scores scoresWithSky(const Cloud& cloud, int border) {
 
 TEST(MaskedError, SkyAroundTheDustChangesNothing) {
     for (const std::uint64_t seed : {1, 2, 3}) {
-        const Scores close = scoresWithSky({seed}, 0);
+        const MaskScores close = scoresWithSky({seed}, 0);
         ASSERT_TRUE(close.psnr && close.rmse && close.maximum && close.ssim && close.flip);
         for (const int border : {1, 17, 60}) {
-            const Scores wide = scoresWithSky({seed}, border);
+            const MaskScores wide = scoresWithSky({seed}, border);
             // The sums have more terms of 0 only; FLIP is in single precision.
             EXPECT_NEAR(*wide.psnr, *close.psnr, 1e-9);
             EXPECT_NEAR(*wide.rmse, *close.rmse, 1e-12);

@@ -8,16 +8,16 @@
 namespace dustbench::bench {
 namespace {
 
-constexpr Choices<Agreement> texts{{"agree", Agreement::agree},
-                                   {"agree, by another factor", Agreement::factor},
-                                   {"differ", Agreement::differ},
-                                   {"open", Agreement::open},
-                                   {"one machine only", Agreement::alone}};
+constexpr Choices<Agreement> agreementTexts{{"agree", Agreement::agree},
+                                            {"agree, by another factor", Agreement::factor},
+                                            {"differ", Agreement::differ},
+                                            {"open", Agreement::open},
+                                            {"one machine only", Agreement::alone}};
 
 }  // namespace
 
 std::string_view agreementText(Agreement agreement) {
-    return texts.wordOf(agreement);
+    return agreementTexts.wordOf(agreement);
 }
 
 Agreement agreementOf(const std::vector<SideRatio>& sides) {

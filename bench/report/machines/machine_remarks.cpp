@@ -35,7 +35,7 @@ std::string valuesText(const std::set<std::string>& values) {
     return fmt::format("{}", fmt::join(named, ", "));
 }
 
-std::string withoutPrefix(const std::string& name) {
+std::string parameterName(const std::string& name) {
     return name.starts_with("p.") ? name.substr(2) : name;
 }
 
@@ -130,7 +130,7 @@ class Remarks {
             if (!isApart) continue;
             std::vector<std::string> texts;
             for (const auto& some : values) texts.push_back(some.empty() ? std::string() : valuesText(some));
-            result_.apart.push_back(fmt::format("{}: {}", withoutPrefix(name), bySide(texts)));
+            result_.apart.push_back(fmt::format("{}: {}", parameterName(name), bySide(texts)));
             settings_.emplace_back(name, std::move(values));
         }
     }

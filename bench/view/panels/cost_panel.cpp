@@ -21,18 +21,18 @@ double stageOf(const HalfCost& cost, std::size_t stage) {
 }
 
 template <typename Value>
-std::vector<double> valuesOf(const Viewer& viewer, const Value& value) {
+std::vector<double> valuesOver(const Viewer& viewer, const Value& value) {
     std::vector<double> values;
     for (const FrameCost& frame : viewer.costs()) values.push_back(value(frame));
     return values;
 }
 
 std::vector<double> totalsOf(const Viewer& viewer, std::size_t half) {
-    return valuesOf(viewer, [half](const FrameCost& frame) { return frame.halves[half].totalMs(); });
+    return valuesOver(viewer, [half](const FrameCost& frame) { return frame.halves[half].totalMs(); });
 }
 
 std::vector<double> ofWindow(const Viewer& viewer) {
-    std::vector<double> values = valuesOf(viewer, [](const FrameCost& frame) { return frame.window; });
+    std::vector<double> values = valuesOver(viewer, [](const FrameCost& frame) { return frame.window; });
     if (values.size() > 1) values.pop_back();  // the last frame is not over yet
     return values;
 }
@@ -57,7 +57,7 @@ void showPercentiles(const Viewer& viewer) {
     };
     showRow({"ms", "median", "p95", "p99"});
     for (const std::size_t half : halvesOf(viewer)) row(half == 0 ? "A" : "B", totalsOf(viewer, half));
-    row("world", valuesOf(viewer, [](const FrameCost& frame) { return frame.world; }));
+    row("world", valuesOver(viewer, [](const FrameCost& frame) { return frame.world; }));
     row("window", ofWindow(viewer));
     ImGui::EndTable();
 }
@@ -108,7 +108,7 @@ void showStages(const Viewer& viewer, const std::vector<std::size_t>& halves) {
     for (std::size_t stage = 0; stage < stageNames.size(); ++stage) {
         std::array<std::string, 2> medians;
         for (const std::size_t half : halves) {
-            const auto values = valuesOf(viewer, [&](const FrameCost& f) { return stageOf(f.halves[half], stage); });
+            const auto values = valuesOver(viewer, [&](const FrameCost& f) { return stageOf(f.halves[half], stage); });
             if (std::ranges::max(values) > 0) medians[half] = fmt::format("{:.2f}", median(values));
         }
         if (medians[0].empty() && medians[1].empty()) continue;

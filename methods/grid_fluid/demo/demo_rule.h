@@ -27,6 +27,12 @@ struct DemoSettings {
     [[nodiscard]] float lift(float seconds) const { return buoyancyPerKelvin * seconds; }
 };
 
+/// The same settings; throws what flow::check says of their box.
+[[nodiscard]] inline const DemoSettings& checked(const DemoSettings& settings) {
+    flow::check(settings.box);
+    return settings;
+}
+
 /// What of a fluid's settings the demo knows; the rest is its own. It has still air.
 [[nodiscard]] inline DemoSettings demoOf(const flow::FluidSettings& settings, bool burns) {
     return {settings.box,

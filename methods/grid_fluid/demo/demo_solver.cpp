@@ -17,11 +17,6 @@ glm::ivec3 unit(int axis) {
     return {axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0};
 }
 
-const DemoSettings& checked(const DemoSettings& settings) {
-    flow::check(settings.box);
-    return settings;
-}
-
 /// What a solid's cell holds of an advected field.
 float ofSolid(float, const glm::vec4&) {
     return 0;

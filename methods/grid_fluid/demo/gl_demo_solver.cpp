@@ -17,12 +17,6 @@ namespace dustbench::grid_fluid::demo {
 namespace {
 
 using namespace grid_fluid_demo_shaders;
-
-const DemoSettings& checked(const DemoSettings& settings) {
-    flow::check(settings.box);
-    return settings;
-}
-
 using flow_gl::Kernel;
 
 gpu::Texture fieldOf(gpu::Device& device, gpu::Format format, const glm::ivec3& cells) {

@@ -13,10 +13,10 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 template <typename Cell>
-void forCells(const CellLayout& layout, const Cell& cell) {
+void forAllCells(const CellLayout& layout, const Cell& cell) {
     for (int k = 0; k < layout.nz; ++k)
         for (int j = 0; j < layout.ny; ++j)
             for (int i = 0; i < layout.nx; ++i) cell(i, j, k, layout.at(i, j, k));
@@ -53,7 +53,7 @@ Carried carryRound(int n, AdvectionRule rule, double turns) {
                     record[velocityZ] = 0;
                 }
     };
-    forCells(layout, [&](int i, int j, int, std::size_t at) {
+    forAllCells(layout, [&](int i, int j, int, std::size_t at) {
         from.cell(at)[density] = static_cast<float>(gaussian(i, j, 0));
     });
     for (int step = 0; step < steps; ++step) {
@@ -62,7 +62,7 @@ Carried carryRound(int n, AdvectionRule rule, double turns) {
         advection.advect(from, to, solids.moving(), rule, 1, 0);
     }
     Carried carried{0, 0};
-    forCells(layout, [&](int i, int j, int, std::size_t at) {
+    forAllCells(layout, [&](int i, int j, int, std::size_t at) {
         const double value = static_cast<double>(from.cell(at)[density]);
         carried.error += std::pow(value - gaussian(i, j, turns * 2 * pi), 2);
         carried.peak = std::max(carried.peak, value);
@@ -104,7 +104,7 @@ TEST(Advection, WhatAlternatesFromCellToCellDoesNotStayBehind) {
                     }
             Advection advection(layout, ledger.account("d"));
             advection.advect(cells, spare, solids.moving(), {AdvectionScheme::macCormack, limit}, 1, 0.5f);
-            forCells(layout, [&](int i, int j, int k, std::size_t at) {
+            forAllCells(layout, [&](int i, int j, int k, std::size_t at) {
                 const int along = glm::ivec3(i, j, k)[axis];
                 if (along > 1 && along < n - 2) {
                     EXPECT_NEAR(cells.cell(at)[density], 0, 1e-6) << axis << along;

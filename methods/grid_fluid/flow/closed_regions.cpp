@@ -79,12 +79,12 @@ std::vector<std::vector<Run>> closedRegions(const CellLayout& layout, const std:
             (run.k == layout.nz - 1 && opens(run.i, run.j, layout.nz, length)))
             isOpen[sets.of(r)] = true;
     }
-    std::map<std::size_t, std::vector<Run>> closed;
+    std::map<std::size_t, std::vector<Run>> closedRuns;
     for (std::size_t r = 0; r < runs.size(); ++r)
-        if (const std::size_t set = sets.of(r); !isOpen[set]) closed[set].push_back(runs[r]);
+        if (const std::size_t set = sets.of(r); !isOpen[set]) closedRuns[set].push_back(runs[r]);
     std::vector<std::vector<Run>> regions;
-    regions.reserve(closed.size());
-    for (auto& [set, region] : closed) regions.push_back(std::move(region));
+    regions.reserve(closedRuns.size());
+    for (auto& [set, region] : closedRuns) regions.push_back(std::move(region));
     return regions;
 }
 

@@ -15,7 +15,7 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 template <typename Cell>
 void forCells(const CellLayout& layout, const Cell& cell) {

@@ -12,8 +12,8 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-constexpr std::size_t rowsInABlock = 32;
-constexpr std::size_t maximumCells = 4096;
+constexpr std::size_t forcedRows = 32;
+constexpr std::size_t maximumForcedCells = 4096;
 /// Smaller values are set to 0: otherwise fading smoke becomes denormal numbers, which are slow.
 constexpr float nothing = 1e-18f;
 
@@ -56,8 +56,8 @@ void confineRow(const Curl& curl, const CellLayout& layout, int j, int k, float 
 
 /// What is added to the faces of a row's cells, in m/s.
 struct AddedRow {
-    std::array<float, maximumCells> x{}, y{}, z{};
-    std::array<float, maximumCells + 3> sum;  ///< over rows; see sumOfRows
+    std::array<float, maximumForcedCells> x{}, y{}, z{};
+    std::array<float, maximumForcedCells + 3> sum;  ///< over rows; see sumOfRows
 };
 
 /// Buoyancy and weight at the centres; solids hold neither heat nor density.
@@ -206,7 +206,7 @@ void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t*
     if (confined) gatherCurl(cells, layout, conductance, spacingMetres, borrowed);
     const float strength = settings.confinementPerSecond * spacingMetres * stepSeconds;
     const float lift = settings.buoyancyPerKelvin * stepSeconds, weight = settings.weightPerDensity * stepSeconds;
-    parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
+    parallel::forEachBlock(layout.rows(), forcedRows, [&](std::size_t first, std::size_t count) {
         for (std::size_t r = first; r < first + count; ++r) {
             const int j = layout.rowJ(r), k = layout.rowK(r);
             if (confined) confineRow(curl, layout, j, k, strength);
@@ -252,7 +252,7 @@ void diffuse(CellField& cells, const CellLayout& layout, const Moving* moving, f
     const auto nx = static_cast<std::size_t>(layout.nx);
     const std::size_t row = layout.row * lanes, slab = layout.slab * lanes;
     const auto forRows = [&](const auto& cell) {
-        parallel::forEachBlock(layout.rows(), rowsInABlock, [&](std::size_t first, std::size_t count) {
+        parallel::forEachBlock(layout.rows(), forcedRows, [&](std::size_t first, std::size_t count) {
             for (std::size_t r = first; r < first + count; ++r) {
                 const std::size_t at = layout.at(0, layout.rowJ(r), layout.rowK(r));
                 for (std::size_t i = 0; i < nx; ++i)

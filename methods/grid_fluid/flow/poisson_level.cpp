@@ -36,7 +36,7 @@ void split(const std::uint8_t* __restrict row, std::size_t half, std::uint8_t* _
     }
 }
 
-constexpr std::size_t fewCells = 4096;  ///< too few for a second thread
+constexpr std::size_t fewLevelCells = 4096;  ///< too few for a second thread
 
 /// Inverse of the sum of a cell's weights, 0 outside the fluid.
 class Reciprocals {
@@ -171,7 +171,7 @@ float PoissonLevel::smooth(const Pass& pass) {
     // lags one slab more.
     const std::size_t halfSweeps = 2 * pass.relaxations.size();
     const std::size_t stages = halfSweeps + (pass.restriction != nullptr ? 3 : 1);
-    const std::size_t blocks = layout.cells() < fewCells ? 1 : 2 * parallel::threadCount();
+    const std::size_t blocks = layout.cells() < fewLevelCells ? 1 : 2 * parallel::threadCount();
     std::atomic<float> maximum{0};
     parallel::forStages(static_cast<std::size_t>(layout.nz), stages, blocks, [&](std::size_t stage, std::size_t slab) {
         const int k = static_cast<int>(slab);

@@ -14,9 +14,9 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-constexpr std::size_t maximumCells = 4096;
+constexpr std::size_t maximumProjectedCells = 4096;
 /// One number per cell of a row, and one more if the number of cells is odd.
-using Row = std::array<float, maximumCells + 1>;
+using Row = std::array<float, maximumProjectedCells + 1>;
 
 /// h·∇·u of a row's cells: the sum over the axes of the speed of the face ahead less that of the face before.
 void divergenceOfRow(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, int j, int k,

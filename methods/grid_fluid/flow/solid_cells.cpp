@@ -10,7 +10,7 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-constexpr std::size_t rowsInABlock = 64;
+constexpr std::size_t solidRows = 64;
 
 /// The six neighbours of a cell.
 std::array<std::ptrdiff_t, 6> around(const CellLayout& layout) {
@@ -53,7 +53,7 @@ double SolidCells::set(const SolidMask& mask, CellField& cells) {
 double SolidCells::cover(const SolidMask& mask, CellField& cells) {
     const auto width = static_cast<std::size_t>(layout_.nx);
     std::vector<float> covered(layout_.rows());
-    parallel::forEachBlock(layout_.rows(), rowsInABlock, [&](std::size_t first, std::size_t rows) {
+    parallel::forEachBlock(layout_.rows(), solidRows, [&](std::size_t first, std::size_t rows) {
         for (std::size_t r = first; r < first + rows; ++r) {
             const std::size_t at = layout_.at(0, layout_.rowJ(r), layout_.rowK(r));
             std::uint8_t* conductance = conductance_.data() + at;
@@ -101,7 +101,7 @@ void SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
             row[axis] -= 1;
             return isSolid(row);
         };
-        parallel::forEachBlock(layout_.rows(), rowsInABlock, [&](std::size_t first, std::size_t rows) {
+        parallel::forEachBlock(layout_.rows(), solidRows, [&](std::size_t first, std::size_t rows) {
             for (std::size_t r = first; r < first + rows; ++r) {
                 glm::ivec3 cell(0, layout_.rowJ(r), layout_.rowK(r));
                 if (!hasFacesOfSolids(cell)) continue;
@@ -125,7 +125,7 @@ void SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
 
 void SolidCells::findMoving() {
     const std::array<std::size_t, 3> steps{1, layout_.row, layout_.slab};
-    parallel::forEachBlock(layout_.rows(), rowsInABlock, [&](std::size_t first, std::size_t rows) {
+    parallel::forEachBlock(layout_.rows(), solidRows, [&](std::size_t first, std::size_t rows) {
         for (std::size_t r = first; r < first + rows; ++r) {
             const std::size_t at = layout_.at(0, layout_.rowJ(r), layout_.rowK(r));
             const std::uint8_t* own = conductance_.data() + at;

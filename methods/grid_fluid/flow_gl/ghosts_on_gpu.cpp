@@ -12,7 +12,7 @@ using namespace grid_fluid_flow_gl_shaders;
 
 namespace {
 
-std::map<std::string, std::string> definitionsFor(const flow::GhostRule& rule) {
+std::map<std::string, std::string> ghostDefinitions(const flow::GhostRule& rule) {
     const glm::vec3& wind = rule.windMetresPerSecond;
     return {{"SIDES", sidesText(rule.sides)},
             {"WIND", fmt::format("vec3({:.9e}, {:.9e}, {:.9e})", wind.x, wind.y, wind.z)}};
@@ -22,8 +22,8 @@ std::map<std::string, std::string> definitionsFor(const flow::GhostRule& rule) {
 
 GhostsOnGpu::GhostsOnGpu(gpu::Device& device, const glm::ivec3& cells, const flow::GhostRule& rule)
     : cells_(cells),
-      ghosts_(device, {grid_glsl, ghosts_comp}, definitionsFor(rule)),
-      sideFaces_(device, {grid_glsl, side_faces_comp}, definitionsFor(rule)) {
+      ghosts_(device, {grid_glsl, ghosts_comp}, ghostDefinitions(rule)),
+      sideFaces_(device, {grid_glsl, side_faces_comp}, ghostDefinitions(rule)) {
     for (Kernel* kernel : {&ghosts_, &sideFaces_}) kernel->set("cells", cells);
     ghosts_.set("noSlip", rule.noSlip ? 1 : 0);
 }

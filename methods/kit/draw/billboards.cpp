@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t puffsAtOnce = 64;
 
-std::map<std::string, std::string> definitions(const BillboardStyle& style, const PuffTextures* pictures) {
+std::map<std::string, std::string> billboardDefinitions(const BillboardStyle& style, const PuffTextures* pictures) {
     std::map<std::string, std::string> names;
     if (style.facing == Facing::viewplane) names["VIEWPLANE"] = "";
     if (style.soft) names["SOFT"] = "";
@@ -31,7 +31,7 @@ Billboards::Billboards(gpu::Device& device, const BillboardStyle& style, const P
                              {0, 1, 2, 2, 1, 3},
                              4,
                              puffsAtOnce,
-                             definitions(style, pictures),
+                             billboardDefinitions(style, pictures),
                              gpu::Primitives::triangles,
                              {draw_shaders::error_function_glsl}}),
       style_(style),

@@ -22,9 +22,9 @@ struct Cube {
 };
 
 /// A canvas that looks along −z, unless turned, from an eye away from the origin.
-class Canvas : public TestCanvas {
+class CubeCanvas : public TestCanvas {
  public:
-    Canvas() : TestCanvas(160, 120, {100.5, 2.25, -40.125}, {0, 0, -1}) {}
+    CubeCanvas() : TestCanvas(160, 120, {100.5, 2.25, -40.125}, {0, 0, -1}) {}
 
     pictures::Image draw(Cubes& cubes, const std::vector<Cube>& list, bool coloured = false) {
         const auto layout = Cubes::layout(coloured);
@@ -84,7 +84,8 @@ double opacityOf(double depth) {
 
 /// Compares every pixel with the same faces composited in double precision. Returns the number of pixels that are not
 /// empty.
-int expectFaces(const Canvas& canvas, const pictures::Image& image, const std::vector<Cube>& farToNear, bool coloured) {
+int expectFaces(const CubeCanvas& canvas, const pictures::Image& image, const std::vector<Cube>& farToNear,
+                bool coloured) {
     int filled = 0, doubtful = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
@@ -115,8 +116,8 @@ int expectFaces(const Canvas& canvas, const pictures::Image& image, const std::v
 }
 
 TEST(Cubes, SeenHeadOnAreAsOpaqueAsTheirDepth) {
-    Canvas canvas;
-    Cubes cubes(Canvas::device());
+    CubeCanvas canvas;
+    Cubes cubes(CubeCanvas::device());
     for (const float depth : {1e-5f, 0.02f, 0.11f, 1.0f, 8.0f}) {
         const pictures::Image image = canvas.draw(cubes, {{canvas.at({0, 0, -10}), 2, depth}});
         const double expected = opacityOf(static_cast<double>(depth));
@@ -127,8 +128,8 @@ TEST(Cubes, SeenHeadOnAreAsOpaqueAsTheirDepth) {
 }
 
 TEST(Cubes, TransmittancesOfCubesBehindEachOtherMultiply) {
-    Canvas canvas;
-    Cubes cubes(Canvas::device());
+    CubeCanvas canvas;
+    Cubes cubes(CubeCanvas::device());
     const Cube far{canvas.at({0.3f, 0, -14}), 2, 0.7f}, near{canvas.at({0, 0.2f, -8}), 1, 0.4f};
     EXPECT_NEAR(canvas.draw(cubes, {far, near}).at(80, 60).a, opacityOf(1.1), 1e-6);
     const pictures::Image alone = canvas.draw(cubes, {near}), other = canvas.draw(cubes, {far});
@@ -138,8 +139,8 @@ TEST(Cubes, TransmittancesOfCubesBehindEachOtherMultiply) {
 }
 
 TEST(Cubes, NearOnesCoverFarOnes) {
-    Canvas canvas;
-    Cubes cubes(Canvas::device());
+    CubeCanvas canvas;
+    Cubes cubes(CubeCanvas::device());
     const Cube red{canvas.at({0, 0, -14}), 2, 30, {1, 0, 0}}, green{canvas.at({0, 0, -8}), 1, 3, {0, 1, 0}};
     const glm::vec4 pixel = canvas.draw(cubes, {red, green}, true).at(80, 60);
     EXPECT_NEAR(pixel.g, opacityOf(3), 1e-6);
@@ -147,8 +148,8 @@ TEST(Cubes, NearOnesCoverFarOnes) {
 }
 
 TEST(Cubes, AreTheirFacesPutOverOneAnother) {
-    Canvas canvas;
-    Cubes cubes(Canvas::device());
+    CubeCanvas canvas;
+    Cubes cubes(CubeCanvas::device());
     std::mt19937 random(7);
     std::uniform_real_distribution<float> wide(-1, 1), share(0, 1);
     int filled = 0;
@@ -176,8 +177,8 @@ TEST(Cubes, AreTheirFacesPutOverOneAnother) {
 }
 
 TEST(Cubes, FromWithinShowOneFace) {
-    Canvas canvas;
-    Cubes cubes(Canvas::device());
+    CubeCanvas canvas;
+    Cubes cubes(CubeCanvas::device());
     const double half = opacityOf(0.8 / 2);
     for (const glm::vec3& centre :
          {glm::vec3(0), glm::vec3(0.9f, 0.9f, -0.9f), glm::vec3(-0.5f, 0.2f, 0.85f), glm::vec3(0, 0, -0.999f)}) {
@@ -191,9 +192,9 @@ TEST(Cubes, FromWithinShowOneFace) {
 }
 
 TEST(Cubes, AreCutByTheNearPlaneNotBrokenByIt) {
-    Canvas canvas;
+    CubeCanvas canvas;
     canvas.view.camera.target = canvas.view.camera.eye + glm::dvec3(1, -0.7, -1.3);
-    Cubes cubes(Canvas::device());
+    Cubes cubes(CubeCanvas::device());
     // Faces closer than the near plane's 0.1 m, corners behind the eye, and one cube entirely before the near plane.
     for (const Cube& cube : {Cube{canvas.at({1.05f, 0, 0}), 2, 1}, Cube{canvas.at({0.6f, -0.6f, -0.6f}), 1.1f, 2},
                              Cube{canvas.at({3, -2.03f, -3}), 4, 0.5f}, Cube{canvas.at({0.03f, 0, -0.03f}), 0.05f, 3}})
@@ -202,8 +203,8 @@ TEST(Cubes, AreCutByTheNearPlaneNotBrokenByIt) {
 }
 
 TEST(Cubes, AreHiddenBehindWhatIsSolid) {
-    Canvas canvas;
-    Cubes cubes(Canvas::device());
+    CubeCanvas canvas;
+    Cubes cubes(CubeCanvas::device());
     const Cube cube{canvas.at({0, 0, -10}), 2, 0.8f};
     const pictures::Image free = canvas.draw(cubes, {cube});
     for (const double wall : {8.9, 10.0, 11.1}) {
@@ -216,8 +217,8 @@ TEST(Cubes, AreHiddenBehindWhatIsSolid) {
 }
 
 TEST(Cubes, OnTheGroundShowTheFaceThatLiesInIt) {
-    Canvas canvas;
-    Cubes cubes(Canvas::device());
+    CubeCanvas canvas;
+    Cubes cubes(CubeCanvas::device());
     for (const glm::dvec3& along : {glm::dvec3(0.2, -0.15, -1), glm::dvec3(1, -0.5, 0.3), glm::dvec3(0.1, -1, 0.1)}) {
         canvas.view.camera.target = canvas.view.camera.eye + along;
         canvas.setGround(2.25);
@@ -233,8 +234,8 @@ TEST(Cubes, OnTheGroundShowTheFaceThatLiesInIt) {
 }
 
 TEST(Cubes, DrawAllThereAreAndTheSameAgain) {
-    Canvas canvas;
-    Cubes cubes(Canvas::device());
+    CubeCanvas canvas;
+    Cubes cubes(CubeCanvas::device());
     for (const std::size_t count : {0u, 1u, 31u, 32u, 33u, 64u, 1000u, 7u}) {
         const std::vector<Cube> list(count, Cube{canvas.at({0, 0, -10}), 2, 1.0f / 256});
         const pictures::Image image = canvas.draw(cubes, list);
@@ -246,8 +247,8 @@ TEST(Cubes, DrawAllThereAreAndTheSameAgain) {
 }
 
 TEST(Cubes, WithoutEdgeOrDepthLeaveNoTrace) {
-    Canvas canvas;
-    Cubes cubes(Canvas::device());
+    CubeCanvas canvas;
+    Cubes cubes(CubeCanvas::device());
     const Cube seen{canvas.at({0, 0, -10}), 2, 0.5f};
     const pictures::Image alone = canvas.draw(cubes, {seen});
     EXPECT_EQ(canvas.draw(cubes, {seen, {canvas.at({0, 0, -5}), 0, 1}, {canvas.at({0, 0, -4}), 1, 0}}).pixels,

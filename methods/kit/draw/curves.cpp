@@ -12,7 +12,7 @@ std::uint32_t verticesOf(const CurveStyle& style) {
     return 2 * static_cast<std::uint32_t>(style.steps * style.pieces);
 }
 
-std::map<std::string, std::string> definitions(const CurveStyle& style) {
+std::map<std::string, std::string> curveDefinitions(const CurveStyle& style) {
     std::map<std::string, std::string> names{{"VERTICES", std::to_string(verticesOf(style))},
                                              {"STEPS", std::to_string(style.steps)},
                                              {"PIECES", std::to_string(style.pieces)}};
@@ -30,7 +30,7 @@ Curves::Curves(gpu::Device& device, const CurveStyle& style)
                              {},
                              verticesOf(style),
                              1,
-                             definitions(style),
+                             curveDefinitions(style),
                              gpu::Primitives::lines}),
       style_(style) {}
 

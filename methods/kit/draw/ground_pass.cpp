@@ -27,7 +27,7 @@ bool hasTrack(const scene::Scene& scene) {
     return scene.terrain.isFlat() && scene.vehicle;
 }
 
-std::map<std::string, std::string> definitions(const scene::Scene& scene, bool lamps, bool track, bool shaded) {
+std::map<std::string, std::string> groundDefinitions(const scene::Scene& scene, bool lamps, bool track, bool shaded) {
     std::map<std::string, std::string> result = opaqueDefinitions(scene, lamps);
     result.insert({
         {"DETAIL_TILES", std::to_string(patchTileMetres / detailTileMetres)},
@@ -47,7 +47,7 @@ gpu::Program groundProgram(gpu::Device& device, std::string_view label, const sc
             label,
             {opaque_moment_glsl, opaque_shadow_glsl, error_function_glsl, opaque_dust_glsl, opaque_lamps_glsl,
              opaque_ground_vert, opaque_ground_frag},
-            definitions(scene, lamps, track, shaded)};
+            groundDefinitions(scene, lamps, track, shaded)};
 }
 
 gpu::VertexArray layoutOf(gpu::Device& device, const gpu::Buffer& vertices) {

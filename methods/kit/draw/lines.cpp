@@ -8,7 +8,7 @@
 namespace dustbench::draw {
 namespace {
 
-std::map<std::string, std::string> definitions(const LineStyle& style) {
+std::map<std::string, std::string> lineDefinitions(const LineStyle& style) {
     std::map<std::string, std::string> names;
     if (style.additive) names["ADDITIVE"] = "";
     if (style.fade) names["FADE"] = "";
@@ -24,7 +24,7 @@ Lines::Lines(gpu::Device& device, const LineStyle& style)
                              {},
                              2,
                              1,
-                             definitions(style),
+                             lineDefinitions(style),
                              gpu::Primitives::lines}),
       style_(style) {}
 

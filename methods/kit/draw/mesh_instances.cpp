@@ -17,7 +17,7 @@ scene::Solid solidOf(const scene::Mesh& mesh) {
     return solid;
 }
 
-std::map<std::string, std::string> definitions(bool alongVelocity) {
+std::map<std::string, std::string> meshDefinitions(bool alongVelocity) {
     if (alongVelocity) return {{"ALONG_VELOCITY", ""}};
     return {};
 }
@@ -30,7 +30,7 @@ MeshInstances::MeshInstances(gpu::Device& device, const scene::Mesh& mesh, const
       mesh_(device, solidOf(mesh)),
       lights_(lights),
       program_(device, "mesh instances", {draw_shaders::mesh_instances_vert, draw_shaders::mesh_instances_frag},
-               definitions(alongVelocity)),
+               meshDefinitions(alongVelocity)),
       blend_(device) {}
 
 std::span<float> MeshInstances::map(std::size_t count) {

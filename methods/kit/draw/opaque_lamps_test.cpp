@@ -14,7 +14,7 @@
 namespace dustbench::draw {
 namespace {
 
-glm::dvec3 rayOf(const scene::View& view, int x, int y) {
+glm::dvec3 lampRay(const scene::View& view, int x, int y) {
     return glm::dvec3(view.rayDirection(x + 0.5, y + 0.5));
 }
 
@@ -43,7 +43,7 @@ TEST(OpaqueLamps, LampsLightTheGroundByLambertsLawAndTheirDistance) {
     double brightest = 0;
     for (int y = 0; y < view.height; y += 7)
         for (int x = 0; x < view.width; x += 7) {
-            const glm::dvec3 ray = rayOf(view, x, y);
+            const glm::dvec3 ray = lampRay(view, x, y);
             if (ray.y > -0.1) continue;
             const glm::dvec3 point = view.camera.eye - ray * (view.camera.eye.y / ray.y);
             glm::dvec3 expected(1);
@@ -79,7 +79,7 @@ TEST(OpaqueLamps, LampsLightTheSidesThatFaceThem) {
     int compared = 0;
     for (int y = 0; y < view.height; y += 5)
         for (int x = 0; x < view.width; x += 5) {
-            const glm::dvec3 ray = rayOf(view, x, y);
+            const glm::dvec3 ray = lampRay(view, x, y);
             const glm::dvec3 point = view.camera.eye + ray * ((1 - view.camera.eye.z) / ray.z);
             if (std::abs(point.x) > 0.95 || std::abs(point.y - 1) > 0.95) continue;
             EXPECT_EQ(behind.at(x, y), dark.at(x, y));

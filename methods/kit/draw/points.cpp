@@ -8,7 +8,7 @@
 namespace dustbench::draw {
 namespace {
 
-std::map<std::string, std::string> definitions(const PointStyle& style) {
+std::map<std::string, std::string> pointDefinitions(const PointStyle& style) {
     std::map<std::string, std::string> names;
     if (style.sprite) names["SPRITE"] = "";
     if (style.additive) names["ADDITIVE"] = "";
@@ -24,7 +24,7 @@ Points::Points(gpu::Device& device, const PointStyle& style)
                              {},
                              1,
                              1,
-                             definitions(style),
+                             pointDefinitions(style),
                              gpu::Primitives::points}),
       style_(style) {}
 

@@ -14,9 +14,9 @@
 namespace dustbench::draw {
 namespace {
 
-class Canvas : public TestCanvas {
+class PointCanvas : public TestCanvas {
  public:
-    Canvas() : TestCanvas(160, 120, {0, 0, 0}, {0, 0, -1}) {}
+    PointCanvas() : TestCanvas(160, 120, {0, 0, 0}, {0, 0, -1}) {}
 
     pictures::Image draw(Points& points, const std::vector<float>& values) {
         std::ranges::copy(values, points.map(values.size() / 8, Points::layout()).begin());
@@ -32,7 +32,7 @@ class Canvas : public TestCanvas {
 };
 
 TEST(Points, AreSquaresOfTheirPixelsAndOpacity) {
-    Canvas canvas;
+    PointCanvas canvas;
     Points points(TestCanvas::device(), {false, 4, false});
     const pictures::Image image = canvas.draw(points, canvas.inTheMiddle(1, 0.25f));
     int covered = 0;
@@ -46,7 +46,7 @@ TEST(Points, AreSquaresOfTheirPixelsAndOpacity) {
 }
 
 TEST(Points, AsSpritesShowWhatABillboardShowsInTheMiddleOfTheView) {
-    Canvas canvas;
+    PointCanvas canvas;
     const float opacity = 0.8f, distance = 10;
     // 3r is an odd number of pixels wide.
     const float pixelMetres = distance / (canvas.view.eyeToClip()[1][1] * 60);
@@ -68,7 +68,7 @@ TEST(Points, AsSpritesShowWhatABillboardShowsInTheMiddleOfTheView) {
 }
 
 TEST(Points, AddLightAndCoverNothingWhereAdditive) {
-    Canvas canvas;
+    PointCanvas canvas;
     Points points(TestCanvas::device(), {false, 4, true});
     std::vector<float> two = canvas.inTheMiddle(1, 0.5f);
     const std::vector<float> one = two;
@@ -80,7 +80,7 @@ TEST(Points, AddLightAndCoverNothingWhereAdditive) {
 }
 
 TEST(Lines, GoBackAlongTheVelocity) {
-    Canvas canvas;
+    PointCanvas canvas;
     Lines lines(TestCanvas::device(), {0.5f, false});
     const auto values = lines.map(1, Lines::layout());
     const float ten[]{0, 0, -10, 4, 0, 0, 0.5f, 1, 1, 1};

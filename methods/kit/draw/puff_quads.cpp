@@ -8,7 +8,7 @@
 namespace dustbench::draw {
 namespace {
 
-constexpr std::size_t puffsAtOnce = 64;
+constexpr std::size_t quadsAtOnce = 64;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ FragmentPass puffPass(const char* name, std::vector<gpu::ShaderFile> files,
 }
 
 PuffQuads::PuffQuads(gpu::Device& device, double reachDeviations)
-    : InstanceBatch(device, {"puff quads", draw_shaders::puff_quads_vert, {}, {0, 1, 2, 2, 1, 3}, 4, puffsAtOnce}),
+    : InstanceBatch(device, {"puff quads", draw_shaders::puff_quads_vert, {}, {0, 1, 2, 2, 1, 3}, 4, quadsAtOnce}),
       reach_(reachDeviations) {}
 
 void PuffQuads::upload(const Puffs& dust) {

@@ -45,7 +45,7 @@ std::vector<glm::vec4> normalisedFrame(const pictures::Image& image, int frame, 
     return texels;
 }
 
-std::uint8_t toByte(float value, float scale) {
+std::uint8_t byteOf(float value, float scale) {
     return static_cast<std::uint8_t>(std::lround(255 * std::min(value / scale, 1.0f)));
 }
 
@@ -74,8 +74,8 @@ PuffTextures::PuffTextures(gpu::Device& device, const std::filesystem::path& fil
     for (std::size_t i = 0; i < layers.size(); ++i) {
         std::vector<std::uint8_t> bytes;
         for (const glm::vec4& texel : layers[i])
-            bytes.insert(bytes.end(), {toByte(texel.r, shadeScale_), toByte(texel.g, shadeScale_),
-                                       toByte(texel.b, shadeScale_), toByte(texel.a, opticalDepthScale_)});
+            bytes.insert(bytes.end(), {byteOf(texel.r, shadeScale_), byteOf(texel.g, shadeScale_),
+                                       byteOf(texel.b, shadeScale_), byteOf(texel.a, opticalDepthScale_)});
         texture_.writeLayer(static_cast<int>(i), bytes);
     }
 }

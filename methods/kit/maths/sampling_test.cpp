@@ -13,19 +13,19 @@
 namespace dustbench::maths {
 namespace {
 
-constexpr int count = 100000;
+constexpr int samples = 100000;
 // Kolmogorov–Smirnov: for a sample of the stated distribution, D·√n exceeds 1.95 with probability 0.001.
-const double limit = 1.95 / std::sqrt(static_cast<double>(count));
+const double criticalDistance = 1.95 / std::sqrt(static_cast<double>(samples));
 
 /// Maximum distance between the sample's distribution and `law`.
 double distance(const std::function<double(std::uint64_t)>& sample, const std::function<double(double)>& law) {
-    std::vector<double> values(count);
-    for (std::uint64_t i = 0; i < count; ++i) values[i] = sample(i);
+    std::vector<double> values(samples);
+    for (std::uint64_t i = 0; i < samples; ++i) values[i] = sample(i);
     std::ranges::sort(values);
     double worst = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const double p = law(values[i]);
-        worst = std::max({worst, p - static_cast<double>(i) / count, static_cast<double>(i + 1) / count - p});
+        worst = std::max({worst, p - static_cast<double>(i) / samples, static_cast<double>(i + 1) / samples - p});
     }
     return worst;
 }
@@ -39,10 +39,10 @@ TEST(Disc, IsUniformInRadiusSquaredAndAngle) {
         const auto u = uniform4(3, 1, i);
         return glm::dvec2(discPoint(u[0], u[1]));
     };
-    EXPECT_LT(distance([&](auto i) { return glm::dot(point(i), point(i)); }, identity), limit);
+    EXPECT_LT(distance([&](auto i) { return glm::dot(point(i), point(i)); }, identity), criticalDistance);
     EXPECT_LT(
         distance([&](auto i) { return std::atan2(point(i).y, point(i).x) / (2 * std::numbers::pi) + 0.5; }, identity),
-        limit);
+        criticalDistance);
 }
 
 TEST(Sphere, IsUniformAlongEveryAxis) {
@@ -53,7 +53,7 @@ TEST(Sphere, IsUniformAlongEveryAxis) {
                           return static_cast<double>(sphereDirection(u[0], u[1])[axis]);
                       },
                       [](double c) { return (c + 1) / 2; }),
-                  limit);
+                  criticalDistance);
 }
 
 TEST(Tangents, MakeARightHandedOrthonormalFrame) {
@@ -82,13 +82,13 @@ double coneDistance(SamplingMode mode, double halfAngleTurns) {
 
 TEST(Cone, FixedIsUniformAtEveryAngle) {
     for (const double degrees : {30.0, 90.0, 180.0})
-        EXPECT_LT(coneDistance(SamplingMode::fixed, degrees / 360), limit) << degrees;
+        EXPECT_LT(coneDistance(SamplingMode::fixed, degrees / 360), criticalDistance) << degrees;
 }
 
 // Claim R20: the limits of the paper's distribution are 0.006 at 30° and 0.056 at 90°.
 TEST(Cone, PaperIsNotUniformWhereTheConeIsWide) {
-    EXPECT_NEAR(coneDistance(SamplingMode::paper, 30.0 / 360), 0.006, limit);
-    EXPECT_NEAR(coneDistance(SamplingMode::paper, 90.0 / 360), 0.056, limit);
+    EXPECT_NEAR(coneDistance(SamplingMode::paper, 30.0 / 360), 0.006, criticalDistance);
+    EXPECT_NEAR(coneDistance(SamplingMode::paper, 90.0 / 360), 0.056, criticalDistance);
 }
 
 TEST(Cone, GivesUnitVectorsWithinItsHalfAngle) {

@@ -16,7 +16,7 @@ namespace dustbench::meshes {
 namespace {
 
 namespace limits = files::limits;
-using Words = std::vector<std::string_view>;
+using ObjWords = std::vector<std::string_view>;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 /// Keywords that change no polygon.
@@ -70,7 +70,7 @@ class ObjReader {
     }
 
  private:
-    void readLine(Words words) {
+    void readLine(ObjWords words) {
         if (words.empty()) return;
         const std::string_view key = words[0];
         if (!key.starts_with('#'))
@@ -84,7 +84,7 @@ class ObjReader {
         lines_.fail(fmt::format("got {}, expected v, vt, vn, f or another keyword of polygons", inQuotes(key)));
     }
 
-    void requireNumbers(const Words& words, std::size_t minimum, std::size_t maximum) const {
+    void requireNumbers(const ObjWords& words, std::size_t minimum, std::size_t maximum) const {
         if (words.size() - 1 < minimum || words.size() - 1 > maximum)
             lines_.fail(fmt::format("got {} numbers after '{}', expected {}..{}", words.size() - 1, words[0], minimum,
                                     maximum));
@@ -97,22 +97,22 @@ class ObjReader {
     }
 
     /// Weights and colours may follow the three coordinates; they are not used.
-    void readVertex(const Words& words) {
+    void readVertex(const ObjWords& words) {
         requireNumbers(words, 3, 7);
         requireRoom(vertices_.size());
         vertices_.push_back(lines_.vector(words, 1));
     }
-    void readNormal(const Words& words) {
+    void readNormal(const ObjWords& words) {
         requireNumbers(words, 3, 3);
         requireRoom(normals_.size());
         normals_.push_back(lines_.vector(words, 1));
     }
-    void readTexture(const Words& words) {
+    void readTexture(const ObjWords& words) {
         requireNumbers(words, 1, 3);
         ++textures_;
     }
 
-    void readFace(const Words& words) {
+    void readFace(const ObjWords& words) {
         const std::size_t corners = words.size() - 1;
         if (corners < 3 || corners > static_cast<std::size_t>(limits::polygonCorners))
             lines_.fail(fmt::format("a face has {} corners, allowed: 3..{}", corners, limits::polygonCorners));
@@ -155,7 +155,7 @@ class ObjReader {
     }
 
     /// `# counts: v 642, f 1280`
-    void readCounts(const Words& words) {
+    void readCounts(const ObjWords& words) {
         if (words.size() % 2 != 0) lines_.fail("expected '# counts: v 642, f 1280'");
         for (std::size_t i = 2; i < words.size(); i += 2) {
             std::string_view number = words[i + 1];

@@ -18,7 +18,7 @@
 namespace dustbench::meshes {
 namespace {
 
-using Words = std::vector<std::string_view>;
+using PlyWords = std::vector<std::string_view>;
 
 /// True if an integer type holds the value; a floating one holds all.
 bool holds(const PlyType& type, double value) {
@@ -59,7 +59,7 @@ class TextBody {
  private:
     Lines& lines_;
     const PlyElement* element_ = nullptr;
-    Words words_;
+    PlyWords words_;
     std::size_t at_ = 0;
 };
 

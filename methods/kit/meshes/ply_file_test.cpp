@@ -22,7 +22,7 @@ const std::string face = "element face 1\nproperty list uchar int vertex_indices
 const std::string end = "end_header\n";
 const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
 
-std::string refusal(const std::string& text) {
+std::string plyRefusal(const std::string& text) {
     return inputError([&] { (void)readPly(text, "m.ply"); });
 }
 
@@ -80,8 +80,8 @@ TEST(PlyFile, ReadsLongPolygonsWithAnyTypeOfCount) {
         }
     std::string tooMany = "4097";
     for (int i = 0; i < 4097; ++i) tooMany += " 0";
-    EXPECT_THAT(refusal(start + vertex + "element face 1\nproperty list int int vertex_indices\n" + end + points +
-                        tooMany + "\n"),
+    EXPECT_THAT(plyRefusal(start + vertex + "element face 1\nproperty list int int vertex_indices\n" + end + points +
+                           tooMany + "\n"),
                 HasSubstr("a face has 4097 corners, allowed: 3..4096"));
 }
 
@@ -108,8 +108,8 @@ TEST(PlyFile, ReadsBothOrdersOfBytes) {
         EXPECT_EQ(mesh.positions[2], glm::vec3(1, 3, -2));
         EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2, 1, 0, 2));
         EXPECT_EQ(mesh.faceColours[1], (Colour8{1, 2, 4}));
-        for (std::size_t size = 0; size < whole.size(); ++size) refusal(whole.substr(0, size));
-        EXPECT_THAT(refusal(whole + "x"), HasSubstr("1 bytes follow the last element"));
+        for (std::size_t size = 0; size < whole.size(); ++size) plyRefusal(whole.substr(0, size));
+        EXPECT_THAT(plyRefusal(whole + "x"), HasSubstr("1 bytes follow the last element"));
     }
 }
 
@@ -117,55 +117,57 @@ TEST(PlyFile, RefusesHeadersThatAnnounceNoMesh) {
     const std::string empty =
         "element vertex 0\nproperty float x\nproperty float y\nproperty float z\nelement face 0\nproperty list uchar "
         "int vertex_indices\n";
-    EXPECT_THAT(refusal(start + empty + end), HasSubstr("has no vertices"));
-    EXPECT_THAT(refusal(start + "element vertex 0\nelement face 0\n" + end), HasSubstr("has no vertices"));
-    EXPECT_THAT(refusal(start + face + end + "3 0 1 2\n"), HasSubstr("has no vertices"));
-    EXPECT_THAT(refusal(start + vertex + end + points), HasSubstr("has no faces"));
-    EXPECT_THAT(refusal(start + "element vertex 3\nproperty float y\nproperty float z\n" + face + end +
-                        "0 0\n1 0\n0 1\n3 0 1 2\n"),
+    EXPECT_THAT(plyRefusal(start + empty + end), HasSubstr("has no vertices"));
+    EXPECT_THAT(plyRefusal(start + "element vertex 0\nelement face 0\n" + end), HasSubstr("has no vertices"));
+    EXPECT_THAT(plyRefusal(start + face + end + "3 0 1 2\n"), HasSubstr("has no vertices"));
+    EXPECT_THAT(plyRefusal(start + vertex + end + points), HasSubstr("has no faces"));
+    EXPECT_THAT(plyRefusal(start + "element vertex 3\nproperty float y\nproperty float z\n" + face + end +
+                           "0 0\n1 0\n0 1\n3 0 1 2\n"),
                 HasSubstr("its vertices have no x, y and z"));
-    EXPECT_THAT(refusal(start + vertex + "element face 1\nproperty int vertex_indices\n" + end + points + "3\n"),
+    EXPECT_THAT(plyRefusal(start + vertex + "element face 1\nproperty int vertex_indices\n" + end + points + "3\n"),
                 HasSubstr("'vertex_indices' is no list of integers"));
-    EXPECT_THAT(refusal(start + vertex + "element face 1\nproperty list uchar float vertex_indices\n" + end + points +
-                        "3 0 1 2\n"),
+    EXPECT_THAT(plyRefusal(start + vertex + "element face 1\nproperty list uchar float vertex_indices\n" + end +
+                           points + "3 0 1 2\n"),
                 HasSubstr("no list of integers"));
-    EXPECT_THAT(refusal(start + vertex + "element face 1\nproperty uchar flags\n" + end + points + "3\n"),
+    EXPECT_THAT(plyRefusal(start + vertex + "element face 1\nproperty uchar flags\n" + end + points + "3\n"),
                 HasSubstr("have no list vertex_indices"));
-    EXPECT_THAT(refusal(start + "element vertex 3\nproperty list uchar float x\nproperty float y\nproperty float z\n" +
-                        face + end + "1 0 0 0\n1 1 0 0\n1 0 1 0\n3 0 1 2\n"),
-                HasSubstr("'x' is a list, expected one number"));
-    EXPECT_THAT(refusal("ply\nformat binary_little_endian 1.0\nelement vertex 3\nelement face 1\n" + end),
-                HasSubstr("element 'vertex' has no properties"));
-    EXPECT_THAT(refusal("ply\nformat binary_little_endian 1.0\n" + vertex + face + "element rest 100000000\n" + end),
-                HasSubstr("element 'rest' has no properties"));
-    EXPECT_THAT(refusal(start + vertex + vertex + face + end), HasSubstr("element 'vertex' occurs twice"));
-    EXPECT_THAT(refusal(start + vertex + "property float x\n" + face + end), HasSubstr("property 'x' occurs twice"));
-    EXPECT_THAT(refusal(start + "element vertex 100000001\n"), HasSubstr("elements 0..100000000"));
-    EXPECT_THAT(refusal(start + "element vertex -1\n"), HasSubstr("elements 0..100000000"));
     EXPECT_THAT(
-        refusal(start + vertex + "property float red\nproperty float green\nproperty float blue\n" + face + end),
+        plyRefusal(start + "element vertex 3\nproperty list uchar float x\nproperty float y\nproperty float z\n" +
+                   face + end + "1 0 0 0\n1 1 0 0\n1 0 1 0\n3 0 1 2\n"),
+        HasSubstr("'x' is a list, expected one number"));
+    EXPECT_THAT(plyRefusal("ply\nformat binary_little_endian 1.0\nelement vertex 3\nelement face 1\n" + end),
+                HasSubstr("element 'vertex' has no properties"));
+    EXPECT_THAT(plyRefusal("ply\nformat binary_little_endian 1.0\n" + vertex + face + "element rest 100000000\n" + end),
+                HasSubstr("element 'rest' has no properties"));
+    EXPECT_THAT(plyRefusal(start + vertex + vertex + face + end), HasSubstr("element 'vertex' occurs twice"));
+    EXPECT_THAT(plyRefusal(start + vertex + "property float x\n" + face + end), HasSubstr("property 'x' occurs twice"));
+    EXPECT_THAT(plyRefusal(start + "element vertex 100000001\n"), HasSubstr("elements 0..100000000"));
+    EXPECT_THAT(plyRefusal(start + "element vertex -1\n"), HasSubstr("elements 0..100000000"));
+    EXPECT_THAT(
+        plyRefusal(start + vertex + "property float red\nproperty float green\nproperty float blue\n" + face + end),
         HasSubstr("property 'red' of its vertex elements is float, expected uchar"));
-    EXPECT_THAT(refusal(start + vertex), HasSubstr("no end"));
-    EXPECT_THAT(refusal("ply\n" + vertex + face + end), HasSubstr("no format"));
-    EXPECT_THAT(refusal("ply\nformat ascii 2.0\n"), HasSubstr("expected a format line"));
-    EXPECT_THAT(refusal(start + "element vertex 3\nproperty list float float x\n"), HasSubstr("one like uchar or int"));
+    EXPECT_THAT(plyRefusal(start + vertex), HasSubstr("no end"));
+    EXPECT_THAT(plyRefusal("ply\n" + vertex + face + end), HasSubstr("no format"));
+    EXPECT_THAT(plyRefusal("ply\nformat ascii 2.0\n"), HasSubstr("expected a format line"));
+    EXPECT_THAT(plyRefusal(start + "element vertex 3\nproperty list float float x\n"),
+                HasSubstr("one like uchar or int"));
 }
 
 TEST(PlyFile, RefusesBodiesThatHoldSomethingElse) {
     const std::string header = start + vertex + face + end;
-    EXPECT_THAT(refusal(header + "0 0 0\n1 0"), HasSubstr("m.ply:11: too few numbers for one vertex"));
-    EXPECT_THAT(refusal(header + points), HasSubstr("ends within its face elements"));
-    EXPECT_THAT(refusal(header + points + "3 0 1 8\n"), HasSubstr("face 0 uses vertex 8, expected 0..2"));
-    EXPECT_THAT(refusal(header + points + "3 0 1 -1\n"), HasSubstr("uses vertex -1"));
-    EXPECT_THAT(refusal(header + points + "3 0 1 1.5\n"), HasSubstr("got '1.5', expected a number of type int"));
-    EXPECT_THAT(refusal(header + points + "2 0 1\n"), HasSubstr("a face has 2 corners, allowed: 3..4096"));
-    EXPECT_THAT(refusal(header + points + "-3 0 1 2\n"), HasSubstr("got '-3', expected a number of type uchar"));
-    EXPECT_THAT(refusal(header + points + "3 0 1 2 0\n"), HasSubstr("too many numbers for one face"));
-    EXPECT_THAT(refusal(header + points + "3 0 1 2\n3 0 1 2\n"), HasSubstr("text after the last element"));
-    EXPECT_THAT(refusal(header + points + "3 0 1 2"), HasSubstr("the last line has no line end"));
-    EXPECT_THAT(refusal(header + "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n"), HasSubstr("not finite"));
+    EXPECT_THAT(plyRefusal(header + "0 0 0\n1 0"), HasSubstr("m.ply:11: too few numbers for one vertex"));
+    EXPECT_THAT(plyRefusal(header + points), HasSubstr("ends within its face elements"));
+    EXPECT_THAT(plyRefusal(header + points + "3 0 1 8\n"), HasSubstr("face 0 uses vertex 8, expected 0..2"));
+    EXPECT_THAT(plyRefusal(header + points + "3 0 1 -1\n"), HasSubstr("uses vertex -1"));
+    EXPECT_THAT(plyRefusal(header + points + "3 0 1 1.5\n"), HasSubstr("got '1.5', expected a number of type int"));
+    EXPECT_THAT(plyRefusal(header + points + "2 0 1\n"), HasSubstr("a face has 2 corners, allowed: 3..4096"));
+    EXPECT_THAT(plyRefusal(header + points + "-3 0 1 2\n"), HasSubstr("got '-3', expected a number of type uchar"));
+    EXPECT_THAT(plyRefusal(header + points + "3 0 1 2 0\n"), HasSubstr("too many numbers for one face"));
+    EXPECT_THAT(plyRefusal(header + points + "3 0 1 2\n3 0 1 2\n"), HasSubstr("text after the last element"));
+    EXPECT_THAT(plyRefusal(header + points + "3 0 1 2"), HasSubstr("the last line has no line end"));
+    EXPECT_THAT(plyRefusal(header + "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n"), HasSubstr("not finite"));
     const std::string signedList = start + vertex + "element face 1\nproperty list int int vertex_indices\n" + end;
-    EXPECT_THAT(refusal(signedList + points + "-1\n"), HasSubstr("has a length of -1"));
+    EXPECT_THAT(plyRefusal(signedList + points + "-1\n"), HasSubstr("has a length of -1"));
 }
 
 TEST(PlyFile, SurvivesAnyChangeOfHeaderAndBody) {

@@ -11,7 +11,7 @@
 namespace dustbench::meshes {
 namespace {
 
-using Words = std::vector<std::string_view>;
+using HeaderWords = std::vector<std::string_view>;
 using Kind = PlyType::Kind;
 
 constexpr std::array<PlyType, 16> types{{{Kind::signedInteger, 1, "char"},
@@ -39,7 +39,7 @@ PlyType typeOf(const Lines& lines, std::string_view name, bool isCount) {
     return *found;
 }
 
-PlyFormat formatOf(const Lines& lines, const Words& words) {
+PlyFormat formatOf(const Lines& lines, const HeaderWords& words) {
     if (words.size() != 3 || words[2] != "1.0") lines.fail("expected a format line such as 'format ascii 1.0'");
     if (words[1] == "ascii") return PlyFormat::ascii;
     if (words[1] == "binary_little_endian") return PlyFormat::littleEndian;
@@ -48,7 +48,7 @@ PlyFormat formatOf(const Lines& lines, const Words& words) {
                            inQuotes(words[1])));
 }
 
-void addElement(const Lines& lines, const Words& words, PlyHeader& header) {
+void addElement(const Lines& lines, const HeaderWords& words, PlyHeader& header) {
     const auto count = words.size() == 3 ? parse<std::int64_t>(words[2]) : std::nullopt;
     if (!count || *count < 0 || *count > files::limits::meshElements)
         lines.fail(
@@ -58,14 +58,14 @@ void addElement(const Lines& lines, const Words& words, PlyHeader& header) {
     header.elements.push_back({std::string(words[1]), *count, {}});
 }
 
-PlyProperty propertyOf(const Lines& lines, const Words& words) {
+PlyProperty propertyOf(const Lines& lines, const HeaderWords& words) {
     if (words.size() == 3) return {std::string(words[2]), typeOf(lines, words[1], false)};
     if (words.size() == 5 && words[1] == "list")
         return {std::string(words[4]), typeOf(lines, words[3], false), true, typeOf(lines, words[2], true)};
     lines.fail("expected 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
 }
 
-void addProperty(const Lines& lines, const Words& words, PlyHeader& header) {
+void addProperty(const Lines& lines, const HeaderWords& words, PlyHeader& header) {
     if (header.elements.empty()) lines.fail("a property before the first element");
     PlyElement& element = header.elements.back();
     PlyProperty property = propertyOf(lines, words);
@@ -92,11 +92,11 @@ PlyHeader readPlyHeader(Lines& lines) {
     PlyHeader header;
     std::optional<PlyFormat> format;
     std::string_view line;
-    if (!lines.next(line) || wordsOf(line) != Words{"ply"}) lines.fail("expected 'ply' in the first line");
+    if (!lines.next(line) || wordsOf(line) != HeaderWords{"ply"}) lines.fail("expected 'ply' in the first line");
     while (lines.next(line)) {
-        const Words words = wordsOf(line);
+        const HeaderWords words = wordsOf(line);
         if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
-        if (words == Words{"end_header"}) {
+        if (words == HeaderWords{"end_header"}) {
             if (!format) lines.fail("the header has no format line");
             requireProperties(lines, header);
             header.format = *format;

@@ -15,7 +15,7 @@
 namespace dustbench::meshes {
 namespace {
 
-using Words = std::vector<std::string_view>;
+using StlWords = std::vector<std::string_view>;
 
 constexpr std::size_t headerBytes = 84, facetBytes = 50;
 
@@ -76,7 +76,7 @@ class AsciiReader {
     Polygons read() {
         expect("solid");
         for (bool more = true; more;) {
-            const Words named = namesOf(words_);
+            const StlWords named = namesOf(words_);
             while (next() && words_[0] == "facet") readFacet();
             if (words_[0] != "endsolid" || (words_.size() > 1 && namesOf(words_) != named))
                 lines_.fail("expected 'facet', or 'endsolid' with the solid's name");
@@ -88,7 +88,7 @@ class AsciiReader {
     }
 
  private:
-    static Words namesOf(const Words& words) { return {words.begin() + 1, words.end()}; }
+    static StlWords namesOf(const StlWords& words) { return {words.begin() + 1, words.end()}; }
 
     bool next() {
         if (!lines_.nextWords(words_)) lines_.fail("the file ends within its solid");
@@ -118,7 +118,7 @@ class AsciiReader {
     }
 
     Lines lines_;
-    Words words_;
+    StlWords words_;
     Joined joined_;
 };
 
@@ -126,7 +126,7 @@ class AsciiReader {
 
 Polygons readStl(std::string_view text, const std::filesystem::path& file) {
     const bool isBinary = text.size() >= headerBytes && binaryBytes(text) == text.size();
-    const Words first = wordsOf(text.substr(0, text.find('\n')));
+    const StlWords first = wordsOf(text.substr(0, text.find('\n')));
     if (!isBinary && (first.empty() || first[0] != "solid")) {
         if (text.size() < headerBytes)
             throw InputError(fmt::format("{}: not an STL file: it has {} bytes, and does not start with 'solid'",

@@ -14,7 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string refusal(const std::string& text) {
+std::string stlRefusal(const std::string& text) {
     return inputError([&] { (void)readStl(text, "m.stl"); });
 }
 
@@ -41,12 +41,12 @@ TEST(StlFile, RefusesABinaryFileOfAnotherLength) {
     ASSERT_EQ(whole.size(), 1684u);
     EXPECT_EQ(readStl(whole, "m.stl").size(), 32u);
     EXPECT_EQ(readStl(binary(32, "solid, but binary"), "m.stl").size(), 32u);
-    EXPECT_THAT(refusal(whole.substr(0, 1000)), HasSubstr("of 32 triangles has 1684 bytes, got 1000"));
-    EXPECT_THAT(refusal(whole + "\n"), HasSubstr("got 1685"));
-    for (std::size_t size = 0; size < whole.size(); ++size) refusal(whole.substr(0, size));
+    EXPECT_THAT(stlRefusal(whole.substr(0, 1000)), HasSubstr("of 32 triangles has 1684 bytes, got 1000"));
+    EXPECT_THAT(stlRefusal(whole + "\n"), HasSubstr("got 1685"));
+    for (std::size_t size = 0; size < whole.size(); ++size) stlRefusal(whole.substr(0, size));
     const std::string titled = binary(3, "solid, but binary\n");
-    for (std::size_t size = 0; size < titled.size(); ++size) refusal(titled.substr(0, size));
-    EXPECT_THAT(refusal(binary(0)), HasSubstr("no triangles"));
+    for (std::size_t size = 0; size < titled.size(); ++size) stlRefusal(titled.substr(0, size));
+    EXPECT_THAT(stlRefusal(binary(0)), HasSubstr("no triangles"));
 }
 
 TEST(StlFile, JoinsCornersAtOnePoint) {
@@ -56,10 +56,10 @@ TEST(StlFile, JoinsCornersAtOnePoint) {
 }
 
 TEST(StlFile, RefusesAnAsciiFileCutAtAnyByte) {
-    for (std::size_t size = 0; size < ascii.size(); ++size) refusal(ascii.substr(0, size));
-    EXPECT_THAT(refusal("solid a\nendsolid a\n"), HasSubstr("no triangles"));
+    for (std::size_t size = 0; size < ascii.size(); ++size) stlRefusal(ascii.substr(0, size));
+    EXPECT_THAT(stlRefusal("solid a\nendsolid a\n"), HasSubstr("no triangles"));
     EXPECT_EQ(readStl(ascii + ascii, "m.stl").size(), 4u);
-    EXPECT_THAT(refusal(ascii + "facet\n"), HasSubstr("text after 'endsolid'"));
+    EXPECT_THAT(stlRefusal(ascii + "facet\n"), HasSubstr("text after 'endsolid'"));
 }
 
 TEST(StlFile, NamesTheLineOfWhatIsWrong) {
@@ -67,14 +67,14 @@ TEST(StlFile, NamesTheLineOfWhatIsWrong) {
         std::string text = ascii;
         return text.replace(text.find(from), from.size(), to);
     };
-    EXPECT_THAT(refusal(with("vertex 1 0 0", "vertex 1 0")), HasSubstr("m.stl:5: got 3 words, expected 4"));
-    EXPECT_THAT(refusal(with("vertex 1 0 0", "vertex 1 0 nan")), HasSubstr("m.stl:5: got 'nan'"));
-    EXPECT_THAT(refusal(with("endloop", "vertex 1 1 1\nendloop")), HasSubstr("expected 'endloop'"));
-    EXPECT_THAT(refusal(with("endsolid a post", "endsolid a pos")), HasSubstr("'endsolid' with the solid's name"));
+    EXPECT_THAT(stlRefusal(with("vertex 1 0 0", "vertex 1 0")), HasSubstr("m.stl:5: got 3 words, expected 4"));
+    EXPECT_THAT(stlRefusal(with("vertex 1 0 0", "vertex 1 0 nan")), HasSubstr("m.stl:5: got 'nan'"));
+    EXPECT_THAT(stlRefusal(with("endloop", "vertex 1 1 1\nendloop")), HasSubstr("expected 'endloop'"));
+    EXPECT_THAT(stlRefusal(with("endsolid a post", "endsolid a pos")), HasSubstr("'endsolid' with the solid's name"));
     std::string notFinite = binary(1);
     const float nan = NAN;
     std::memcpy(notFinite.data() + 96, &nan, sizeof nan);
-    EXPECT_THAT(refusal(notFinite), HasSubstr("triangle 1 has a corner that is not a finite point"));
+    EXPECT_THAT(stlRefusal(notFinite), HasSubstr("triangle 1 has a corner that is not a finite point"));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ constexpr std::size_t minimumChunk = 16'384;
 constexpr std::size_t narrowChunksPerThread = 2, minimumNarrowChunk = 8192, maximumNarrowChunk = 65'536;
 static_assert(maximumNarrowChunk - 1 <= std::numeric_limits<std::uint16_t>::max(), "ranks have 16 bits");
 /// Particles whose words the vector units compute at once, before they are counted.
-constexpr std::size_t stripSize = 1024;
+constexpr std::size_t brickStrip = 1024;
 /// Bins whose counts are summed over all chunks at once.
 constexpr std::size_t binBlock = 512;
 constexpr std::uint32_t wideDigit = 4095;
@@ -137,8 +137,8 @@ void BrickPartition::sortNarrow(const Puffs& store, const CellKernel<rule>& kern
         std::array<std::uint16_t, maximumNarrowChunk> ranks;
         std::uint32_t* const starts = ends + first / chunk * runStride_;
         std::fill_n(starts, bins + 1, 0u);
-        for (std::size_t strip = 0; strip < count; strip += stripSize) {
-            const std::size_t here = std::min(stripSize, count - strip);
+        for (std::size_t strip = 0; strip < count; strip += brickStrip) {
+            const std::size_t here = std::min(brickStrip, count - strip);
             makeNarrowKeys(kernel, first + strip, here, brickBins, keys.data() + strip);
             rankInBins({keys.data() + strip, here}, sorted + first + strip, starts, ranks.data() + strip);
         }

@@ -37,7 +37,7 @@ std::optional<std::int64_t> cellAlong(float place, double originMetres, const La
 }
 
 /// τ·2π·s²,  τ = −ln(1 − α),  s = r/2
-double massOf(const Puffs& store, std::size_t i) {
+double plainMass(const Puffs& store, std::size_t i) {
     const double tau = -std::log1p(-static_cast<double>(store.opacity[i]));
     const double s = static_cast<double>(store.radius[i]) / 2;
     return tau * 2 * std::numbers::pi * s * s;
@@ -68,7 +68,7 @@ PlainOctree plainOctree(const Puffs& store, const Lattice& lattice, const Octree
         const auto found = tree.voxels.try_emplace({rise, *x >> rise, *y >> rise, *z >> rise}, PlainVoxel{index, 0});
         PlainVoxel& voxel = found.first->second;
         if (comesBefore(store, settings.policy, index, voxel.particle)) voxel.particle = index;
-        voxel.massSquareMetres += massOf(store, i);
+        voxel.massSquareMetres += plainMass(store, i);
     }
     return tree;
 }

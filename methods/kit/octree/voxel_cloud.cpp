@@ -6,7 +6,7 @@
 namespace dustbench::octree {
 namespace {
 
-constexpr std::size_t voxelsPerBlock = 4096;
+constexpr std::size_t cloudBlock = 4096;
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void VoxelCloud::take(const Octree& tree, const Puffs& store, const VoxelRule& r
     const std::span<const CellEntry> voxels = tree.voxels();
     const std::span<const double> masses = tree.masses();
     resize(voxels.size(), !store.uniformColour);
-    parallel::forEachBlock(voxels.size(), voxelsPerBlock, [&](std::size_t first, std::size_t count) {
+    parallel::forEachBlock(voxels.size(), cloudBlock, [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
             const std::uint32_t particle = voxels[i].index();
             place[i] = voxels[i].place();

@@ -25,7 +25,7 @@ std::string swarm(const std::string& place, double radius, const std::string& ve
            lives + " ]\nforce = [ " + forces + " ]\n";
 }
 
-void step(ParticleSystem& system, int steps, double seconds = 1.0 / 64) {
+void stepContacts(ParticleSystem& system, int steps, double seconds = 1.0 / 64) {
     const scene::Scene scene;
     for (int i = 0; i < steps; ++i) {
         const scene::SceneState state;
@@ -33,7 +33,7 @@ void step(ParticleSystem& system, int steps, double seconds = 1.0 / 64) {
     }
 }
 
-double energy(const ParticleStore& s, std::size_t i) {
+double contactEnergy(const ParticleStore& s, std::size_t i) {
     const glm::dvec3 v(s.velocityX[i], s.velocityY[i], s.velocityZ[i]);
     return glm::dot(v, v) / 2;
 }
@@ -46,7 +46,7 @@ TEST(Bounce, GoesThereAndBackExactlyBetweenTwoPlanes) {
                                "{ part = \"bounce\", restitution = 1, place = [0, 2, 0], normal = [0, -1, 0] }",
                                "", 1));
     for (int i = 0; i < 2000; ++i) {
-        step(system, 1);
+        stepContacts(system, 1);
         const double way = 1 + 3 * static_cast<double>(system.store().age[0]);
         const double folded = std::fmod(way, 4);
         // Each of 140 bounces keeps a distance of 1e-6 m from the surface.
@@ -61,10 +61,10 @@ TEST(Bounce, KeepsEnergyAtRestitution1WhateverTheSurface) {
                                     "shape = \"mesh\", mesh = \"hare\", scale = 2"}) {
         auto system = test::systemFrom(swarm("[0, 4, 0]", 1, "part = \"random\", speed = 20",
                                              "{ part = \"bounce\", restitution = 1, " + shape + " }"));
-        step(system, 60);
+        stepContacts(system, 60);
         std::size_t turned = 0;
         for (std::size_t i = 0; i < system.store().size(); ++i) {
-            ASSERT_NEAR(energy(system.store(), i), 200, 200 * 1e-5) << shape;
+            ASSERT_NEAR(contactEnergy(system.store(), i), 200, 200 * 1e-5) << shape;
             const glm::vec3 flown = system.store().position(i) - glm::vec3(0, 4, 0);
             turned += glm::length(flown) < 18.5f ? 1 : 0;
         }
@@ -75,7 +75,7 @@ TEST(Bounce, KeepsEnergyAtRestitution1WhateverTheSurface) {
 TEST(Bounce, LosesTheSharesOfItsVelocityThatItSays) {
     auto system = test::systemFrom(swarm("[0, 1, 0]", 0, "part = \"fixed\", direction = [0.6, -0.8, 0], speed = 5",
                                          "{ part = \"bounce\", restitution = 0.25, friction = 0.5 }", "", 1));
-    step(system, 64);
+    stepContacts(system, 64);
     EXPECT_NEAR(system.store().velocityX[0], 1.5, 1e-5);
     EXPECT_NEAR(system.store().velocityY[0], 1, 1e-5);
     // Falls for 1/4 s, then rises.
@@ -88,7 +88,7 @@ TEST(Bounce, IsSymmetricalAboutTheSurfacesNormal) {
     // On a sphere: the mirror's normal is that of the point of contact.
     auto system = test::systemFrom(swarm("[-5, 0.5, 0]", 0, "part = \"fixed\", direction = [1, 0, 0], speed = 40",
                                          "{ part = \"bounce\", restitution = 1, shape = \"sphere\" }", "", 1));
-    step(system, 10);
+    stepContacts(system, 10);
     const glm::dvec3 normal(-std::sqrt(0.75), 0.5, 0);
     const glm::dvec3 expected = glm::reflect(glm::dvec3(40, 0, 0), normal);
     EXPECT_NEAR(system.store().velocityX[0], expected.x, 1e-3);
@@ -107,7 +107,7 @@ double shareThrough(const std::string& mode, double speed, bool gravity) {
             std::to_string(speed),
         "{ part = \"bounce\", mode = \"" + mode + "\", shape = \"disc\", radius_metres = 1000, restitution = 0.5 }" +
             (gravity ? ", { part = \"gravity\" }" : "")));
-    step(system, 400);
+    stepContacts(system, 400);
     std::size_t through = 0;
     for (const float y : system.store().y) through += y < 0 ? 1 : 0;
     return static_cast<double>(through) / static_cast<double>(system.store().size());
@@ -131,13 +131,13 @@ TEST(Bounce, NothingEntersAMeshOrASphereAtAnySpeed) {
         auto held = test::systemFrom(
             swarm("[0, 0, 0]", 0.5, "part = \"random\", speed = " + std::to_string(speed),
                   "{ part = \"bounce\", shape = \"mesh\", mesh = \"" + file + "\", restitution = 1 }", "", 200));
-        step(held, 200);
+        stepContacts(held, 200);
         for (std::size_t i = 0; i < held.store().size(); ++i)
             ASSERT_LE(glm::length(glm::max(glm::abs(held.store().position(i)) - 1.0f, 0.0f)), 0.0f) << speed;
         auto away = test::systemFrom(swarm("[3, 0, 0]", 0.5, "part = \"random\", speed = " + std::to_string(speed),
                                            "{ part = \"bounce\", shape = \"sphere\", restitution = 1 }, "
                                            "{ part = \"attractor\", strength = 50 }"));
-        step(away, 200);
+        stepContacts(away, 200);
         for (std::size_t i = 0; i < away.store().size(); ++i)
             ASSERT_GE(glm::length(away.store().position(i)), 1 - 1e-6f) << speed;
     }
@@ -148,7 +148,7 @@ TEST(Bounce, ComesToRestOnAPlaneAndDoesNotSink) {
                                          "{ part = \"gravity\" }, { part = \"bounce\", restitution = 0.3, friction = "
                                          "0.2 }",
                                          "", 1));
-    step(system, 2000);
+    stepContacts(system, 2000);
     EXPECT_GE(system.store().y[0], 0);
     EXPECT_LT(system.store().y[0], 1e-3);
     EXPECT_NEAR(system.store().velocityX[0], 0, 1e-4);
@@ -157,7 +157,7 @@ TEST(Bounce, ComesToRestOnAPlaneAndDoesNotSink) {
 TEST(Bounce, PaperModeMirrorsAtTheCurrentPlaceAndScalesTheWholeVelocity) {
     auto system = test::systemFrom(swarm("[0, 1, 0]", 0, "part = \"fixed\", direction = [0.6, -0.8, 0], speed = 5",
                                          "{ part = \"bounce\", mode = \"paper\", restitution = 0.5 }", "", 1));
-    step(system, 64);
+    stepContacts(system, 64);
     EXPECT_NEAR(system.store().velocityX[0], 1.5, 1e-5);
     EXPECT_NEAR(system.store().velocityY[0], 2, 1e-5);
 }
@@ -167,13 +167,13 @@ TEST(Collision, KillsWhatMeetsTheSurfaceAndNothingElse) {
         auto system = test::systemFrom(swarm("[0, 4, 0]", 1, "part = \"random\", speed = 20", "",
                                              "{ part = \"collision\", mode = \"" + mode + "\" }"));
         const auto all = [&] {
-            step(system, 1);
+            stepContacts(system, 1);
             return system.store().size();
         }();
         auto free = test::systemFrom(swarm("[0, 4, 0]", 1, "part = \"random\", speed = 20", ""));
-        step(free, 1);
-        step(system, 62);
-        step(free, 62);
+        stepContacts(free, 1);
+        stepContacts(system, 62);
+        stepContacts(free, 62);
         std::set<std::uint64_t> above, left(system.store().serial.begin(), system.store().serial.end());
         for (std::size_t i = 0; i < free.store().size(); ++i)
             if (free.store().y[i] > (mode == "paper" ? 0.4f : 0.0f)) above.insert(free.store().serial[i]);

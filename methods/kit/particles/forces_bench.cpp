@@ -16,7 +16,7 @@
 namespace dustbench::particles {
 namespace {
 
-constexpr double stepSeconds = 1.0 / 60;
+constexpr double forcesStepSeconds = 1.0 / 60;
 
 /// The thesis's case: points that fall on two discs; births replace deaths of 0.5 % per step.
 const std::string twoDiscs = R"(
@@ -45,11 +45,11 @@ void BM_TwoDiscs(benchmark::State& bench) {
     ParticleSystem system(partsFromText(withMode(twoDiscs, bench.range(2) ? "mode = \"paper\"," : ""), "bench"), 1);
     const scene::Scene scene;
     const scene::SceneState state;
-    for (int i = 0; i < 320; ++i) system.update({scene, state, stepSeconds, count});
+    for (int i = 0; i < 320; ++i) system.update({scene, state, forcesStepSeconds, count});
     std::int64_t updated = 0;
     for (auto _ : bench) {
         updated += static_cast<std::int64_t>(system.store().size());
-        system.update({scene, state, stepSeconds, count});
+        system.update({scene, state, forcesStepSeconds, count});
     }
     bench.SetItemsProcessed(updated);
 }

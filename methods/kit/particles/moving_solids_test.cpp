@@ -98,7 +98,8 @@ struct World {
 };
 
 /// Particles in a ball that fly along x and bounce on the scene.
-ParticleSystem swarm(int count, const std::string& place, double radius, double speed, const std::string& bounce) {
+ParticleSystem movingSwarm(int count, const std::string& place, double radius, double speed,
+                           const std::string& bounce) {
     return test::systemFrom(
         "emission = { part = \"bursts\", count = " + std::to_string(count) +
         ", duration_seconds = 0, interval_seconds = 1e6 }\nposition = { part = \"sphere\", at = \"place\", place = " +
@@ -114,8 +115,8 @@ ParticleSystem swarm(int count, const std::string& place, double radius, double 
 template <typename StateAt>
 void expectNoneInside(const World& world, const StateAt& stateAt) {
     for (const double speed : {2.0, -2.0}) {
-        auto system =
-            swarm(200, speed > 0 ? "[-2.6, 3, 0]" : "[2.6, 3.2, 0.1]", 0.7, speed, "restitution = 0.3, friction = 0.2");
+        auto system = movingSwarm(200, speed > 0 ? "[-2.6, 3, 0]" : "[2.6, 3.2, 0.1]", 0.7, speed,
+                                  "restitution = 0.3, friction = 0.2");
         double deepest = -INFINITY;
         for (int i = 1; i <= 130; ++i) {
             const scene::SceneState state = stateAt(i * stepSeconds);
@@ -144,7 +145,7 @@ TEST(MovingSolids, ASurfaceThatSwellsTakesParticlesAlong) {
     // At rest before the ball's pole along x, which is at 1 + 0.4 sin 4t: v' = (1 + e)·dx/dt at the moment of contact.
     const World world(scene::SolidMotion::deforms, 4);
     for (const double e : {0.0, 0.5}) {
-        auto system = swarm(1, "[1.2, 3, 0]", 0, 0, "restitution = " + std::to_string(e));
+        auto system = movingSwarm(1, "[1.2, 3, 0]", 0, 0, "restitution = " + std::to_string(e));
         double met = 0;
         for (int i = 1; i * stepSeconds < 0.25; ++i) {
             const scene::SceneState state = world.breathing(i * stepSeconds);
@@ -166,8 +167,8 @@ TEST(MovingSolids, WhatStandsIsMetAsIfItWereStillBitForBit) {
         scene::SceneState standing = world.moving(0.3);
         standing.solids[0].pose.velocity = standing.solids[0].pose.angularVelocity = glm::vec3(0);
         if (motion == scene::SolidMotion::deforms) standing.solids[0].shape = world.breathing(0, 0).solids[0].shape;
-        auto one = swarm(500, "[-2.6, 3, 0]", 0.7, 2, "restitution = 0.9"),
-             other = swarm(500, "[-2.6, 3, 0]", 0.7, 2, "restitution = 0.9");
+        auto one = movingSwarm(500, "[-2.6, 3, 0]", 0.7, 2, "restitution = 0.9"),
+             other = movingSwarm(500, "[-2.6, 3, 0]", 0.7, 2, "restitution = 0.9");
         for (int i = 1; i <= 150; ++i) {
             if (motion == scene::SolidMotion::deforms)  // another object with the same content each time
                 standing.solids[0].shape = std::make_shared<scene::DeformedMesh>(*standing.solids[0].shape);

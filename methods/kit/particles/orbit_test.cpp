@@ -8,7 +8,7 @@
 namespace dustbench::particles {
 namespace {
 
-constexpr double stepSeconds = 1.0 / 240;
+constexpr double orbitStepSeconds = 1.0 / 240;
 
 ParticleSystem disc(const std::string& law, const std::string& more = "", const std::string& velocity = "") {
     const std::string pull = "law = \"" + law + "\", strength = 5, softening_metres = 0.1";
@@ -43,7 +43,7 @@ std::vector<Orbit> orbitsOf(const ParticleStore& s) {
 void advance(ParticleSystem& system, int steps) {
     const scene::Scene scene;
     const scene::SceneState state;
-    for (int i = 0; i < steps; ++i) system.update({scene, state, stepSeconds});
+    for (int i = 0; i < steps; ++i) system.update({scene, state, orbitStepSeconds});
 }
 
 TEST(OrbitVelocity, KeepsCirclesOfEveryLawAsTheyAre) {
@@ -65,7 +65,7 @@ TEST(OrbitVelocity, KeepsCirclesOfEveryLawAsTheyAre) {
         int compared = 0;
         for (std::size_t k = 0; k < before.size(); ++k) {
             // A particle starts half a step behind its velocity: the orbit's radius swings by ω·Δt, ω = v/d.
-            const double d = before[k].distance, turn = before[k].angularMomentum / (d * d) * stepSeconds;
+            const double d = before[k].distance, turn = before[k].angularMomentum / (d * d) * orbitStepSeconds;
             ASSERT_GT(turn, 0) << law;
             if (d < 0.5) continue;
             EXPECT_LT(farthest[k] / nearest[k] - 1, 2.5 * turn + 1e-4) << law << " at " << d;

@@ -12,10 +12,6 @@ namespace {
 /// Frames and boxes are computed apart from each other: their rounding must not hide a contact.
 constexpr float boxMarginMetres = 0.02f;
 
-float sumOfSizes(const glm::vec3& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-
 /// From the frame of a wheel that does not spin: rolling direction, up, axle to the right.
 glm::dmat4 wheelFrame(const scene::WheelState& wheel, const glm::dvec3& bodyUp) {
     const glm::dvec3 axle = glm::normalize(glm::cross(wheel.forward, bodyUp));

@@ -10,7 +10,7 @@
 namespace dustbench::particles {
 namespace {
 
-constexpr double stepSeconds = 1.0 / 64;
+constexpr double surfaceStepSeconds = 1.0 / 64;
 const glm::vec3 boxMinimum(-0.8f, 0.4f, -0.9f), boxMaximum(3.4f, 1.4f, 0.9f);
 
 std::shared_ptr<const scene::Mesh> boxMesh(const glm::vec3& low, const glm::vec3& high) {
@@ -52,8 +52,8 @@ scene::SceneState driving(double time, double speed, double acceleration = 0, do
     return state;
 }
 
-std::string swarm(const std::string& place, double radius, const std::string& velocity, const std::string& forces,
-                  int count = 1) {
+std::string surfaceSwarm(const std::string& place, double radius, const std::string& velocity,
+                         const std::string& forces, int count = 1) {
     return "emission = { part = \"bursts\", count = " + std::to_string(count) +
            ", duration_seconds = 0, interval_seconds = 1e6 }\n"
            "position = { part = \"sphere\", at = \"place\", place = " +
@@ -75,14 +75,14 @@ TEST(SceneSurface, AMovingCarGivesItsVelocity) {
     for (const double e : {0.0, 0.25, 1.0})
         for (const double speed : {3.0, 20.0, 60.0}) {
             auto system = test::systemFrom(
-                swarm("[5.4, 1, 0]", 0, standing,
-                      "{ part = \"bounce\", shape = \"scene\", restitution = " + std::to_string(e) + " }"));
+                surfaceSwarm("[5.4, 1, 0]", 0, standing,
+                             "{ part = \"bounce\", shape = \"scene\", restitution = " + std::to_string(e) + " }"));
             const double met = 2 / speed;
             double time = 0;
             while (time < met + 0.2) {
-                time += stepSeconds;
+                time += surfaceStepSeconds;
                 const scene::SceneState state = driving(time, speed);
-                system.update({scene, state, stepSeconds});
+                system.update({scene, state, surfaceStepSeconds});
             }
             const ParticleStore& s = system.store();
             EXPECT_NEAR(s.velocityX[0], (1 + e) * speed, 1e-4 * speed) << e << ", " << speed;
@@ -102,11 +102,11 @@ TEST(SceneSurface, MirrorsTheVelocityRelativeToTheCar) {
     for (const Case& c :
          {Case{"[2, 2.4, 0]", "part = \"fixed\", direction = [0, -1, 0], speed = 5", {0, -5, 0}, {0, 1, 0}},
           Case{"[2, 1, 1.9]", "part = \"fixed\", direction = [0.6, 0, -0.8], speed = 10", {6, 0, -8}, {0, 0, 1}}}) {
-        auto system = test::systemFrom(swarm(
+        auto system = test::systemFrom(surfaceSwarm(
             c.place, 0, c.velocity, "{ part = \"bounce\", shape = \"scene\", restitution = 0.5, friction = 0.25 }"));
         for (int i = 1; i <= 24; ++i) {
-            const scene::SceneState state = driving(i * stepSeconds, speed);
-            system.update({scene, state, stepSeconds});
+            const scene::SceneState state = driving(i * surfaceStepSeconds, speed);
+            system.update({scene, state, surfaceStepSeconds});
         }
         const glm::dvec3 carried(speed, 0, 0), relative = c.before - carried;
         const glm::dvec3 across = glm::dot(relative, c.normal) * c.normal;
@@ -119,8 +119,8 @@ TEST(SceneSurface, MeetsTheCarWhereItIsWithinTheStep) {
     // Shots at the flank of a car that drives a metre a step: those behind its rear at the moment of contact pass.
     const scene::Scene scene = sceneWithBox();
     const double speed = 60, shot = 64;
-    auto text = swarm("[0, 0, 0]", 0, "part = \"fixed\", direction = [0, 0, -1], speed = 64",
-                      "{ part = \"bounce\", shape = \"scene\", restitution = 1 }", 2000);
+    auto text = surfaceSwarm("[0, 0, 0]", 0, "part = \"fixed\", direction = [0, 0, -1], speed = 64",
+                             "{ part = \"bounce\", shape = \"scene\", restitution = 1 }", 2000);
     const std::string from = "part = \"sphere\", at = \"place\", place = [0, 0, 0], radius_metres = 0.000000";
     text.replace(text.find(from), from.size(),
                  "part = \"line\", at = \"place\", place = [1.6, 1, 3], direction = [1, 0, 0], length_metres = 4, base "
@@ -128,13 +128,13 @@ TEST(SceneSurface, MeetsTheCarWhereItIsWithinTheStep) {
     auto system = test::systemFrom(text);
     const int steps = 5;
     for (int i = 1; i <= steps; ++i) {
-        const scene::SceneState state = driving(i * stepSeconds, speed);
-        system.update({scene, state, stepSeconds});
+        const scene::SceneState state = driving(i * surfaceStepSeconds, speed);
+        system.update({scene, state, surfaceStepSeconds});
     }
     const ParticleStore& s = system.store();
     int met = 0, passed = 0;
     for (std::size_t i = 0; i < s.size(); ++i) {
-        const double born = steps * stepSeconds - static_cast<double>(s.age[i]), contact = born + 2.1 / shot;
+        const double born = steps * surfaceStepSeconds - static_cast<double>(s.age[i]), contact = born + 2.1 / shot;
         const double behind = -0.8 + speed * contact - static_cast<double>(s.x[i]);
         if (std::abs(behind) < 0.01) continue;
         ASSERT_EQ(s.velocityZ[i] > 0, behind < 0) << s.x[i];
@@ -147,16 +147,16 @@ TEST(SceneSurface, MeetsTheCarWhereItIsWithinTheStep) {
 TEST(SceneSurface, WhatSticksRidesAlongHoweverTheCarMoves) {
     const scene::Scene scene = sceneWithBox();
     for (const double radius : {0.0, 12.0}) {
-        auto system = test::systemFrom(swarm("[1.5, 2, 0]", 0.3, standing,
-                                             "{ part = \"gravity\" }, { part = \"bounce\", shape = \"scene\", "
-                                             "restitution = 0, friction = 1 }",
-                                             50));
+        auto system = test::systemFrom(surfaceSwarm("[1.5, 2, 0]", 0.3, standing,
+                                                    "{ part = \"gravity\" }, { part = \"bounce\", shape = \"scene\", "
+                                                    "restitution = 0, friction = 1 }",
+                                                    50));
         double time = 0;
         const auto advance = [&](int steps, double acceleration) {
             for (int i = 0; i < steps; ++i) {
-                time += stepSeconds;
+                time += surfaceStepSeconds;
                 const scene::SceneState state = driving(time, 0, acceleration, radius);
-                system.update({scene, state, stepSeconds});
+                system.update({scene, state, surfaceStepSeconds});
             }
         };
         const auto ofCar = [&] {
@@ -184,13 +184,13 @@ TEST(SceneSurface, AWheelsRimGivesItsSpin) {
     auto free = scene;
     free.vehicle->body.mesh = nullptr;
     auto system = test::systemFrom(
-        swarm("[0.2, 0.8, 0.775]", 0, "part = \"fixed\", direction = [0, -1, 0], speed = 4",
-              "{ part = \"bounce\", shape = \"scene\", restitution = 0, friction = 1, on_ground = false }"));
+        surfaceSwarm("[0.2, 0.8, 0.775]", 0, "part = \"fixed\", direction = [0, -1, 0], speed = 4",
+                     "{ part = \"bounce\", shape = \"scene\", restitution = 0, friction = 1, on_ground = false }"));
     const double speed = 2;
     glm::dvec3 hub(0), at(0), velocity(0);
     for (int i = 1; i <= 10; ++i) {
-        const scene::SceneState state = driving(i * stepSeconds, speed);
-        system.update({free, state, stepSeconds});
+        const scene::SceneState state = driving(i * surfaceStepSeconds, speed);
+        system.update({free, state, surfaceStepSeconds});
         if (system.store().velocityY[0] > -3.9f) {
             hub = state.vehicle.wheels[3].hub;
             at = system.store().position(0);
@@ -228,16 +228,17 @@ TEST(SceneSurface, NoParticleIsInsideASolid) {
     const scene::Scene scene = sceneWithBox();
     for (const double speed : {0.0, 4.0, 30.0})
         for (const std::string friction : {"0", "0.7"}) {
-            auto system = test::systemFrom(swarm("[6, 6, -3]", 4, "part = \"random\", speed = 12",
-                                                 "{ part = \"gravity\" }, { part = \"bounce\", shape = \"scene\", "
-                                                 "restitution = 0.5, friction = " +
-                                                     friction + " }",
-                                                 4000));
+            auto system =
+                test::systemFrom(surfaceSwarm("[6, 6, -3]", 4, "part = \"random\", speed = 12",
+                                              "{ part = \"gravity\" }, { part = \"bounce\", shape = \"scene\", "
+                                              "restitution = 0.5, friction = " +
+                                                  friction + " }",
+                                              4000));
             double deepest = -1;
             std::size_t met = 0;
             for (int i = 1; i <= 200; ++i) {
-                const scene::SceneState state = driving(i * stepSeconds, speed, 0, 10);
-                system.update({scene, state, stepSeconds});
+                const scene::SceneState state = driving(i * surfaceStepSeconds, speed, 0, 10);
+                system.update({scene, state, surfaceStepSeconds});
                 for (std::size_t k = 0; k < system.store().size(); ++k) {
                     const double depth = depthInside(system.store().position(k), state);
                     deepest = std::max(deepest, depth);
@@ -258,30 +259,31 @@ TEST(SceneSurface, SolidsOfTheSceneAreMetAsTheyStand) {
     scene.solidPoses.push_back(pose);
     const scene::SceneState state;
     const auto flown = [&](const std::string& more) {
-        auto system = test::systemFrom(swarm("[0, 3, 0]", 0, "part = \"fixed\", direction = [1, 0, 0], speed = 10",
-                                             "{ part = \"bounce\", shape = \"scene\", restitution = 1" + more + " }"));
-        for (int i = 0; i < 64; ++i) system.update({scene, state, stepSeconds});
+        auto system =
+            test::systemFrom(surfaceSwarm("[0, 3, 0]", 0, "part = \"fixed\", direction = [1, 0, 0], speed = 10",
+                                          "{ part = \"bounce\", shape = \"scene\", restitution = 1" + more + " }"));
+        for (int i = 0; i < 64; ++i) system.update({scene, state, surfaceStepSeconds});
         return static_cast<double>(system.store().x[0]);
     };
-    const double way = 10 * 63.0 / 64 + 10 * stepSeconds / 2;  // born in the middle of the first step, or about
-    EXPECT_NEAR(flown(""), 7 - way, 0.1);                      // there 3.5 m, and back
+    const double way = 10 * 63.0 / 64 + 10 * surfaceStepSeconds / 2;  // born in the middle of the first step, or about
+    EXPECT_NEAR(flown(""), 7 - way, 0.1);                             // there 3.5 m, and back
     EXPECT_NEAR(flown(", on_solids = false"), way, 0.1);
 }
 
 TEST(SceneSurface, KillsWhereItIsToldTo) {
     const scene::Scene scene = sceneWithBox();
-    auto text = swarm("[2, 4, 0]", 0.5, "part = \"fixed\", direction = [0, -1, 0], speed = 3", "", 100);
+    auto text = surfaceSwarm("[2, 4, 0]", 0.5, "part = \"fixed\", direction = [0, -1, 0], speed = 3", "", 100);
     text.replace(text.find("variation_seconds = 0 } ]"), 25,
                  "variation_seconds = 0 }, { part = \"collision\", shape = \"scene\" } ]");
     auto system = test::systemFrom(text);
     for (int i = 1; i <= 64 * 2; ++i) {
-        system.update({scene, driving(0, 0), stepSeconds});
+        system.update({scene, driving(0, 0), surfaceStepSeconds});
         for (const float y : system.store().y) ASSERT_GE(y, 1.4f);
     }
     EXPECT_EQ(system.store().size(), 0u);
 }
 
-scene::Terrain hills(unsigned seed) {
+scene::Terrain surfaceHills(unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> height(-1, 1);
     std::vector<float> heights(9 * 7);
@@ -295,7 +297,7 @@ TEST(GroundSurface, MeetsTheHeightFieldWhereTheWayFirstFallsBelowIt) {
     std::uniform_real_distribution<float> at(-5, 5), height(-1, 2);
     int met = 0, free = 0;
     for (int i = 0; i < 400; ++i) {
-        const scene::Terrain terrain = hills(static_cast<unsigned>(i % 5));
+        const scene::Terrain terrain = surfaceHills(static_cast<unsigned>(i % 5));
         glm::vec3 from(at(random), 0, at(random)), to(at(random), height(random), at(random));
         if (i % 7 == 0) to.x = from.x, to.z = from.z, to.y = -2;  // straight down
         from.y = terrain.heightAt(from.x, from.z) + 0.01f + std::abs(height(random));
@@ -332,14 +334,15 @@ TEST(GroundSurface, MeetsTheHeightFieldWhereTheWayFirstFallsBelowIt) {
 
 TEST(GroundSurface, ParticlesStayAboveHills) {
     scene::Scene scene;
-    scene.terrain = hills(3);
+    scene.terrain = surfaceHills(3);
     const scene::SceneState state;
-    auto system = test::systemFrom(swarm("[0, 3, 0]", 1.5, "part = \"random\", speed = 15",
-                                         "{ part = \"gravity\" }, { part = \"bounce\", shape = \"scene\", restitution "
-                                         "= 0.9, friction = 0.1 }",
-                                         1000));
+    auto system =
+        test::systemFrom(surfaceSwarm("[0, 3, 0]", 1.5, "part = \"random\", speed = 15",
+                                      "{ part = \"gravity\" }, { part = \"bounce\", shape = \"scene\", restitution "
+                                      "= 0.9, friction = 0.1 }",
+                                      1000));
     for (int i = 0; i < 400; ++i) {
-        system.update({scene, state, stepSeconds});
+        system.update({scene, state, surfaceStepSeconds});
         for (std::size_t k = 0; k < system.store().size(); ++k) {
             const glm::vec3 p = system.store().position(k);
             ASSERT_GE(p.y, scene.terrain.heightAt(p.x, p.z) - 1e-6f * (3 + std::abs(p.x) + std::abs(p.z))) << i;

@@ -22,7 +22,7 @@ namespace {
 using test::chiSquareOfSphere;
 using test::expectUniform;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::uint64_t seeds[] = {11, 12, 13};
 const glm::dvec3 place{3, -2, 5};
 
@@ -40,11 +40,11 @@ ParticleSystem born(const std::string& position, const std::string& velocity, st
     return system;
 }
 
-const std::string still = "part = \"fixed\", speed = 0";
+const std::string stillSources = "part = \"fixed\", speed = 0";
 
 /// Returns positions relative to the source's.
 std::vector<glm::dvec3> placesOf(const std::string& position, std::uint64_t seed, int count = 20000) {
-    const auto system = born(position, still, seed, count);
+    const auto system = born(position, stillSources, seed, count);
     std::vector<glm::dvec3> places;
     for (std::size_t i = 0; i < system.store().size(); ++i)
         places.push_back(glm::dvec3(system.store().position(i)) - place);
@@ -133,7 +133,7 @@ class MeshFile : public testing::Test {
     }
     static std::string errorOf(const std::string& position) {
         try {
-            born(position, still, 1, 10);
+            born(position, stillSources, 1, 10);
         } catch (const InputError& error) {
             return error.what();
         }

@@ -5,6 +5,7 @@
 // speed is too high; the thesis tests positions.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <glm/glm.hpp>
 
@@ -63,5 +64,10 @@ class Surface {
     [[nodiscard]] virtual float extentMetres() const = 0;
     [[nodiscard]] virtual std::size_t bytes() const { return 0; }
 };
+
+/// |x| + |y| + |z|: what a position adds to an extent.
+[[nodiscard]] inline float sumOfSizes(const glm::vec3& v) {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
 
 }  // namespace dustbench::particles

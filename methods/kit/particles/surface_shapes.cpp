@@ -11,10 +11,6 @@
 namespace dustbench::particles {
 namespace {
 
-float sumOfSizes(const glm::vec3& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-
 /// d = n·(x − p): hit where d becomes negative. A particle that starts behind the plane and moves deeper is hit at
 /// once.
 void meetHalfSpace(const Ways& ways, float* __restrict share, const glm::vec3 p, const glm::vec3 n) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int maximumCells = 2048;  // texels per axis of a 3D texture that every OpenGL 4.5 supports
 
-void checkCount(const char* name, std::size_t got, std::size_t allowed) {
+void checkShown(const char* name, std::size_t got, std::size_t allowed) {
     if (got != allowed)
         throw InputError(std::string("shown grid: got ") + std::to_string(got) + " values of " + name +
                          ", allowed: " + std::to_string(allowed));
@@ -35,8 +35,8 @@ void checkPlace(const Grid& grid) {
 
 void check(const ShownGrid& grid) {
     checkPlace(grid);
-    checkCount("density", grid.density.size(), grid.cellCount());
-    if (!grid.reaction.empty()) checkCount("reaction", grid.reaction.size(), grid.cellCount());
+    checkShown("density", grid.density.size(), grid.cellCount());
+    if (!grid.reaction.empty()) checkShown("reaction", grid.reaction.size(), grid.cellCount());
 }
 
 void check(const ShownTextures& grid) {

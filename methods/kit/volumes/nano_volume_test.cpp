@@ -17,12 +17,12 @@ using testing::HasSubstr;
 
 /// A sphere of NanoVDB's, of fog; `Build` is how its numbers are stored.
 template <typename Build>
-auto fog() {
+auto nanoFog() {
     return nanovdb::createFogVolumeSphere<float, Build>(/*radius=*/2, nanovdb::Vec3f(1, 2, 3), /*voxelSize=*/0.125);
 }
 
 template <typename Handle>
-std::string written(const TestFolder& folder, const Handle& handle, Codec codec = Codec::NONE) {
+std::string writtenNano(const TestFolder& folder, const Handle& handle, Codec codec = Codec::NONE) {
     const std::string path = folder.path() / "a.nvdb";
     nanovdb::io::writeGrid(path, handle, codec);
     return path;
@@ -39,9 +39,9 @@ struct Kept final : VolumeSink {
 
 template <typename Build>
 void expectRead(const TestFolder& folder, Codec codec) {
-    const auto handle = fog<Build>();
+    const auto handle = nanoFog<Build>();
     const auto* const grid = handle.template grid<Build>();
-    const VolumeGrid read = readVolume(written(folder, handle, codec), {});
+    const VolumeGrid read = readVolume(writtenNano(folder, handle, codec), {});
     ASSERT_EQ(read.density.size(), read.cellCount());
     Kept kept;
     VolumeFields sparse;
@@ -81,8 +81,8 @@ TEST(NanoVolume, ReadsTheFogThatNanoVdbMadeInAllItsFormsOfFloats) {
 TEST(NanoVolume, ALevelSetBecomesTheFogThatNanoVdbMakesOfIt) {
     const TestFolder folder;
     const auto sphere = nanovdb::createLevelSetSphere<float>(2, nanovdb::Vec3f(1, 2, 3), 0.125);
-    const VolumeGrid distance = readVolume(written(folder, sphere), {});
-    const VolumeGrid ball = readVolume(written(folder, fog<float>()), {});
+    const VolumeGrid distance = readVolume(writtenNano(folder, sphere), {});
+    const VolumeGrid ball = readVolume(writtenNano(folder, nanoFog<float>()), {});
     double one = 0, other = 0;
     for (const float value : distance.density) one += static_cast<double>(value);
     for (const float value : ball.density) other += static_cast<double>(value);
@@ -91,7 +91,7 @@ TEST(NanoVolume, ALevelSetBecomesTheFogThatNanoVdbMakesOfIt) {
 
 TEST(NanoVolume, PartsOfAFileAreRefused) {
     const TestFolder folder;
-    const std::string file = written(folder, fog<float>(), Codec::ZIP);
+    const std::string file = writtenNano(folder, nanoFog<float>(), Codec::ZIP);
     std::ifstream stream(file, std::ios::binary);
     const std::string whole(std::istreambuf_iterator<char>(stream), {});
     for (std::size_t part = 0; part < 8; ++part) {

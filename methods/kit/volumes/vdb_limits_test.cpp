@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string written(const TestFolder& folder, const openvdb::Vec3SGrid::Ptr& grid) {
+std::string writtenVdb(const TestFolder& folder, const openvdb::Vec3SGrid::Ptr& grid) {
     grid->setName("velocity");
     const std::string path = folder.path() / "a.vdb";
     openvdb::io::File file(path);
@@ -24,7 +24,7 @@ std::string written(const TestFolder& folder, const openvdb::Vec3SGrid::Ptr& gri
     return path;
 }
 
-std::string refusalOf(const std::string& file) {
+std::string limitRefusal(const std::string& file) {
     return inputError([&] { (void)readVectors(file, "velocity"); });
 }
 
@@ -34,7 +34,8 @@ TEST(VdbLimits, BoxesOfManyCellsAreRefused) {
     const auto grid = openvdb::Vec3SGrid::create();
     grid->getAccessor().setValue({0, 0, 0}, {1, 2, 3});
     grid->getAccessor().setValue({99, 99, 8'900}, {1, 2, 3});  // 8,901 layers of 10,000
-    EXPECT_THAT(refusalOf(written(folder, grid)), HasSubstr("the box of its vectors has more than 89 million cells"));
+    EXPECT_THAT(limitRefusal(writtenVdb(folder, grid)),
+                HasSubstr("the box of its vectors has more than 89 million cells"));
 }
 
 TEST(VdbLimits, LayersArriveInOrder) {
@@ -45,7 +46,7 @@ TEST(VdbLimits, LayersArriveInOrder) {
     for (int z = -5; z < 16; ++z)
         for (int x = 0; x < 3; ++x)
             grid->getAccessor().setValue({x, 0, z}, {0.5f + static_cast<float>(x), 0.25f, static_cast<float>(z)});
-    const VectorGrid read = readVectors(written(folder, grid), "velocity");
+    const VectorGrid read = readVectors(writtenVdb(folder, grid), "velocity");
     ASSERT_EQ(read.cells, glm::ivec3(3, 1, 21));
     for (int z = 0; z < 21; ++z)
         for (int x = 0; x < 3; ++x)
@@ -59,7 +60,7 @@ TEST(VdbLimits, ValuesThatAreAllAlikeAreNotTooMany) {
     const TestFolder folder;
     const auto grid = openvdb::Vec3SGrid::create();
     grid->tree().denseFill(openvdb::CoordBBox(0, 0, 0, 199, 199, 199), {1, 2, 3}, true);
-    const std::string file = written(folder, grid);
+    const std::string file = writtenVdb(folder, grid);
     EXPECT_LT(std::filesystem::file_size(file), 3'200'000u) << "thirty times as much in memory";
     EXPECT_EQ(readVectors(file, "velocity").values.size(), 8'000'000u);
 }

@@ -21,7 +21,7 @@ openvdb::Vec3f placeOf(int i) {
     return {0.1f * static_cast<float>(i % 10), 0.3f * static_cast<float>(i / 10), -0.01f * static_cast<float>(i)};
 }
 
-std::string written(const TestFolder& folder) {
+std::string writtenPoints(const TestFolder& folder) {
     openvdb::initialize();
     std::vector<openvdb::Vec3f> places;
     std::vector<float> radii;
@@ -55,7 +55,7 @@ PointTable readAll(const std::filesystem::path& file) {
 
 TEST(VdbPoints, ReadsEveryPointWithItsAttributes) {
     const TestFolder folder;
-    const PointTable table = readAll(written(folder));
+    const PointTable table = readAll(writtenPoints(folder));
     ASSERT_EQ(table.points, static_cast<std::size_t>(count));
     EXPECT_EQ(table.timeSeconds, 1.5);
     ASSERT_NE(table.find("id"), nullptr);
@@ -74,7 +74,7 @@ TEST(VdbPoints, ReadsEveryPointWithItsAttributes) {
 
 TEST(VdbPoints, WhatHasNoPointsOrIsCutIsRefused) {
     const TestFolder folder;
-    const std::string file = written(folder);
+    const std::string file = writtenPoints(folder);
     std::ifstream stream(file, std::ios::binary);
     const std::string whole(std::istreambuf_iterator<char>(stream), {});
     for (std::size_t part = 1; part < 8; ++part) {

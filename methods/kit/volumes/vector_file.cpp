@@ -14,9 +14,9 @@
 namespace dustbench::volumes {
 namespace {
 
-constexpr double cubeWithin = 1e-5;
+constexpr double vectorsWithin = 1e-5;
 
-InputError refused(const std::filesystem::path& file, const std::string& reason) {
+InputError refusedVectors(const std::filesystem::path& file, const std::string& reason) {
     return InputError(fmt::format("{}: {}", file.string(), files::printable(reason)));
 }
 
@@ -27,10 +27,10 @@ const VtiArray& vectorsIn(const VtiFile& vti, const std::filesystem::path& file,
         if (array.name == field) return array;
         others += (others.empty() ? "; it has: " : ", ") + array.name;
     }
-    throw refused(file, "it has no field of vectors '" + field + "'" + others);
+    throw refusedVectors(file, "it has no field of vectors '" + field + "'" + others);
 }
 
-VectorGrid readVti(const std::filesystem::path& file, const std::string& field) {
+VectorGrid readVtiVectors(const std::filesystem::path& file, const std::string& field) {
     const VtiFile vti(file);
     const VtiArray& vectors = vectorsIn(vti, file, field);
     VectorGrid grid;
@@ -38,8 +38,8 @@ VectorGrid readVti(const std::filesystem::path& file, const std::string& field) 
     grid.origin = vti.origin();
     grid.spacing = vti.spacing().x;
     for (int axis = 0; axis < 3; ++axis)
-        if (!(vti.spacing()[axis] > 0) || std::abs(vti.spacing()[axis] / grid.spacing - 1) > cubeWithin)
-            throw refused(file, "its cells are no cubes");
+        if (!(vti.spacing()[axis] > 0) || std::abs(vti.spacing()[axis] / grid.spacing - 1) > vectorsWithin)
+            throw refusedVectors(file, "its cells are no cubes");
     grid.timeSeconds = vti.fieldNumber("TimeValue");
     const std::vector<float> numbers = vti.numbersOf(vectors);
     grid.values.reserve(numbers.size() / 3);
@@ -48,29 +48,29 @@ VectorGrid readVti(const std::filesystem::path& file, const std::string& field) 
     return grid;
 }
 
-VectorGrid readSparse(const std::filesystem::path& file, const std::string& field) {
+VectorGrid readSparseVectors(const std::filesystem::path& file, const std::string& field) {
     if (const std::string why = files::refusalOf(file, files::limits::geometryBytes); !why.empty())
-        throw refused(file, why);
+        throw refusedVectors(file, why);
     VectorGrid grid;
-    if (const std::string why = readVdb(file, field, grid); !why.empty()) throw refused(file, why);
+    if (const std::string why = readVdb(file, field, grid); !why.empty()) throw refusedVectors(file, why);
     return grid;
 }
 
 void requireFinite(const VectorGrid& grid, const std::filesystem::path& file) {
     for (const double number :
          {grid.spacing, grid.origin.x, grid.origin.y, grid.origin.z, grid.timeSeconds.value_or(0)})
-        if (!std::isfinite(number)) throw refused(file, "its place or its time is no number");
+        if (!std::isfinite(number)) throw refusedVectors(file, "its place or its time is no number");
     for (const glm::vec3& v : grid.values)
         if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
-            throw refused(file, "it has a vector that is no number");
+            throw refusedVectors(file, "it has a vector that is no number");
 }
 
 }  // namespace
 
 VectorGrid readVectors(const std::filesystem::path& file, const std::string& field) {
     if (file.extension() != ".vti" && file.extension() != ".vdb")
-        throw refused(file, "expected a file that ends in .vti or .vdb");
-    VectorGrid grid = file.extension() == ".vti" ? readVti(file, field) : readSparse(file, field);
+        throw refusedVectors(file, "expected a file that ends in .vti or .vdb");
+    VectorGrid grid = file.extension() == ".vti" ? readVtiVectors(file, field) : readSparseVectors(file, field);
     requireFinite(grid, file);
     return grid;
 }

@@ -11,7 +11,7 @@
 namespace dustbench::volumes {
 namespace {
 
-const std::vector<std::filesystem::path> names{"a.vti", "b.vti", "c.vti"};
+const std::vector<std::filesystem::path> gridNames{"a.vti", "b.vti", "c.vti"};
 
 template <typename Field>
 VectorGrid sampled(const glm::ivec3& cells, const glm::dvec3& origin, double spacing, double time, const Field& field) {
@@ -45,7 +45,7 @@ TEST(VectorSeries, ReproducesALinearFieldOfPlaceAndTimeExactly) {
         std::vector<VectorGrid> grids;
         for (const double time : {1.0, 1.5, 3.0})
             grids.push_back(sampled(cells, origin, spacing, time, [&](const glm::dvec3& p) { return field(p, time); }));
-        const VectorSeries series(grids, names);
+        const VectorSeries series(grids, gridNames);
         for (int i = 0; i < 500; ++i) {
             const double time = 1 + 2 * share(chance);
             const glm::dvec3 within(share(chance), share(chance), share(chance));
@@ -59,7 +59,7 @@ TEST(VectorSeries, ReproducesALinearFieldOfPlaceAndTimeExactly) {
 
 TEST(VectorSeries, HasNoVectorBeyondItsGridAndTheOutermostUpToItsFaces) {
     const auto along = [](const glm::dvec3& p) { return glm::vec3(p); };
-    const VectorSeries series({sampled({4, 4, 4}, {-1, 0, 2}, 0.5, 0, along)}, names);
+    const VectorSeries series({sampled({4, 4, 4}, {-1, 0, 2}, 0.5, 0, along)}, gridNames);
     const VectorSeries::Moment moment = series.momentAt(0);
     EXPECT_FALSE(moment.at({-1.001, 1, 3}));
     EXPECT_FALSE(moment.at({0, 2.001, 3}));
@@ -68,7 +68,7 @@ TEST(VectorSeries, HasNoVectorBeyondItsGridAndTheOutermostUpToItsFaces) {
     ASSERT_TRUE(moment.at({-0.999, 1, 3}));
     EXPECT_NEAR(moment.at({-0.999, 1, 3})->x, -0.75f, 1e-6f);
     EXPECT_NEAR(moment.at({0.999, 1, 3})->x, 0.75f, 1e-6f);
-    const VectorSeries flat({sampled({1, 1, 1}, {0, 0, 0}, 1, 0, along)}, names);
+    const VectorSeries flat({sampled({1, 1, 1}, {0, 0, 0}, 1, 0, along)}, gridNames);
     EXPECT_NEAR(flat.momentAt(0).at({0.1, 0.9, 0.5})->x, 0.5f, 1e-6f);
 }
 
@@ -76,7 +76,7 @@ TEST(VectorSeries, StandsStillBeforeItsFirstAndAfterItsLastTime) {
     std::vector<VectorGrid> grids;
     for (const double time : {2.0, 4.0})
         grids.push_back(sampled({2, 2, 2}, {0, 0, 0}, 1, time, [&](const glm::dvec3&) { return glm::vec3(time); }));
-    const VectorSeries series(grids, names);
+    const VectorSeries series(grids, gridNames);
     for (const auto& [time, expected] :
          std::vector<std::pair<double, float>>{{0, 2}, {2, 2}, {2.5, 2.5f}, {4, 4}, {9, 4}})
         EXPECT_NEAR(series.momentAt(time).at({1, 1, 1})->x, expected, 1e-6f) << time;
@@ -87,7 +87,7 @@ TEST(VectorSeries, OfSparseGridsReachesAsFarAsAnyOfThem) {
     std::vector<VectorGrid> grids{sampled({2, 2, 2}, {0, 0, 0}, 0.5, 0, one),
                                   sampled({2, 3, 2}, {-1, 0.5, 0}, 0.5, 1, one)};
     for (VectorGrid& grid : grids) grid.sparse = true;
-    const VectorSeries series(grids, names);
+    const VectorSeries series(grids, gridNames);
     EXPECT_EQ(*series.momentAt(0).at({0.5, 0.5, 0.5}), glm::vec3(1, 2, 3));
     EXPECT_EQ(*series.momentAt(1).at({-0.5, 1.25, 0.5}), glm::vec3(1, 2, 3));
     EXPECT_EQ(*series.momentAt(0).at({-0.75, 1.25, 0.5}), glm::vec3(0));
@@ -102,7 +102,7 @@ TEST(VectorSeries, RefusesGridsThatDifferAndTimesThatDoNotGrow) {
                                       sampled(cells, origin, spacing, 0, none)};
         grids[1].timeSeconds = time;
         for (VectorGrid& grid : grids) grid.sparse = sparse;
-        return inputError([&] { const VectorSeries series(grids, names); });
+        return inputError([&] { const VectorSeries series(grids, gridNames); });
     };
     EXPECT_NE(refused({2, 2, 3}, {0, 0, 0}, 1, 2).find("b.vti: lies on another grid"), std::string::npos);
     EXPECT_NE(refused({2, 2, 2}, {1, 0, 0}, 1, 2).find("another grid"), std::string::npos);
@@ -111,7 +111,7 @@ TEST(VectorSeries, RefusesGridsThatDifferAndTimesThatDoNotGrow) {
     EXPECT_NE(refused({2, 2, 2}, {0, 0, 0}, 1, 1).find("after 1 s"), std::string::npos);
     EXPECT_NE(refused({2, 2, 2}, {0, 0, 0}, 1, 0.5).find("after 1 s"), std::string::npos);
     EXPECT_NE(refused({2, 2, 2}, {0, 0, 0}, 1, std::nullopt).find("no time"), std::string::npos);
-    EXPECT_NE(inputError([] { const VectorSeries series(std::vector<VectorGrid>{}, names); }), "");
+    EXPECT_NE(inputError([] { const VectorSeries series(std::vector<VectorGrid>{}, gridNames); }), "");
 }
 
 TEST(VectorSeries, FindsFilesByAPattern) {

@@ -10,7 +10,7 @@ namespace {
 
 using files::TomlReader;
 
-void readPlace(TomlReader& file, VolumeSetup& setup) {
+void readSetupPlace(TomlReader& file, VolumeSetup& setup) {
     setup.zUp = file.has("up") && file.choice("up", {"y", "z"}) == "z";
     setup.metresPerUnit = file.number("scale", 1e-6, 1e6, setup.metresPerUnit);
     setup.position = file.vector3("position", setup.position);
@@ -62,7 +62,7 @@ VolumeSetup readVolumeSetup(const std::filesystem::path& path) {
     setup.description = file.text("description", "");
     setup.files = path.parent_path() / file.text("files");
     if (file.has("seconds_per_file")) setup.secondsPerFile = file.number("seconds_per_file", 1e-6, 1e6);
-    readPlace(file, setup);
+    readSetupPlace(file, setup);
     if (file.has("fields")) readFields(file.table("fields"), setup.fields);
     if (file.has("look")) readLook(file.table("look"), path.parent_path(), setup);
     if (file.has("particles")) {

@@ -1,7 +1,6 @@
 #include "methods/kit/volumes/vti_file.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +15,6 @@
 namespace dustbench::volumes {
 namespace {
 
-constexpr std::int64_t maximumComponents = 64;
 /// Of a place or a distance.
 constexpr double maximumNumber = 1e9;
 
@@ -33,15 +31,6 @@ std::vector<Number> numbersIn(std::string_view text) {
         text.remove_prefix(length);
     }
     return list;
-}
-
-/// One of the words, or the first if the attribute is missing.
-std::size_t choice(const Tag& tag, std::string_view attribute, std::initializer_list<std::string_view> words) {
-    const auto* const found = tag.has(attribute) ? std::ranges::find(words, tag[attribute]) : words.begin();
-    if (found == words.end())
-        throw VolumeFault{fmt::format("its {} is '{}', allowed: {}", attribute, tag[attribute].substr(0, 40),
-                                      fmt::join(words, ", "))};
-    return static_cast<std::size_t>(found - words.begin());
 }
 
 std::int64_t countOf(const Tag& tag, std::string_view attribute, std::int64_t maximum) {
@@ -292,7 +281,7 @@ class VtiParser {
 
 namespace {
 
-InputError refused(const std::filesystem::path& file, const VolumeFault& fault) {
+InputError refusedVti(const std::filesystem::path& file, const VolumeFault& fault) {
     return InputError(fmt::format("{}: not a complete VTK image data file (.vti): {}", file.string(),
                                   files::printable(fault.reason)));
 }
@@ -306,7 +295,7 @@ VtiFile::VtiFile(std::string text, std::filesystem::path file) : file_(std::move
     try {
         VtiParser(*this, text_).run();
     } catch (const VolumeFault& fault) {
-        throw refused(file_, fault);
+        throw refusedVti(file_, fault);
     }
 }
 
@@ -319,7 +308,7 @@ std::vector<float> VtiFile::numbersOf(const VtiArray& array) const {
     try {
         return readNumbers<float>(array.stored, form_);
     } catch (const VolumeFault& fault) {
-        throw refused(file_, {fmt::format("'{}': {}", array.name, fault.reason)});
+        throw refusedVti(file_, {fmt::format("'{}': {}", array.name, fault.reason)});
     }
 }
 
@@ -327,7 +316,7 @@ void VtiFile::streamNumbers(const VtiArray& array, const std::function<void(std:
     try {
         volumes::streamNumbers(array.stored, form_, take);
     } catch (const VolumeFault& fault) {
-        throw refused(file_, {fmt::format("'{}': {}", array.name, fault.reason)});
+        throw refusedVti(file_, {fmt::format("'{}': {}", array.name, fault.reason)});
     }
 }
 
@@ -337,7 +326,7 @@ std::optional<double> VtiFile::fieldNumber(std::string_view name) const {
     try {
         return readNumbers<double>(found->stored, form_).front();
     } catch (const VolumeFault& fault) {
-        throw refused(file_, {fmt::format("'{}': {}", name, fault.reason)});
+        throw refusedVti(file_, {fmt::format("'{}': {}", name, fault.reason)});
     }
 }
 

@@ -8,12 +8,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 namespace dustbench::volumes {
+
+/// Of an array: numbers of one point or cell.
+inline constexpr std::int64_t maximumComponents = 64;
 
 struct NumberType {
     std::string_view name;  ///< `Float32`

@@ -1,7 +1,6 @@
 #include "methods/kit/volumes/vtp_file.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -16,19 +15,9 @@
 namespace dustbench::volumes {
 namespace {
 
-constexpr std::int64_t maximumComponents = 64;
-
-std::size_t choice(const Tag& tag, std::string_view attribute, std::initializer_list<std::string_view> words) {
-    const auto* const found = tag.has(attribute) ? std::ranges::find(words, tag[attribute]) : words.begin();
-    if (found == words.end())
-        throw VolumeFault{fmt::format("its {} is '{}', allowed: {}", attribute, tag[attribute].substr(0, 40),
-                                      fmt::join(words, ", "))};
-    return static_cast<std::size_t>(found - words.begin());
-}
-
 /// A whole number minimum..maximum; `initial` if the attribute is missing.
-std::int64_t countOf(const Tag& tag, std::string_view attribute, std::int64_t minimum, std::int64_t maximum,
-                     std::int64_t initial) {
+std::int64_t wholeNumberOf(const Tag& tag, std::string_view attribute, std::int64_t minimum, std::int64_t maximum,
+                           std::int64_t initial) {
     if (!tag.has(attribute)) return initial;
     const std::string_view text = trimmed(tag[attribute]);
     std::int64_t count = 0;
@@ -129,7 +118,7 @@ class VtpParser {
 
     void openPiece(const Tag& tag) {
         seenPiece_ = true;
-        points_ = static_cast<std::size_t>(countOf(tag, "NumberOfPoints", 0, files::limits::dustParticles, 0));
+        points_ = static_cast<std::size_t>(wholeNumberOf(tag, "NumberOfPoints", 0, files::limits::dustParticles, 0));
         // No compression of VTK's puts 8,192 bytes into one.
         if (static_cast<double>(points_) * 3 * sizeof(float) > 8192.0 * static_cast<double>(text_.size()))
             throw VolumeFault{
@@ -140,7 +129,7 @@ class VtpParser {
     void openArray(const Tag& tag) {
         array_.emplace();
         array_->name = inside() == "Points" ? pointsColumn : tag["Name"];
-        array_->components = static_cast<int>(countOf(tag, "NumberOfComponents", 1, maximumComponents, 1));
+        array_->components = static_cast<int>(wholeNumberOf(tag, "NumberOfComponents", 1, maximumComponents, 1));
         if (inside() == "Points" && array_->components != 3) throw VolumeFault{"its points have not three coordinates"};
         array_->stored.type = findNumberType(tag["type"]);
         if (!array_->stored.type && tag["type"] != "String" && tag["type"] != "Bit")
@@ -149,7 +138,7 @@ class VtpParser {
         if (!isCells(inside())) {
             const bool isField = inside() == "FieldData";
             const std::int64_t expected = isField ? 1 : static_cast<std::int64_t>(points_);
-            const std::int64_t said = countOf(tag, "NumberOfTuples", 0, files::limits::dustParticles, expected);
+            const std::int64_t said = wholeNumberOf(tag, "NumberOfTuples", 0, files::limits::dustParticles, expected);
             if (!isField && said != expected)
                 throw VolumeFault{fmt::format("NumberOfTuples of an array is {}, expected {}", said, expected)};
             array_->stored.count = static_cast<std::size_t>(array_->components) * static_cast<std::size_t>(said);
@@ -157,7 +146,7 @@ class VtpParser {
         const std::size_t form = choice(tag, "format", {"ascii", "binary", "appended"});
         array_->stored.form = form == 0 ? StoredNumbers::Form::ascii : StoredNumbers::Form::base64;
         array_->stored.endsThere = form != 2;
-        if (form == 2) array_->offset = static_cast<std::size_t>(countOf(tag, "offset", 0, INT64_C(1) << 40, 0));
+        if (form == 2) array_->offset = static_cast<std::size_t>(wholeNumberOf(tag, "offset", 0, INT64_C(1) << 40, 0));
     }
 
     void takeText(std::string_view text) {

@@ -23,7 +23,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr int count = 7;
+constexpr int cloudPoints = 7;
 
 vtkNew<vtkPolyData> cloud() {
     vtkNew<vtkPolyData> data;
@@ -36,7 +36,7 @@ vtkNew<vtkPolyData> cloud() {
     radius->SetName("R");
     id->SetName("id");
     velocity->SetName("velocity");
-    for (vtkIdType i = 0; i < count; ++i) {
+    for (vtkIdType i = 0; i < cloudPoints; ++i) {
         points->InsertNextPoint(0.5 * static_cast<double>(i), 1, -2);
         vertices->InsertNextCell(1, &i);
         radius->InsertNextValue(0.1 * static_cast<double>(i + 1));
@@ -59,7 +59,7 @@ vtkNew<vtkPolyData> cloud() {
     return data;
 }
 
-PointTable readAll(const std::filesystem::path& file) {
+PointTable readCloud(const std::filesystem::path& file) {
     return readVtp(file, [](std::string_view) { return true; });
 }
 
@@ -77,7 +77,7 @@ TEST(VtpFile, ReadsWhatVtkWritesInEveryForm) {
                 writer->SetCompressorType(compressor);
                 writer->SetEncodeAppendedData(base64);
                 ASSERT_EQ(writer->Write(), 1);
-                const PointTable table = readAll(file);
+                const PointTable table = readCloud(file);
                 ASSERT_EQ(table.points, 7u);
                 EXPECT_EQ(table.timeSeconds, 2.25);
                 EXPECT_THAT(table.find("id")->values, ElementsAre(100, 99, 98, 97, 96, 95, 94));
@@ -116,7 +116,7 @@ TEST(VtpFile, EveryCutIsRefused) {
     // Its last byte ends a line after the root.
     for (std::size_t length = 0; length + 2 < whole.size(); ++length) {
         folder.write("cut.vtp", whole.substr(0, length));
-        EXPECT_THAT(inputError([&] { (void)readAll(folder.path() / "cut.vtp"); }), HasSubstr("cut.vtp: "));
+        EXPECT_THAT(inputError([&] { (void)readCloud(folder.path() / "cut.vtp"); }), HasSubstr("cut.vtp: "));
         if (HasFailure()) break;
     }
 }
@@ -125,7 +125,7 @@ TEST(VtpFile, WhatIsNoPolyDataOrLiesAboutItsLengthIsRefused) {
     const TestFolder folder;
     const auto refusal = [&](const std::string& text) {
         const auto file = folder.write("a.vtp", text);
-        return inputError([&] { (void)readAll(file); });
+        return inputError([&] { (void)readCloud(file); });
     };
     const auto with = [](const std::string& piece) {
         return "<VTKFile type=\"PolyData\"><PolyData>" + piece + "</PolyData></VTKFile>";
@@ -139,7 +139,7 @@ TEST(VtpFile, WhatIsNoPolyDataOrLiesAboutItsLengthIsRefused) {
     EXPECT_THAT(refusal(with("<Piece NumberOfPoints=\"1\"/>")), HasSubstr("it has no points"));
     EXPECT_THAT(refusal(with("<Piece NumberOfPoints=\"1\">" + points + "</Piece><Piece NumberOfPoints=\"1\"/>")),
                 HasSubstr("where none belongs"));
-    EXPECT_EQ(readAll(folder.write("b.vtp", with("<Piece NumberOfPoints=\"1\">" + points + "</Piece>"))).points, 1u);
+    EXPECT_EQ(readCloud(folder.write("b.vtp", with("<Piece NumberOfPoints=\"1\">" + points + "</Piece>"))).points, 1u);
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include "methods/kit/volumes/xml_scan.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 namespace dustbench::volumes {
@@ -12,6 +15,14 @@ constexpr std::string_view blanks = " \t\r\n";
 std::string_view trimmed(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
     return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
+
+std::size_t choice(const Tag& tag, std::string_view attribute, std::initializer_list<std::string_view> words) {
+    const auto* const found = tag.has(attribute) ? std::ranges::find(words, tag[attribute]) : words.begin();
+    if (found == words.end())
+        throw VolumeFault{fmt::format("its {} is '{}', allowed: {}", attribute, tag[attribute].substr(0, 40),
+                                      fmt::join(words, ", "))};
+    return static_cast<std::size_t>(found - words.begin());
 }
 
 std::string_view XmlScan::next(std::optional<Tag>& tag) {

@@ -2,6 +2,8 @@
 // entities are refused or left as they are; nothing nests on the stack.
 #pragma once
 
+#include <cstddef>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,6 +31,11 @@ struct Tag {
 
 /// Without blanks at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/// The place among the words of what an attribute says; the first if the tag has none of that name. Throws VolumeFault
+/// for another word.
+[[nodiscard]] std::size_t choice(const Tag& tag, std::string_view attribute,
+                                 std::initializer_list<std::string_view> words);
 
 /// Keeps views into the text. Members throw VolumeFault.
 class DUSTBENCH_API XmlScan {

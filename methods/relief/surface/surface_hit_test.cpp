@@ -8,7 +8,7 @@
 namespace dustbench::relief {
 namespace {
 
-scene::Relief randomRelief(int columns, int rows, unsigned seed) {
+scene::Relief randomGreyRelief(int columns, int rows, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> depth(0, 1);
     scene::Relief relief{columns, rows, {}, {}};
@@ -34,7 +34,7 @@ std::optional<double> marched(const DepthMap& map, const glm::dvec3& from, const
 
 // The march may step over a sliver of the surface and then hits later or not at all; it never hits earlier.
 TEST_F(SurfaceHitTest, AMillionRandomSegmentsMeetTheSurfaceWhereAMarchDoesOrBefore) {
-    const DepthMap map(randomRelief(23, 17, 5), ledger_);
+    const DepthMap map(randomGreyRelief(23, 17, 5), ledger_);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> u(-4, 27), v(-4, 21), d(-0.2, 1.05), length(0, 1);
     constexpr int steps = 64;

@@ -9,7 +9,7 @@
 namespace dustbench::relief {
 namespace {
 
-scene::Relief randomRelief(int columns, int rows, unsigned seed) {
+scene::Relief randomDepths(int columns, int rows, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> depth(0, 1);
     scene::Relief relief{columns, rows, {}, {}};
@@ -35,7 +35,7 @@ std::vector<std::uint32_t> copied(std::span<const std::uint32_t> values) {
 
 TEST(WornSurface, GatherAndScatterGiveTheSameBitsInAnyOrderOfHits) {
     for (const unsigned seed : {1u, 2u, 3u}) {
-        const scene::Relief relief = randomRelief(61, 43, seed);
+        const scene::Relief relief = randomDepths(61, 43, seed);
         MemoryLedger ledger;
         WornSurface gathered(relief, ledger), scattered(relief, ledger);
         for (int round = 0; round < 4; ++round) {
@@ -54,7 +54,7 @@ TEST(WornSurface, GatherAndScatterGiveTheSameBitsInAnyOrderOfHits) {
 
 // Many pits on a large surface are written in the order of tiles; some lie beside the map or at its rim.
 TEST(WornSurface, PitsInTheOrderOfTilesGiveTheSameBits) {
-    const scene::Relief relief = randomRelief(470, 300, 5);
+    const scene::Relief relief = randomDepths(470, 300, 5);
     MemoryLedger ledger;
     WornSurface gathered(relief, ledger), scattered(relief, ledger);
     std::vector<Impact> impacts = randomImpacts(2000, 476, 306, 8);
@@ -70,7 +70,7 @@ TEST(WornSurface, PitsInTheOrderOfTilesGiveTheSameBits) {
 }
 
 TEST(WornSurface, TenThousandHitsKeepTheVolumeExactly) {
-    const scene::Relief relief = randomRelief(128, 64, 9);
+    const scene::Relief relief = randomDepths(128, 64, 9);
     MemoryLedger ledger;
     WornSurface surface(relief, ledger);
     for (unsigned round = 0; round < 10; ++round) {
@@ -114,7 +114,7 @@ TEST(WornSurface, DepthStaysBetweenFaceAndBottom) {
 
 TEST(WornSurface, SaysWhatChanged) {
     MemoryLedger ledger;
-    WornSurface surface(randomRelief(50, 40, 1), ledger);
+    WornSurface surface(randomDepths(50, 40, 1), ledger);
     EXPECT_EQ(surface.takeChanged().endColumn, 50);
     EXPECT_TRUE(surface.takeChanged().empty());
     surface.scatter(std::vector<Impact>{{10, 20, 2, 500}});

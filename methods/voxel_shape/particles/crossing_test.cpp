@@ -5,21 +5,15 @@
 
 #include <algorithm>
 
+#include "methods/voxel_shape/particles/test_ledger.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"
 
 namespace dustbench::voxel_shape {
 namespace {
 
-constexpr float dt = 1.0f / 60;
-
-MemoryLedger& ledger() {
-    static MemoryLedger one;
-    return one;
-}
-
 /// Returns a block of 8³ voxels of 0.25 m around a moving point.
-ShapeSystem blockAt(const Pose& pose, std::uint64_t seed) {
+ShapeSystem crossedBlock(const Pose& pose, std::uint64_t seed) {
     MarkedVoxels marked(Lattice{{8, 8, 8}, glm::vec3(-1), 0.25f});
     std::ranges::fill(marked.marked, std::uint8_t{1});
     ShapeSystem system(ledger(), marked, Voxel(), seed);
@@ -36,8 +30,8 @@ Pose movingAt(const glm::vec3& position, const glm::vec3& velocity) {
 }
 
 TEST(Crossing, DrawsAlongThoseParticlesAloneThatAreInTheOthersVoxels) {
-    ShapeSystem still = blockAt({}, 1);
-    const ShapeSystem moving = blockAt(movingAt({1.5f, 0, 0}, {4, 0, 0}), 2);
+    ShapeSystem still = crossedBlock({}, 1);
+    const ShapeSystem moving = crossedBlock(movingAt({1.5f, 0, 0}, {4, 0, 0}), 2);
     const std::size_t met = drawAlong(still, moving, 0.25f);
     std::size_t within = 0;
     const particles::ParticleStore& s = still.particles().store;
@@ -51,7 +45,7 @@ TEST(Crossing, DrawsAlongThoseParticlesAloneThatAreInTheOthersVoxels) {
 }
 
 TEST(Crossing, GivesTheVelocityOfTheOthersMatterWhereTheParticleIs) {
-    ShapeSystem still = blockAt({}, 1);
+    ShapeSystem still = crossedBlock({}, 1);
     Pose pose = movingAt({0.4f, 0.1f, 0}, {1, 0, 0});
     pose.angularVelocity = {0, 3, 1};
     pose.growth = 0.5f;
@@ -77,8 +71,8 @@ TEST(Crossing, GivesTheVelocityOfTheOthersMatterWhereTheParticleIs) {
 }
 
 TEST(Crossing, LeavesAloneWhoMovesAsTheOtherDoes) {
-    ShapeSystem one = blockAt(movingAt({0, 0, 0}, {3, 1, 0}), 1);
-    const ShapeSystem other = blockAt(movingAt({0.5f, 0, 0}, {3, 1, 0}), 2);
+    ShapeSystem one = crossedBlock(movingAt({0, 0, 0}, {3, 1, 0}), 1);
+    const ShapeSystem other = crossedBlock(movingAt({0.5f, 0, 0}, {3, 1, 0}), 2);
     const std::uint64_t before = one.stateHash();
     EXPECT_GT(drawAlong(one, other, 0.5f), 1000u);
     EXPECT_EQ(one.stateHash(), before);
@@ -88,8 +82,8 @@ TEST(Crossing, IsTheSameAtAnyNumberOfThreads) {
     const auto hashAt = [](int threads) {
         std::uint64_t hash = 0;
         tbb::task_arena(threads).execute([&] {
-            ShapeSystem a = blockAt({}, 1);
-            const ShapeSystem b = blockAt(movingAt({0.7f, 0.3f, 0}, {1, 2, 3}), 2);
+            ShapeSystem a = crossedBlock({}, 1);
+            const ShapeSystem b = crossedBlock(movingAt({0.7f, 0.3f, 0}, {1, 2, 3}), 2);
             drawAlong(a, b, 0.3f);
             hash = a.stateHash();
         });

@@ -2,19 +2,14 @@
 #include <gtest/gtest.h>
 
 #include "methods/voxel_shape/particles/shape_system.h"
+#include "methods/voxel_shape/particles/test_ledger.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"
 
 namespace dustbench::voxel_shape {
 namespace {
 
-constexpr float dt = 1.0f / 60;
 constexpr std::uint32_t wanted = 5000;
-
-MemoryLedger& ledger() {
-    static MemoryLedger one;
-    return one;
-}
 
 Motion law(bool fullVoxelsRefuse) {
     Motion motion;

@@ -6,14 +6,10 @@
 #include <random>
 
 #include "methods/kit/particles/particle_store.h"
+#include "methods/voxel_shape/particles/test_ledger.h"
 
 namespace dustbench::voxel_shape {
 namespace {
-
-MemoryLedger& ledger() {
-    static MemoryLedger one;
-    return one;
-}
 
 /// Returns a block of 8³ voxels of 0.25 m.
 ShapeSystem blockAt(const glm::vec3& position) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "methods/voxel_shape/particles/shape_system.h"
+#include "methods/voxel_shape/particles/test_ledger.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"
 
@@ -15,11 +16,6 @@ namespace dustbench::voxel_shape {
 namespace {
 
 using Random = std::mt19937;
-
-MemoryLedger& ledger() {
-    static MemoryLedger one;
-    return one;
-}
 
 int between(Random& random, int low, int high) {
     return std::uniform_int_distribution<int>(low, high)(random);
@@ -165,7 +161,6 @@ double kolmogorovSmirnov(std::vector<float> a, std::vector<float> b) {
 }
 
 TEST(OneMoment, MakesAShapeAtAnyConstantSpeedLookAsAtRest) {
-    constexpr float dt = 1.0f / 60;
     const scene::Mesh ball = sphereMesh(1, 20);
     for (unsigned seed = 1; seed <= 6; ++seed) {
         Random random(seed);
@@ -218,7 +213,6 @@ bool liesInShape(const ShapeSystem& system, std::size_t i) {
 }
 
 TEST(OneMoment, LeavesBehindExactlyWhatLiesOutsideWhereAShapeJumps) {
-    constexpr float dt = 1.0f / 60;
     for (unsigned seed = 1; seed <= 20; ++seed) {
         Random random(seed);
         const scene::Mesh ball = sphereMesh(1, 20);
@@ -251,7 +245,6 @@ TEST(OneMoment, LeavesBehindExactlyWhatLiesOutsideWhereAShapeJumps) {
 TEST(OneMoment, LetsParticlesKeepTheirMomentumWhereAShapeAcceleratesTurnsOrGrows) {
     // Particles born at local r start from x(0) = r with v = velocityAt(r) and move straight; the shape moves by its
     // own law.
-    constexpr float dt = 1.0f / 60;
     const scene::Mesh ball = sphereMesh(1, 20);
     for (unsigned seed = 1; seed <= 10; ++seed) {
         Random random(seed);

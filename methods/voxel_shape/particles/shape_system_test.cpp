@@ -9,18 +9,12 @@
 #include <map>
 #include <set>
 
+#include "methods/voxel_shape/particles/test_ledger.h"
 #include "methods/voxel_shape/voxels/surface_voxels.h"
 #include "methods/voxel_shape/voxels/test_meshes.h"
 
 namespace dustbench::voxel_shape {
 namespace {
-
-constexpr float dt = 1.0f / 60;
-
-MemoryLedger& ledger() {
-    static MemoryLedger one;
-    return one;
-}
 
 /// Returns a row of active voxels of 1 m along x, starting at (0, 0, 0).
 MarkedVoxels rowOfVoxels(int count) {

@@ -21,12 +21,12 @@ namespace {
 
 using Handle = nanovdb::GridHandle<nanovdb::HostBuffer>;
 
-struct Named {
+struct NanoName {
     std::string name;
     int components = 1;
 };
 
-struct Chosen {
+struct NanoChoice {
     const WantedField* wanted;
     Handle handle;
 };
@@ -146,12 +146,12 @@ void putValues(const Grid& grid, const nanovdb::CoordBBox& box) {
             }
 }
 
-std::vector<Chosen> choose(const std::string& file, const std::array<WantedField, 3>& wanted) {
-    std::vector<Named> present;
+std::vector<NanoChoice> choose(const std::string& file, const std::array<WantedField, 3>& wanted) {
+    std::vector<NanoName> present;
     for (const auto& each : nanovdb::io::readGridMetaData(file))
         present.push_back({each.gridName, componentsOf(each.gridType)});
     if (present.empty()) throw Refusal{notWholeOf(file)};
-    std::vector<Chosen> chosen;
+    std::vector<NanoChoice> chosen;
     for (const WantedField& each : wanted)
         if (const int at = chosenField<Refusal>(each, present); at >= 0)
             chosen.push_back({&each, nanovdb::io::readGrid(file, static_cast<std::uint64_t>(at))});
@@ -162,7 +162,7 @@ std::vector<Chosen> choose(const std::string& file, const std::array<WantedField
 
 void answerNanoVolume(const std::string& file, const VolumeFields& fields) {
     const auto wanted = wantedFields(fields);
-    std::vector<Chosen> chosen = choose(file, wanted);
+    std::vector<NanoChoice> chosen = choose(file, wanted);
     Lattice lattice;
     visit(chosen[0].handle, [&](const auto& grid) {
         lattice = latticeOf(grid);
@@ -175,7 +175,7 @@ void answerNanoVolume(const std::string& file, const VolumeFields& fields) {
     const double cells = countOf(lattice.box);
     if (!(cells >= 1)) throw Refusal{"its density is zero everywhere"};
     if (cells > static_cast<double>(maximumCells(fields))) throw Refusal{tooManyCells(fields)};
-    std::erase_if(chosen, [&](const Chosen& each) {
+    std::erase_if(chosen, [&](const NanoChoice& each) {
         bool isThere = true;
         visit(each.handle, [&](const auto& grid) { isThere = latticeOf(grid) == lattice; });
         if (!isThere && each.wanted->isRequired)
@@ -190,7 +190,7 @@ void answerNanoVolume(const std::string& file, const VolumeFields& fields) {
         message.origin[axis] = lattice.origin[axis] + (lattice.box.min()[axis] - 0.5) * lattice.spacing;
     }
     put(message);
-    for (const Chosen& each : chosen) {
+    for (const NanoChoice& each : chosen) {
         put(columnOf(*each.wanted));
         visit(each.handle, [&](const auto& grid) { putValues(grid, lattice.box); });
     }

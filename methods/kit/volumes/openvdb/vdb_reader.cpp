@@ -44,7 +44,7 @@ openvdb::Vec3SGrid::Ptr readGrid(const std::string& file, const std::string& fie
     return vectors;
 }
 
-openvdb::CoordBBox boxOf(const openvdb::Vec3SGrid& grid) {
+openvdb::CoordBBox boxOfVectors(const openvdb::Vec3SGrid& grid) {
     const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
     if (!grid.transform().isLinear() || !grid.hasUniformVoxels() || !(grid.voxelSize()[0] > 0))
         throw Refusal{"its cells are no cubes"};
@@ -152,7 +152,7 @@ std::vector<Column> columnsOf(const PointDataGrid& grid) {
 
 [[noreturn]] void runVectors(const std::string& file, const std::string& field) {
     const openvdb::Vec3SGrid::Ptr grid = readGrid(file, field);
-    const openvdb::CoordBBox box = boxOf(*grid);
+    const openvdb::CoordBBox box = boxOfVectors(*grid);
     put(messageOf(*grid, box));
     putDense<openvdb::Vec3s>(*grid, box);
     finish();
