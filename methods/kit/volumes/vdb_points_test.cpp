@@ -18,7 +18,8 @@ using testing::HasSubstr;
 constexpr int count = 500;
 
 openvdb::Vec3f placeOf(int i) {
-    return {0.1f * static_cast<float>(i % 10), 0.3f * static_cast<float>(i / 10), -0.01f * static_cast<float>(i)};
+    const int column = i % 10, row = i / 10;
+    return {0.1f * static_cast<float>(column), 0.3f * static_cast<float>(row), -0.01f * static_cast<float>(i)};
 }
 
 std::string writtenPoints(const TestFolder& folder) {

@@ -110,7 +110,7 @@ class VtpParser {
         if (tag["type"] != "PolyData") throw VolumeFault{"it is no poly data"};
         form_.isBigEndian = choice(tag, "byte_order", {"LittleEndian", "BigEndian"}) == 1;
         form_.wordBytes = choice(tag, "header_type", {"UInt32", "UInt64"}) == 1 ? 8 : 4;
-        if (tag.has("compressor") && tag["compressor"] != "")
+        if (tag.has("compressor") && !tag["compressor"].empty())
             form_.compressor = choice(tag, "compressor", {"vtkZLibDataCompressor", "vtkLZ4DataCompressor"}) == 0
                                    ? Compressor::zlib
                                    : Compressor::lz4;
