@@ -16,6 +16,9 @@ namespace {
 constexpr int slabsAtATime = 4;
 constexpr std::size_t rowsInABlock = 8;
 constexpr std::size_t together = SixteenRecords::count;
+using FieldStrip = CornerStrip<Memory::whole, Reads::samples>;
+using ExtremaStrip = CornerStrip<Memory::whole, Reads::extrema>;
+using WindowStrip = CornerStrip<Memory::ring, Reads::samples>;
 /// Cells by which a path may leave the region: along a wall speeds across it are rounding errors.
 constexpr float almost = pathTolerance;
 
@@ -175,7 +178,10 @@ void Advection::findCentres(const Pass& pass, int firstSlab, int lastSlab) {
                                    const int j = layout_.rowJ(r), k = firstSlab + layout_.rowK(r);
                                    const float* record = pass.cells.cell(layout_.at(0, j, k));
                                    float* to = rowOf(j, k) + 4;
-                                   for (std::size_t i = 0; i < nx; ++i, record += lanes, to += 4) {
+                                   std::size_t i = 0;
+                                   for (; i + 4 <= nx; i += 4, record += 4 * lanes, to += 16)
+                                       store(to, fourCentres(record, row, slab));
+                                   for (; i < nx; ++i, record += lanes, to += 4) {
                                        const Float4 own = load<Float4>(record);
                                        const Float4 next{record[lanes], (record + row)[1], (record + slab)[2], 0};
                                        store(to, 0.5f * (own + next));
@@ -242,21 +248,21 @@ void Advection::predict(const Pass& pass, int firstSlab, int lastSlab) {
     const bool corrected = pass.rule.scheme == AdvectionScheme::macCormack;
     const auto nx = static_cast<std::size_t>(layout_.nx), ny = static_cast<std::size_t>(layout_.ny);
     const float step = pass.cellsPerSpeed;
-    const auto predictStrip = [&](std::size_t first, std::size_t count, int j, int k, CornerStrip<false>& corners) {
+    const auto predictStrip = [&](std::size_t first, std::size_t count, int j, int k, FieldStrip& corners) {
         const std::size_t at = layout_.at(0, j, k) + first, there = corrected ? inWindow(at) : at;
         const Row paths(*this, halfway, j, k);
         const float* own = pass.cells.cell(at);
         const Moving* moving = pass.moving + at;
         for (std::size_t i = 0; i < count; i += together)
             corners.find(i, began(paths.at(first + i), here(first + i, j, k), step, layout_));
-        const CornerStrip<false>::Reader field(corners);
+        const FieldStrip::Reader field(corners);
         float* out = (corrected ? guesses() : pass.spare.data()) + there * lanes;
         for (std::size_t i = 0; i < count; ++i)
             storeRecord(out + i * lanes, chosen(moving[i], field.sample(i), load<Float8>(own + i * lanes)));
     };
     parallel::forEachBlock(
         static_cast<std::size_t>(lastSlab - firstSlab) * ny, rowsInABlock, [&](std::size_t first, std::size_t count) {
-            CornerStrip<false> strip(pass.field, layout_);
+            FieldStrip strip(pass.field, layout_);
             for (std::size_t r = first; r < first + count; ++r)
                 for (std::size_t i = 0; i < nx; i += stripCells)
                     predictStrip(i, std::min(stripCells, nx - i), layout_.rowJ(r), firstSlab + layout_.rowK(r), strip);
@@ -281,8 +287,8 @@ void Advection::findCorrections(const Pass& pass, int firstSlab, int lastSlab) {
     const auto nx = static_cast<std::size_t>(layout_.nx), ny = static_cast<std::size_t>(layout_.ny);
     const float step = pass.cellsPerSpeed;
     struct Strip {
-        CornerStrip<false> began;
-        CornerStrip<true> ended;
+        ExtremaStrip began;
+        WindowStrip ended;
         alignas(64) std::array<int, stripCells> within{};
     };
     const auto findInStrip = [&](std::size_t firstCell, std::size_t count, int j, int k, Strip& strip) {
@@ -302,8 +308,8 @@ void Advection::findCorrections(const Pass& pass, int firstSlab, int lastSlab) {
             store(&strip.within[i], within);
             strip.ended.find(i, places);
         }
-        const CornerStrip<true>::Reader ended(strip.ended);
-        const CornerStrip<false>::Reader field(strip.began);
+        const WindowStrip::Reader ended(strip.ended);
+        const ExtremaStrip::Reader field(strip.began);
         const Limit limit = pass.rule.limit;
         const Moving* moving = pass.moving + at;
         const float* own = pass.cells.cell(at);
@@ -326,16 +332,16 @@ void Advection::findCorrections(const Pass& pass, int firstSlab, int lastSlab) {
             storeRecord(out, chosen(corrected, value - first, Float8{}));
         }
     };
-    parallel::forEachBlock(
-        static_cast<std::size_t>(lastSlab - firstSlab) * ny, rowsInABlock, [&](std::size_t first, std::size_t count) {
-            Strip strip{CornerStrip<false>(pass.field, layout_), CornerStrip<true>(pass.window, layout_)};
-            for (std::size_t r = first; r < first + count; ++r) {
-                const int j = layout_.rowJ(r), k = firstSlab + layout_.rowK(r);
-                for (std::size_t i = 0; i < nx; i += stripCells)
-                    findInStrip(i, std::min(stripCells, nx - i), j, k, strip);
-                mirrorRow(pass.spare, layout_, j, k);
-            }
-        });
+    parallel::forEachBlock(static_cast<std::size_t>(lastSlab - firstSlab) * ny, rowsInABlock,
+                           [&](std::size_t first, std::size_t count) {
+                               Strip strip{ExtremaStrip(pass.field, layout_), WindowStrip(pass.window, layout_)};
+                               for (std::size_t r = first; r < first + count; ++r) {
+                                   const int j = layout_.rowJ(r), k = firstSlab + layout_.rowK(r);
+                                   for (std::size_t i = 0; i < nx; i += stripCells)
+                                       findInStrip(i, std::min(stripCells, nx - i), j, k, strip);
+                                   mirrorRow(pass.spare, layout_, j, k);
+                               }
+                           });
 }
 
 void Advection::addCorrections(const Pass& pass, int firstSlab, int lastSlab) {

@@ -45,7 +45,7 @@ void setSideFaces(CellField& cells, const CellLayout& layout, const GhostRule& r
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (const bool high : {false, true}) {
             const BoxSide side{axis, high, rule.sides[2 * axis + (high ? 1 : 0)]};
-            const int a = static_cast<int>(axis), b = (a + 1) % 3, c = (a + 2) % 3;
+            const int a = static_cast<int>(axis), b = a == 0 ? 1 : 0, c = 3 - a - b;  // along memory in the inner loop
             parallel::forEachBlock(static_cast<std::size_t>(size[c]), 16, [&](std::size_t first, std::size_t count) {
                 glm::ivec3 face(0);
                 face[a] = high ? size[a] : 0;

@@ -162,7 +162,7 @@ void forces(benchmark::State& state) {
     for (auto _ : state)
         applyForces(kernels.from, kernels.layout, kernels.solids.conductance(), kernels.solids.moving(),
                     kernels.plume.settings.forces, 1, 1e-9f, kernels.borrowed);
-    countBytes(state, 24 + 16 + 16 + 48);
+    countBytes(state, 24 + 20 + 24);
 }
 
 /// The whole projection: operator, divergence, solution and gradient.

@@ -78,11 +78,10 @@ StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> so
     }
     {
         const auto timing = clock.measureDetail("project");
+        ++steps_;
+        lastStepSeconds_ = stepSeconds;
         report.pressure = project(seconds);
     }
-    ++steps_;
-    lastStepSeconds_ = stepSeconds;
-    findMaximumSpeeds();
     report.divergencePerStep = report.pressure.residual * seconds / spacing;
     report.cellsPerStep = std::max({maximumSpeeds_.x, maximumSpeeds_.y, maximumSpeeds_.z}) * seconds / spacing;
     return report;
@@ -111,7 +110,7 @@ PressureResult FluidSolver::project(float seconds) {
     const PressureRule rule{settings_.pressure, settings_.jacobiSweeps, settings_.maximumCycles,
                             settings_.divergencePerStep * static_cast<float>(settings_.box.spacingMetres) / seconds};
     const PressureResult result = pressure_.solve(rule);
-    subtractGradient(cells_, layout_, solids_.conductance(), pressure_.finest());
+    note(subtractGradient(cells_, layout_, solids_.conductance(), pressure_.finest()));
     return result;
 }
 
@@ -170,41 +169,25 @@ void FluidSolver::diffuseVelocity(float seconds) {
 }
 
 void FluidSolver::findMaximumSpeeds() {
-    // Eight records are three vectors; place p of these 48 floats is lane p mod 6.
-    constexpr std::size_t vectors = 3, together = vectors * 16;
-    using Places = std::array<Float16, vectors>;
     std::mutex mutex;
-    std::array<float, lanes> maximum{};
-    bool lost = false;
+    FieldSurvey survey;
     parallel::forEachBlock(layout_.rows(), 128, [&](std::size_t first, std::size_t count) {
-        Places ofBlock{}, zero{};
-        const auto look = [&](const float* values) {
-            for (std::size_t v = 0; v < vectors; ++v) {
-                const auto value = load<Float16>(values + v * 16);
-                ofBlock[v] = atLeast(ofBlock[v], value < 0 ? -value : value);
-                zero[v] += value * 0.0f;  // not 0 if a value is not finite
-            }
-        };
-        const std::size_t floats = static_cast<std::size_t>(layout_.nx) * lanes;
-        for (std::size_t r = first; r < first + count; ++r) {
-            const float* row = cells_.cell(layout_.at(0, layout_.rowJ(r), layout_.rowK(r)));
-            std::size_t f = 0;
-            for (; f + together <= floats; f += together) look(row + f);
-            if (f == floats) continue;
-            std::array<float, together> rest{};
-            std::copy(row + f, row + floats, rest.begin());
-            look(rest.data());
-        }
+        FieldSurvey ofBlock;
+        for (std::size_t r = first; r < first + count; ++r)
+            ofBlock.look(cells_.cell(layout_.at(0, layout_.rowJ(r), layout_.rowK(r))),
+                         static_cast<std::size_t>(layout_.nx));
         const std::scoped_lock lock(mutex);
-        for (std::size_t p = 0; p < together; ++p) {
-            maximum[p % lanes] = std::max(maximum[p % lanes], ofBlock[p / 16][p % 16]);
-            lost |= !(zero[p / 16][p % 16] == 0);
-        }
+        survey.add(ofBlock);
     });
-    if (lost) throwLostNumber(cells_, layout_, steps_);
+    note(survey);
+}
+
+void FluidSolver::note(const FieldSurvey& survey) {
+    if (!survey.finite()) throwLostNumber(cells_, layout_, steps_);
+    const auto greatest = survey.greatest();
     for (int axis = 0; axis < 3; ++axis)
         maximumSpeeds_[axis] =
-            std::max(maximum[static_cast<std::size_t>(axis)], std::fabs(settings_.windMetresPerSecond[axis]));
+            std::max(greatest[static_cast<std::size_t>(axis)], std::fabs(settings_.windMetresPerSecond[axis]));
     speedsKnown_ = true;
 }
 

@@ -12,6 +12,7 @@
 
 #include "methods/grid_fluid/flow/advection.h"
 #include "methods/grid_fluid/flow/box_ghosts.h"
+#include "methods/grid_fluid/flow/field_survey.h"
 #include "methods/grid_fluid/flow/projection.h"
 #include "methods/grid_fluid/flow/solid_cells.h"
 #include "methods/grid_fluid/flow/solver.h"
@@ -58,6 +59,8 @@ class FluidSolver final : public Solver {
     void advect(float stepSeconds);
     PressureResult project(float stepSeconds);
     void findMaximumSpeeds();
+    /// Keeps the greatest speeds. Throws InputError where a number of the state is not finite.
+    void note(const FieldSurvey& survey);
     [[nodiscard]] std::size_t floatsToLend() const;
     [[nodiscard]] std::span<float> borrowed() { return {spare_.data(), spare_.floats()}; }
     [[nodiscard]] GhostRule ghostRule() const {

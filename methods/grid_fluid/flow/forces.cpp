@@ -8,11 +8,12 @@
 #include "methods/grid_fluid/flow/row_tiles.h"
 #include "methods/grid_fluid/flow/sixteen_records.h"
 #include "methods/kit/parallel/for_each_block.h"
+#include "methods/kit/parallel/for_stages.h"
 
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-constexpr std::size_t forcedRows = 32;
+constexpr std::size_t diffusedRows = 32;
 constexpr std::size_t maximumForcedCells = 4096;
 /// Smaller values are set to 0: otherwise fading smoke becomes denormal numbers, which are slow.
 constexpr float nothing = 1e-18f;
@@ -29,6 +30,47 @@ struct Curl {
     float *x, *y, *z, *length;
     float* lift;  ///< of the forces, once they replace the curl: what does not turn the air
 };
+
+/// ω at the centres of a row: central differences of the speeds there, each the mean of two faces; and |ω|.
+void curlOfRow(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, float spacingMetres,
+               int j, int k, const Curl& curl) {
+    const float perFourCells = 0.25f / spacingMetres;
+    const auto nx = static_cast<std::size_t>(layout.nx);
+    const std::size_t row = layout.row * lanes, slab = layout.slab * lanes;
+    const std::size_t at = layout.at(0, j, k);
+    const std::size_t r =
+        static_cast<std::size_t>(k) * static_cast<std::size_t>(layout.ny) + static_cast<std::size_t>(j);
+    const float* own = cells.cell(at);
+    float *x = curl.x + r * nx, *y = curl.y + r * nx, *z = curl.z + r * nx, *length = curl.length + r * nx;
+    const auto cell = [&](std::size_t i) {
+        const float fluid = conductance[at + i] == 1 ? perFourCells : 0.0f;
+        const float* record = own + i * lanes;
+        // Of lane u between the neighbours a step ahead and behind; `half` leads to its other face.
+        const auto along = [record](std::size_t step, std::size_t half, std::size_t u) {
+            const auto forth = static_cast<std::ptrdiff_t>(step);
+            return (record[forth + static_cast<std::ptrdiff_t>(u)] +
+                    (record + half)[forth + static_cast<std::ptrdiff_t>(u)]) -
+                   (record[static_cast<std::ptrdiff_t>(u) - forth] +
+                    (record + half)[static_cast<std::ptrdiff_t>(u) - forth]);
+        };
+        x[i] = (along(row, slab, 2) - along(slab, row, 1)) * fluid;
+        y[i] = (along(slab, lanes, 0) - along(lanes, slab, 2)) * fluid;
+        z[i] = (along(lanes, row, 1) - along(row, lanes, 0)) * fluid;
+    };
+    const auto sixteenCells = [&](std::size_t i) {
+        const float* records = own + i * lanes;
+        const auto between = [records](std::size_t step, std::size_t half) {
+            return (SixteenRecords(records + step) + SixteenRecords(records + half + step)) -
+                   (SixteenRecords(records - step) + SixteenRecords(records + half - step));
+        };
+        store(x + i, (between(row, slab).get<2>() - between(slab, row).get<1>()) * perFourCells);
+        store(y + i, (between(slab, lanes).get<0>() - between(lanes, slab).get<2>()) * perFourCells);
+        store(z + i, (between(lanes, row).get<1>() - between(row, lanes).get<0>()) * perFourCells);
+    };
+    forCells(conductance + at, nx, sixteenCells, cell);
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < nx; ++i) length[i] = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+}
 
 /// f = ε·h·(N × ω), N = ∇|ω| / |∇|ω||, in place of ω. Beyond the box |ω| is extended.
 void confineRow(const Curl& curl, const CellLayout& layout, int j, int k, float strength) {
@@ -56,7 +98,7 @@ void confineRow(const Curl& curl, const CellLayout& layout, int j, int k, float 
 
 /// What is added to the faces of a row's cells, in m/s.
 struct AddedRow {
-    std::array<float, maximumForcedCells> x{}, y{}, z{};
+    std::array<float, maximumForcedCells> x, y, z;
     std::array<float, maximumForcedCells + 3> sum;  ///< over rows; see sumOfRows
 };
 
@@ -110,7 +152,11 @@ void facesOfRow(const Curl& force, const CellLayout& layout, int j, int k, bool 
     const float* liftBelow = j > 0 ? lift - nx : lift;
 #pragma GCC ivdep
     for (std::size_t i = 0; i < nx; ++i) row.y[i] = 0.5f * (liftBelow[i] + lift[i]);
-    if (!confined) return;
+    if (!confined) {
+        std::fill_n(row.x.begin(), nx, 0.0f);
+        std::fill_n(row.z.begin(), nx, 0.0f);
+        return;
+    }
     float* sum = row.sum.data() + 2;
     sumOfRows(force.x, layout, j, k, aroundCell, aroundCell, sum);
 #pragma GCC ivdep
@@ -148,6 +194,47 @@ void forMoving(const Moving* moving, std::size_t cells, const SixteenCells& sixt
     }
 }
 
+/// What a step changes in the cells of a row: forces on the faces, and decay at the centres.
+class Change {
+ public:
+    Change(const ForceSettings& settings, float stepSeconds)
+        : keptDensity_(std::exp(-settings.densityDecayPerSecond * stepSeconds)),
+          keptHeat_(std::exp(-settings.coolingPerSecond * stepSeconds)),
+          lost_(settings.reactionLossPerSecond * stepSeconds) {}
+
+    void row(CellField& cells, const CellLayout& layout, const Moving* moving, int j, int k,
+             const AddedRow& force) const {
+        const std::size_t at = layout.at(0, j, k);
+        float* records = cells.cell(at);
+        const auto cell = [&](std::size_t i) {
+            float* record = records + i * lanes;
+            const std::array<float, 3> added{force.x[i], force.y[i], force.z[i]};
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                if ((moving[at + i] >> axis & 1) != 0) record[axis] = orNothing(record[axis] + added[axis]);
+            if ((moving[at + i] & 8) == 0) return;
+            record[density] = orNothing(record[density] * keptDensity_);
+            record[temperature] = orNothing(record[temperature] * keptHeat_);
+            record[reaction] = std::max(orNothing(record[reaction] - lost_), 0.0f);
+        };
+        const auto sixteenCells = [&](std::size_t i) {
+            SixteenRecords::Quantities now = SixteenRecords(records + i * lanes).all();
+            now[velocityX] += load<Float16>(&force.x[i]);
+            now[velocityY] += load<Float16>(&force.y[i]);
+            now[velocityZ] += load<Float16>(&force.z[i]);
+            now[density] *= keptDensity_;
+            now[temperature] *= keptHeat_;
+            now[reaction] -= lost_;
+            for (Float16& quantity : now) quantity = quantity > nothing || quantity < -nothing ? quantity : Float16{};
+            now[reaction] = atLeast(now[reaction], Float16{});
+            SixteenRecords(now).storeTo(records + i * lanes);
+        };
+        forMoving(moving + at, static_cast<std::size_t>(layout.nx), sixteenCells, cell);
+    }
+
+ private:
+    float keptDensity_, keptHeat_, lost_;
+};
+
 }  // namespace
 
 std::size_t forceFloats(const CellLayout& layout) {
@@ -157,94 +244,36 @@ std::size_t forceFloats(const CellLayout& layout) {
 void gatherCurl(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, float spacingMetres,
                 std::span<float> memory) {
     const Curl curl(layout, memory);
-    // Central differences of the speeds at the centres, each the mean of two faces.
-    const float perFourCells = 0.25f / spacingMetres;
-    const auto nx = static_cast<std::size_t>(layout.nx);
-    const std::size_t row = layout.row * lanes, slab = layout.slab * lanes;
     struct Nothing {};
-    forRowsInTiles<Nothing>(layout, [&](int j, int k, Nothing&) {
-        const std::size_t at = layout.at(0, j, k);
-        const std::size_t r =
-            static_cast<std::size_t>(k) * static_cast<std::size_t>(layout.ny) + static_cast<std::size_t>(j);
-        const float* own = cells.cell(at);
-        float *x = curl.x + r * nx, *y = curl.y + r * nx, *z = curl.z + r * nx, *length = curl.length + r * nx;
-        const auto cell = [&](std::size_t i) {
-            const float fluid = conductance[at + i] == 1 ? perFourCells : 0.0f;
-            const float* record = own + i * lanes;
-            // Of lane u between the neighbours a step ahead and behind; `half` leads to its other face.
-            const auto along = [record](std::size_t step, std::size_t half, std::size_t u) {
-                const auto forth = static_cast<std::ptrdiff_t>(step);
-                return (record[forth + static_cast<std::ptrdiff_t>(u)] +
-                        (record + half)[forth + static_cast<std::ptrdiff_t>(u)]) -
-                       (record[static_cast<std::ptrdiff_t>(u) - forth] +
-                        (record + half)[static_cast<std::ptrdiff_t>(u) - forth]);
-            };
-            x[i] = (along(row, slab, 2) - along(slab, row, 1)) * fluid;
-            y[i] = (along(slab, lanes, 0) - along(lanes, slab, 2)) * fluid;
-            z[i] = (along(lanes, row, 1) - along(row, lanes, 0)) * fluid;
-        };
-        const auto sixteenCells = [&](std::size_t i) {
-            const float* records = own + i * lanes;
-            const auto between = [records](std::size_t step, std::size_t half) {
-                return (SixteenRecords(records + step) + SixteenRecords(records + half + step)) -
-                       (SixteenRecords(records - step) + SixteenRecords(records + half - step));
-            };
-            store(x + i, (between(row, slab).get<2>() - between(slab, row).get<1>()) * perFourCells);
-            store(y + i, (between(slab, lanes).get<0>() - between(lanes, slab).get<2>()) * perFourCells);
-            store(z + i, (between(lanes, row).get<1>() - between(row, lanes).get<0>()) * perFourCells);
-        };
-        forCells(conductance + at, nx, sixteenCells, cell);
-#pragma GCC ivdep
-        for (std::size_t i = 0; i < nx; ++i) length[i] = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
-    });
+    forRowsInTiles<Nothing>(
+        layout, [&](int j, int k, Nothing&) { curlOfRow(cells, layout, conductance, spacingMetres, j, k, curl); });
 }
 
 void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, const Moving* moving,
                  const ForceSettings& settings, float spacingMetres, float stepSeconds, std::span<float> borrowed) {
     const Curl curl(layout, borrowed);
     const bool confined = settings.confinementPerSecond > 0;
-    if (confined) gatherCurl(cells, layout, conductance, spacingMetres, borrowed);
     const float strength = settings.confinementPerSecond * spacingMetres * stepSeconds;
     const float lift = settings.buoyancyPerKelvin * stepSeconds, weight = settings.weightPerDensity * stepSeconds;
-    parallel::forEachBlock(layout.rows(), forcedRows, [&](std::size_t first, std::size_t count) {
-        for (std::size_t r = first; r < first + count; ++r) {
-            const int j = layout.rowJ(r), k = layout.rowK(r);
-            if (confined) confineRow(curl, layout, j, k, strength);
-            findLift(cells, layout, j, k, lift, weight, curl.lift);
-        }
-    });
-    const float keptDensity = std::exp(-settings.densityDecayPerSecond * stepSeconds);
-    const float keptHeat = std::exp(-settings.coolingPerSecond * stepSeconds);
-    const float lost = settings.reactionLossPerSecond * stepSeconds;
-    const auto nx = static_cast<std::size_t>(layout.nx);
-    forRowsInTiles<AddedRow>(layout, [&](int j, int k, AddedRow& force) {
-        const std::size_t at = layout.at(0, j, k);
-        float* records = cells.cell(at);
-        facesOfRow(curl, layout, j, k, confined, force);
-        const auto cell = [&](std::size_t i) {
-            float* record = records + i * lanes;
-            const std::array<float, 3> added{force.x[i], force.y[i], force.z[i]};
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                if ((moving[at + i] >> axis & 1) != 0) record[axis] = orNothing(record[axis] + added[axis]);
-            if ((moving[at + i] & 8) == 0) return;
-            record[density] = orNothing(record[density] * keptDensity);
-            record[temperature] = orNothing(record[temperature] * keptHeat);
-            record[reaction] = std::max(orNothing(record[reaction] - lost), 0.0f);
-        };
-        const auto sixteenCells = [&](std::size_t i) {
-            SixteenRecords::Quantities now = SixteenRecords(records + i * lanes).all();
-            now[velocityX] += load<Float16>(&force.x[i]);
-            now[velocityY] += load<Float16>(&force.y[i]);
-            now[velocityZ] += load<Float16>(&force.z[i]);
-            now[density] *= keptDensity;
-            now[temperature] *= keptHeat;
-            now[reaction] -= lost;
-            for (Float16& quantity : now) quantity = quantity > nothing || quantity < -nothing ? quantity : Float16{};
-            now[reaction] = atLeast(now[reaction], Float16{});
-            SixteenRecords(now).storeTo(records + i * lanes);
-        };
-        forMoving(moving + at, nx, sixteenCells, cell);
-    });
+    const Change change(settings, stepSeconds);
+    enum Stage : std::size_t { findForces, confine, wait, apply, stages };  // a face needs forces two slabs before it
+    parallel::forStages(static_cast<std::size_t>(layout.nz), stages, 2 * parallel::threadCount(),
+                        [&](std::size_t stage, std::size_t slab) {
+                            if (stage == wait) return;
+                            const int k = static_cast<int>(slab);
+                            AddedRow added;
+                            for (int j = 0; j < layout.ny; ++j) {
+                                if (stage == findForces) {
+                                    if (confined) curlOfRow(cells, layout, conductance, spacingMetres, j, k, curl);
+                                    findLift(cells, layout, j, k, lift, weight, curl.lift);
+                                } else if (stage == confine) {
+                                    if (confined) confineRow(curl, layout, j, k, strength);
+                                } else {
+                                    facesOfRow(curl, layout, j, k, confined, added);
+                                    change.row(cells, layout, moving, j, k, added);
+                                }
+                            }
+                        });
 }
 
 void diffuse(CellField& cells, const CellLayout& layout, const Moving* moving, float diffusion,
@@ -252,7 +281,7 @@ void diffuse(CellField& cells, const CellLayout& layout, const Moving* moving, f
     const auto nx = static_cast<std::size_t>(layout.nx);
     const std::size_t row = layout.row * lanes, slab = layout.slab * lanes;
     const auto forRows = [&](const auto& cell) {
-        parallel::forEachBlock(layout.rows(), forcedRows, [&](std::size_t first, std::size_t count) {
+        parallel::forEachBlock(layout.rows(), diffusedRows, [&](std::size_t first, std::size_t count) {
             for (std::size_t r = first; r < first + count; ++r) {
                 const std::size_t at = layout.at(0, layout.rowJ(r), layout.rowK(r));
                 for (std::size_t i = 0; i < nx; ++i)

@@ -134,10 +134,17 @@ void gatherDivergence(const CellField& cells, const CellLayout& layout, const st
     });
 }
 
-void subtractGradient(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
-                      const PoissonLevel& finest) {
+FieldSurvey subtractGradient(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
+                             const PoissonLevel& finest) {
     const auto nx = static_cast<std::size_t>(layout.nx);
-    forRowsInTiles<RowChanges>(layout, [&](int j, int k, RowChanges& changes) {
+    struct OfTile {
+        RowChanges changes;
+        FieldSurvey survey;
+    };
+    std::mutex mutex;
+    FieldSurvey survey;
+    const auto ofRow = [&](int j, int k, OfTile& tile) {
+        RowChanges& changes = tile.changes;
         const RowPressures q(finest, j, k);
         changeAlong(q, changes.x);
         changeAcross(q, finest.layout.row, changes.y);
@@ -160,8 +167,14 @@ void subtractGradient(CellField& cells, const CellLayout& layout, const std::uin
                 for (std::size_t c = i; c < end; ++c) one(c);
             }
         }
+        tile.survey.look(record, nx);
+    };
+    forRowsInTiles<OfTile>(layout, ofRow, [&](const OfTile& tile) {
+        const std::scoped_lock lock(mutex);
+        survey.add(tile.survey);
     });
     subtractBeyond(cells, layout, conductance, finest);
+    return survey;
 }
 
 float maximumDivergence(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance) {

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "methods/grid_fluid/flow/cell_field.h"
+#include "methods/grid_fluid/flow/field_survey.h"
 #include "methods/grid_fluid/flow/poisson_level.h"
 
 namespace dustbench::grid_fluid::flow {
@@ -19,8 +20,9 @@ void gatherDivergence(const CellField& cells, const CellLayout& layout, const st
                       PoissonLevel& finest);
 
 /// u −= h·∇q on all faces between cells of fluid, and between these and open sides.
-void subtractGradient(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
-                      const PoissonLevel& finest);
+/// Returns the survey of the new state.
+FieldSurvey subtractGradient(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance,
+                             const PoissonLevel& finest);
 
 /// The greatest |h·∇·u| over all cells of fluid.
 [[nodiscard]] float maximumDivergence(const CellField& cells, const CellLayout& layout,

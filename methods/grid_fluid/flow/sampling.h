@@ -61,9 +61,14 @@ struct RecordView {
     int slabs;
 };
 
+enum class Memory : std::uint8_t { whole, ring };
+enum class Reads : std::uint8_t { samples, extrema };  ///< extrema need no shares of the way between the cells
+
 /// The eight cells around each position of a strip.
-template <bool ring>
+template <Memory memory, Reads reads>
 class CornerStrip {
+    static constexpr bool ring = memory == Memory::ring;
+
  public:
     CornerStrip(const RecordView& view, const CellLayout& layout)
         : view_(view), last_{layout.nx, layout.ny, layout.nz}, row_(layout.row * lanes), slab_(layout.slab * lanes) {}
@@ -199,7 +204,7 @@ class CornerStrip {
     /// Of the faces across x, y, z and of the centre.
     using Cells = std::array<Int16, 4>;
 
-    /// Index of the cell before each position; stores the fractions beyond it.
+    /// Index of the cell before each position; stores the fractions beyond it, for samples.
     template <std::size_t axis>
     [[gnu::always_inline]] Cells cellsAlong(const Float16& onX, const Float16& onY, const Float16& onZ,
                                             const Float16& centre, std::size_t i) {
@@ -210,6 +215,7 @@ class CornerStrip {
         const auto share = [](const Float16& place, const Int16& cell) {
             return place - __builtin_convertvector(cell, Float16);
         };
+        if constexpr (reads == Reads::extrema) return cells;
         storeInterleaved(&fractions_[axis][4 * i], share(onX, cells[0]), share(onY, cells[1]), share(onZ, cells[2]),
                          share(centre, cells[3]));
         return cells;
@@ -260,6 +266,21 @@ class CornerStrip {
     std::array<std::array<std::uint32_t, stripCells>, 4> low_{}, high_{};
     std::array<int, stripCells> elsewhere_{};  ///< bits of the faces that lie between other records than the centre
 };
+
+/// The velocities at the centres of four cells, four floats each: the means of their faces. The fourth is left out.
+[[gnu::always_inline]] inline Float16 fourCentres(const float* records, std::size_t row, std::size_t slab) {
+    const auto low = load<Float16>(records), high = load<Float16>(records + 16);
+    const float *above = records + row, *behind = records + slab;
+    const Float16 own = __builtin_shufflevector(low, high, 0, 1, 2, 3, 6, 7, 8, 9, 12, 13, 14, 15, 18, 19, 20, 21);
+    const Float16 x = __builtin_shufflevector(low, high, 6, 7, 8, 9, 12, 13, 14, 15, 18, 19, 20, 21, 24, 25, 26, 27);
+    const Float16 y = __builtin_shufflevector(load<Float16>(above), load<Float16>(above + 16), 0, 1, 2, 3, 6, 7, 8, 9,
+                                              12, 13, 14, 15, 18, 19, 20, 21);
+    const Float16 z = __builtin_shufflevector(load<Float16>(behind), load<Float16>(behind + 16), 0, 1, 2, 3, 6, 7, 8, 9,
+                                              12, 13, 14, 15, 18, 19, 20, 21);
+    const Float16 xy = __builtin_shufflevector(x, y, 0, 17, 2, 3, 4, 21, 6, 7, 8, 25, 10, 11, 12, 29, 14, 15);
+    const Float16 next = __builtin_shufflevector(xy, z, 0, 1, 18, 3, 4, 5, 22, 7, 8, 9, 26, 11, 12, 13, 30, 15);
+    return 0.5f * (own + next);
+}
 
 /// Trilinear samples of vectors of four floats in a ring of slabs, at sixteen positions.
 class CentreStrip {

@@ -1,0 +1,30 @@
+// The greatest magnitude of each of a cell's numbers, and whether all are finite. Internal to the kernels.
+//
+// A survey looks at rows while they are in the cache; those of several threads are put together.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "methods/grid_fluid/flow/cell_field.h"
+#include "methods/grid_fluid/flow/lanes.h"
+
+namespace dustbench::grid_fluid::flow {
+
+class FieldSurvey {
+ public:
+    void look(const float* records, std::size_t cells);
+    void add(const FieldSurvey& other);
+    /// By lane; unspecified unless `finite`.
+    [[nodiscard]] std::array<float, lanes> greatest() const;
+    [[nodiscard]] bool finite() const;
+
+ private:
+    /// Eight records are three vectors; place p of these 48 floats is lane p mod 6.
+    static constexpr std::size_t vectors = 3, together = vectors * 16;
+    using Vectors = std::array<Float16, vectors>;
+
+    Vectors greatest_{}, zero_{};  ///< `zero_` is not 0 if a number was not finite
+};
+
+}  // namespace dustbench::grid_fluid::flow
