@@ -1,7 +1,7 @@
 // Forces and sinks within a step other than pressure: buoyancy, vorticity confinement, decay, viscosity.
 //
 // Units: SI; temperature is relative to the air; density and reaction are dimensionless.
-// Threads: rows in blocks.
+// Threads: slabs in blocks, each stage following the one before (for_stages.h).
 // Source: Fedkiw2001, Eq. 8 (buoyancy), Eq. 11 (confinement); Senger2009, Eq. 7 (reaction).
 // Departs: rates are per second, not per step; confinement is given per second, f = ε·h·(N × ω), and spread over the
 // cells around by (1, 2, 1)/4 along each axis.
