@@ -66,16 +66,35 @@ double correlationOf(const std::vector<double>& a, const std::vector<double>& b)
     return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-/// The freshness itself as light, with the flame's extinction.
-raycast::TransferFunction freshness() {
-    constexpr int rows = 64;
-    const raycast::TransferFunction flame;
-    std::vector<raycast::TransferFunction::Row> shown;
-    for (int row = 0; row <= rows; ++row) {
-        const double reaction = static_cast<double>(row) / rows;
-        shown.push_back({reaction, glm::vec3(static_cast<float>(reaction)), flame.at(reaction).a});
+/// Freshness and depth of what a ray along −z sees, by a sum over the cells on its way: no part of it is the march
+/// whose pictures it judges.
+struct Seen {
+    double freshness, depth;
+};
+
+Seen seenThrough(const FireGrid& grid, const raycast::TransferFunction& flame, const glm::dvec2& place) {
+    const glm::ivec2 last(grid.cells - 1, 2 * grid.cells - 1);
+    const glm::dvec2 at = place / grid.spacingMetres() - 0.5, low = glm::floor(at), share = at - low;
+    const auto cell = [&](int i, int j, int k) {
+        const glm::ivec2 c = glm::clamp(glm::ivec2(low) + glm::ivec2(i, j), glm::ivec2(0), last);
+        return static_cast<std::size_t>((k * 2 * grid.cells + c.y) * grid.cells + c.x);
+    };
+    const auto between = [&](const std::vector<float>& values, int k) {
+        const auto row = [&](int j) {
+            return glm::mix(static_cast<double>(values[cell(0, j, k)]), static_cast<double>(values[cell(1, j, k)]),
+                            share.x);
+        };
+        return glm::mix(row(0), row(1), share.y);
+    };
+    double depth = 0, fresh = 0;
+    for (int k = grid.cells - 1; k >= 0; --k) {
+        const double reaction = between(grid.reaction, k);
+        const double next = depth + extinctionPerMetre * static_cast<double>(flame.at(reaction).a) *
+                                        between(grid.density, k) * grid.spacingMetres();
+        fresh += (std::exp(-depth) - std::exp(-next)) * reaction;
+        depth = next;
     }
-    return raycast::TransferFunction(shown);
+    return {depth > 0 ? fresh / -std::expm1(-depth) : 0, depth};
 }
 
 glm::dvec4 marched(const FireGrid& grid, const raycast::TransferFunction& flame, const raycast::Reflected& reflected,
@@ -132,16 +151,19 @@ double distanceOf(const Picture& picture, const Picture& reference) {
 }
 
 double correlationOf(const Picture& picture, const FireGrid& of) {
-    const raycast::TransferFunction shown = freshness();
-    const Picture burning =
-        pictureByRays(picture.width, [&](const glm::dvec2& place) { return marched(of, shown, {}, place); });
-    std::vector<double> fresh, seen;
-    for (std::size_t i = 0; i < picture.alphas.size(); ++i) {
-        if (std::min(picture.alphas[i], burning.alphas[i]) < 1.0 / 255) continue;
-        fresh.push_back(burning.colours[i].r / burning.alphas[i]);
-        seen.push_back(glm::dot(picture.colours[i], glm::dvec3(0.2126, 0.7152, 0.0722)) / picture.alphas[i]);
-    }
-    return correlationOf(ranksOf(fresh), ranksOf(seen));
+    const raycast::TransferFunction flame;
+    const double edge = widthMetres / picture.width;
+    std::vector<double> fresh, luminance;
+    for (int y = 0, i = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x, ++i) {
+            const auto pixel = static_cast<std::size_t>(i);
+            const Seen burning = seenThrough(of, flame, (glm::dvec2(x, y) + 0.5) * edge);
+            if (std::min(picture.alphas[pixel], -std::expm1(-burning.depth)) < 1.0 / 255) continue;
+            fresh.push_back(burning.freshness);
+            luminance.push_back(glm::dot(picture.colours[pixel], glm::dvec3(0.2126, 0.7152, 0.0722)) /
+                                picture.alphas[pixel]);
+        }
+    return correlationOf(ranksOf(fresh), ranksOf(luminance));
 }
 
 double piecesSeen(const Picture& picture, const std::vector<Flake>& pieces) {

@@ -75,6 +75,26 @@ class ModesMoment : public TestMoment {
     }
 };
 
+/// The figure's file says 4 pixels. In 10 voxels a side instead of 50 its particles are wider than that, and cover it.
+TEST(ShapeModes, ParticlesAreAsWideAsTheFileSaysOrAsTheyAreThemselves) {
+    const auto covered = [](const char* pixels) {
+        TestMoment moment(0, 320, 240, {-4, 1.6, 8}, {0, 0, -1});
+        moment.scene.vehicle.emplace();
+        const auto method = presetWith({{"shape", "figure"},
+                                        {"resolution", "10"},
+                                        {"particles_per_voxel", "6"},
+                                        {"fill_seconds", "0"},
+                                        {"sprite_pixels", pixels}});
+        method->prepare(moment.scene, {}, TestMoment::device());
+        for (int step = 0; step < 3; ++step) method->update(moment.frame());
+        return std::ranges::count_if(moment.draw(*method).pixels, [](const glm::vec4& p) { return p.a > 0.5f; });
+    };
+    const auto asInTheFile = covered("-1");
+    EXPECT_GT(asInTheFile, 0);
+    EXPECT_EQ(asInTheFile, covered("4"));
+    EXPECT_GT(covered("0"), 3 * asInTheFile);
+}
+
 const ShapeSystem& systemOf(const Method& method) {
     return dynamic_cast<const VoxelShape&>(method).system();
 }

@@ -66,7 +66,7 @@ Shape shapeOf(const ParameterValues& values) {
     look.order = unlessPreset(values, "sort", orders, look.order);
     look.nearest = static_cast<std::uint32_t>(values.integer("sort_nearest"));
     look.every = static_cast<std::uint32_t>(values.integer("sort_every"));
-    if (values.real("sprite_pixels") > 0) look.pixels = static_cast<float>(values.real("sprite_pixels"));
+    if (values.real("sprite_pixels") >= 0) look.pixels = static_cast<float>(values.real("sprite_pixels"));
     return shape;
 }
 
@@ -197,7 +197,8 @@ MethodInfo describe() {
                 "every voxel that the surface touches (CPU); the paper's slices along z (GPU); or slices along all "
                 "axes; preset: as in the shape's file, with mode=paper slices")
         .choice("render", preset, presetOr(renders), "how a particle is drawn")
-        .real("sprite_pixels", 0, 0, 255, "pixels", "width of points and sprites; 0: as in the shape's file")
+        .real("sprite_pixels", -1, -1, 255, "pixels",
+              "width of points and sprites; 0: the size of the particles; negative: as in the shape's file")
         .choice("blend", preset, {preset, "alpha", "additive"}, "alpha: cover what is behind; additive: add light")
         .choice("sort", preset, presetOr(orders),
                 "far to near by a radix sort or the paper's quicksort; only the nearest; every few frames; or never")

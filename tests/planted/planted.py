@@ -9,10 +9,10 @@ A patch begins with a header:
     Fault: what is wrong, in one sentence
     Build: targets of the build, separated by spaces
     Test: one test of one of these targets, Suite.Name                        this one must fail
-    Claim: ID of PAPER, from SUITE                                            or: this verdict must not be `confirmed`
+    Claim: ID of PAPER, from SUITE, VERDICT                                   or: this must not be its verdict any more
 
-For each, the unchanged copy is built first and must pass, or have the verdict `confirmed`. Then the fault is planted and
-must be noticed. The copy is build/planted/tree; it is kept, so that the next call builds little. Exit code: 0 if all faults
+For each, the unchanged copy is built first and must pass, or have that verdict. Then the fault is planted and must be
+noticed. The copy is build/planted/tree; it is kept, so that the next call builds little. Exit code: 0 if all faults
 are noticed, 1 if one is not, 3 for a bad name or a bad patch.
 """
 
@@ -30,6 +30,7 @@ TREE = SOURCE / "build" / "planted" / "tree"
 BUILD = TREE / "build" / "release"
 PARTS = ("CMakeLists.txt", "CMakePresets.json", "methods", "bench", "data", "reports", "tests")
 KEYS = {"Fault", "Build", "Test", "Claim"}
+CLAIM = re.compile(r"(\S+) of (\S+), from (\S+), (confirmed|refuted|depends)")
 
 
 class BadPatch(Exception):
@@ -52,8 +53,9 @@ def read(file):
         header[key] = value
     if "Fault" not in header or "Build" not in header or ("Test" in header) == ("Claim" in header):
         raise BadPatch(f"{file.name}: expected Fault, Build, and either Test or Claim")
-    if "Claim" in header and not re.fullmatch(r"\S+ of \S+, from \S+", header["Claim"]):
-        raise BadPatch(f"{file.name}: got 'Claim: {header['Claim']}', expected 'Claim: ID of PAPER, from SUITE'")
+    if "Claim" in header and not CLAIM.fullmatch(header["Claim"]):
+        raise BadPatch(f"{file.name}: got 'Claim: {header['Claim']}', expected 'Claim: ID of PAPER, from SUITE, VERDICT'; "
+                       "verdicts: confirmed, refuted, depends")
     return header
 
 
@@ -136,8 +138,7 @@ def test_passes(targets, name):
     raise Unexpected(f"{' and '.join(targets)} have no test {name}")
 
 
-def verdict(name, claim):
-    identity, paper, suite = re.fullmatch(r"(\S+) of (\S+), from (\S+)", claim).groups()
+def verdict(name, identity, paper, suite):
     out = TREE / "out" / name
     shutil.rmtree(out, ignore_errors=True)
     for command in (["suite", suite, "--quick", "--out", str(out)], ["report", str(out)]):
@@ -158,8 +159,9 @@ def state(name, header):
     if "Test" in header:
         well = test_passes(targets, header["Test"])
         return well, "passes" if well else "fails"
-    word = verdict(name, header["Claim"])
-    return word == "confirmed", f"is {word}"
+    *claim, expected = CLAIM.fullmatch(header["Claim"]).groups()
+    word = verdict(name, *claim)
+    return word == expected, f"is {word}"
 
 
 def notices(name, file):
