@@ -2,7 +2,8 @@
 """Plants faults in a copy of the tree and checks that a test or a claim's verdict notices each.
 
     planted.py [NAME …]        patches of this folder, without `.patch`; default: all
-    planted.py --fit           only checks that every patch has its header and fits the sources; builds nothing
+    planted.py --fit           only checks that every patch has its header and fits the sources, and that the sample
+                               reports have the verdicts to be turned; builds nothing
 
 A patch begins with a header:
 
@@ -113,12 +114,23 @@ def plant(file, *options, tree=TREE):
         raise Unexpected(f"the patch does not fit the sources any more:\n{planted.stdout}")
 
 
+def check_sample(claim):
+    """A patch whose claim has another verdict by now would turn nothing."""
+    identity, paper, _, expected = CLAIM.fullmatch(claim).groups()
+    with open(SOURCE / "reports" / "sample" / paper / "claims.csv", newline="", encoding="utf-8") as file:
+        found = [row["verdict"] for row in csv.DictReader(file) if row["id"] == identity]
+    if found != [expected]:
+        raise Unexpected(f"expected {identity} of {paper} to be {expected}; reports/sample has {' '.join(found) or 'no such claim'}")
+
+
 def fit():
     """Says which patches do not fit the sources; returns the exit code."""
     code = 0
     for name, file in chosen([]).items():
         try:
-            read(file)
+            header = read(file)
+            if "Claim" in header:
+                check_sample(header["Claim"])
             changed = re.findall(r"(?m)^\+\+\+ b/(\S+)$", file.read_text())
             if all((SOURCE / path).parent.exists() for path in changed):  # a method's folder may have been deleted
                 plant(file, "--dry-run", tree=SOURCE)
