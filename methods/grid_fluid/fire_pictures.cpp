@@ -66,13 +66,9 @@ double correlationOf(const std::vector<double>& a, const std::vector<double>& b)
     return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-/// Freshness and depth of what a ray along −z sees, by a sum over the cells on its way: no part of it is the march
-/// whose pictures it judges.
-struct Seen {
-    double freshness, depth;
-};
-
-Seen seenThrough(const FireGrid& grid, const raycast::TransferFunction& flame, const glm::dvec2& place) {
+/// Mean freshness along a ray along −z, premultiplied as a colour is, and alpha: a sum over the cells on its way. No
+/// part of it is the march whose pictures it judges.
+glm::dvec4 freshnessSeen(const FireGrid& grid, const raycast::TransferFunction& flame, const glm::dvec2& place) {
     const glm::ivec2 last(grid.cells - 1, 2 * grid.cells - 1);
     const glm::dvec2 at = place / grid.spacingMetres() - 0.5, low = glm::floor(at), share = at - low;
     const auto cell = [&](int i, int j, int k) {
@@ -94,7 +90,7 @@ Seen seenThrough(const FireGrid& grid, const raycast::TransferFunction& flame, c
         fresh += (std::exp(-depth) - std::exp(-next)) * reaction;
         depth = next;
     }
-    return {depth > 0 ? fresh / -std::expm1(-depth) : 0, depth};
+    return {glm::dvec3(fresh), -std::expm1(-depth)};
 }
 
 glm::dvec4 marched(const FireGrid& grid, const raycast::TransferFunction& flame, const raycast::Reflected& reflected,
@@ -152,18 +148,15 @@ double distanceOf(const Picture& picture, const Picture& reference) {
 
 double correlationOf(const Picture& picture, const FireGrid& of) {
     const raycast::TransferFunction flame;
-    const double edge = widthMetres / picture.width;
-    std::vector<double> fresh, luminance;
-    for (int y = 0, i = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x, ++i) {
-            const auto pixel = static_cast<std::size_t>(i);
-            const Seen burning = seenThrough(of, flame, (glm::dvec2(x, y) + 0.5) * edge);
-            if (std::min(picture.alphas[pixel], -std::expm1(-burning.depth)) < 1.0 / 255) continue;
-            fresh.push_back(burning.freshness);
-            luminance.push_back(glm::dot(picture.colours[pixel], glm::dvec3(0.2126, 0.7152, 0.0722)) /
-                                picture.alphas[pixel]);
-        }
-    return correlationOf(ranksOf(fresh), ranksOf(luminance));
+    const Picture burning =
+        pictureByRays(picture.width, [&](const glm::dvec2& place) { return freshnessSeen(of, flame, place); });
+    std::vector<double> fresh, seen;
+    for (std::size_t i = 0; i < picture.alphas.size(); ++i) {
+        if (std::min(picture.alphas[i], burning.alphas[i]) < 1.0 / 255) continue;
+        fresh.push_back(burning.colours[i].r / burning.alphas[i]);
+        seen.push_back(glm::dot(picture.colours[i], glm::dvec3(0.2126, 0.7152, 0.0722)) / picture.alphas[i]);
+    }
+    return correlationOf(ranksOf(fresh), ranksOf(seen));
 }
 
 double piecesSeen(const Picture& picture, const std::vector<Flake>& pieces) {
