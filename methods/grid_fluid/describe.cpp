@@ -15,6 +15,8 @@ constexpr Choices<flow::AdvectionScheme> advectionSchemes{{"semi_lagrangian", fl
                                                           {"maccormack", flow::AdvectionScheme::macCormack}};
 constexpr Choices<flow::Limit> limits{
     {"clamp", flow::Limit::clamp}, {"revert", flow::Limit::revert}, {"none", flow::Limit::none}};
+constexpr Choices<flow::VelocityAt> velocityTimes{{"begin", flow::VelocityAt::begin},
+                                                  {"middle", flow::VelocityAt::middle}};
 constexpr Choices<flow::PressureMethod> pressureMethods{{"jacobi", flow::PressureMethod::jacobi},
                                                         {"multigrid", flow::PressureMethod::multigrid}};
 constexpr Choices<FlowScheme> schemes{{"ours", FlowScheme::ours}, {"demo", FlowScheme::demo}};
@@ -61,6 +63,7 @@ GridFluidSettings settingsOf(const ParameterValues& values) {
     solver.noSlip = setup.noSlip;
     solver.advection.scheme = values.choice("advection", advectionSchemes);
     solver.advection.limit = values.choice("limit", limits);
+    solver.advection.velocityAt = values.choice("velocity_at", velocityTimes);
     solver.keepsDensity = setup.keepsDensity;
     solver.pressure = values.choice("pressure", pressureMethods);
     solver.jacobiSweeps = static_cast<int>(values.integer("sweeps"));
@@ -103,6 +106,10 @@ MethodInfo describe() {
         .choice("limit", flow::Limit::revert, limits,
                 "what is done where that correction overshoots: the paper's clamp to the cells around, or back to the "
                 "uncorrected value")
+        .choice(
+            "velocity_at", flow::VelocityAt::begin, velocityTimes,
+            "which velocity the paths follow: that of the step's beginning, or, by those of the last two steps, that "
+            "of its middle, of second order")
         .choice("pressure", flow::PressureMethod::multigrid, pressureMethods,
                 "the paper's sweeps, or cycles over coarser and coarser grids until the tolerance is met")
         .choice("solver", SolverBackend::automatic, solverBackends,

@@ -15,8 +15,9 @@
 namespace dustbench::grid_fluid::precision {
 namespace {
 
-enum class Scheme { revert, clamp, unlimited, semiLagrangian };
-constexpr Choices<Scheme> schemes{{"revert", Scheme::revert},
+enum class Scheme { revertMidstep, revert, clamp, unlimited, semiLagrangian };
+constexpr Choices<Scheme> schemes{{"revert_midstep", Scheme::revertMidstep},
+                                  {"revert", Scheme::revert},
                                   {"clamp", Scheme::clamp},
                                   {"unlimited", Scheme::unlimited},
                                   {"semi_lagrangian", Scheme::semiLagrangian}};
@@ -24,6 +25,8 @@ constexpr Choices<Scheme> schemes{{"revert", Scheme::revert},
 flow::AdvectionRule ruleOf(Scheme scheme) {
     using enum flow::AdvectionScheme;
     switch (scheme) {
+        case Scheme::revertMidstep:
+            return {macCormack, flow::Limit::revert, flow::VelocityAt::middle};
         case Scheme::revert:
             return {macCormack, flow::Limit::revert};
         case Scheme::clamp:
@@ -39,7 +42,8 @@ flow::AdvectionRule ruleOf(Scheme scheme) {
 struct Call {
     std::filesystem::path folder;
     std::vector<ProblemKind> problems{ProblemKind::plume, ProblemKind::ring, ProblemKind::car};
-    std::vector<Scheme> schemes{Scheme::revert, Scheme::clamp, Scheme::unlimited, Scheme::semiLagrangian};
+    std::vector<Scheme> schemes{Scheme::revertMidstep, Scheme::revert, Scheme::clamp, Scheme::unlimited,
+                                Scheme::semiLagrangian};
     std::vector<int> cells{16, 32, 64};
     int referenceCells = 128;
     int repetitions = 1;
@@ -149,14 +153,15 @@ ToolInfo describe() {
     info.summary = "Compare fluid solvers by error and time on three problems";
     info.manual =
         "Solves the problems on each grid with each scheme, and on the grid of the reference by `revert`, unless its\n"
-        "flow is there. Then compares all flows of the folder, those of other solvers included, and writes\n"
-        "points.csv. Formats: methods/grid_fluid/precision/precision_folder.h, staggered_flow.h.\n"
+        "flow is there. `revert_midstep` is `revert` along the velocity of the middle of the step. Then compares all\n"
+        "flows of the folder, those of other solvers included, and writes points.csv. Formats: "
+        "methods/grid_fluid/precision/precision_folder.h, staggered_flow.h.\n"
         "Example: dustbench precision out/precision --cells 16,32";
     info.options = {
         {"folder", "DIR", "of the flows, times.csv and points.csv; made if missing"},
         {"--problem", "LIST", "of plume, ring, car; `nothing` solves none; default: all"},
         {"--cells", "LIST", "across the box, multiples of 8; default: 16,32,64"},
-        {"--scheme", "LIST", "of revert, clamp, unlimited, semi_lagrangian; default: all"},
+        {"--scheme", "LIST", "of revert_midstep, revert, clamp, unlimited, semi_lagrangian; default: all"},
         {"--reference", "CELLS",
          "grid of the references: the finest of each solver if it has so many; 0: none, and nothing is compared; "
          "default: 128"},

@@ -119,7 +119,7 @@ struct Advection::Pass {
     CellField& spare;  ///< of the semi-Lagrangian scheme the result, of MacCormack's the corrections
     const Moving* moving;
     AdvectionRule rule;
-    float cellsPerSpeed;
+    AdvectionStep step;
     int reach;  ///< slabs that a sample along z may touch, on either side
     RecordView field, window;
 };
@@ -157,62 +157,25 @@ class Advection::Row {
     Pointers own_, below_, before_;
 };
 
-void Advection::hold(std::size_t slabs, std::size_t centreSlabs) {
+void Advection::hold(std::size_t slabs) {
     heldSlabs_ = slabs;
-    heldCentres_ = centreSlabs;
     const std::size_t floats = (lanes + kept) * slabs * layout_.slab + 2 * CellField::floatsBehind;
     if (window_.size() < floats) window_.resize(floats);
-    const std::size_t centreFloats = 4 * centreSlabs * layout_.slab + CellField::floatsBehind;
-    if (centres_.size() < centreFloats) centres_.resize(centreFloats);
-}
-
-/// The velocity at a cell's centre is the mean of its two faces. Beyond the box it is that of the outermost cells.
-void Advection::findCentres(const Pass& pass, int firstSlab, int lastSlab) {
-    const int ny = layout_.ny, nz = layout_.nz;
-    const std::size_t row = layout_.row * lanes, slab = layout_.slab * lanes, nx = static_cast<std::size_t>(layout_.nx);
-    const auto slabs = static_cast<std::size_t>(std::max(lastSlab - firstSlab, 0));
-    const auto rowOf = [&](int j, int k) { return centresOf(k) + layout_.at(-1, j, -1) * 4; };
-    parallel::forEachBlock(slabs * static_cast<std::size_t>(ny), rowsInABlock,
-                           [&](std::size_t first, std::size_t count) {
-                               for (std::size_t r = first; r < first + count; ++r) {
-                                   const int j = layout_.rowJ(r), k = firstSlab + layout_.rowK(r);
-                                   const float* record = pass.cells.cell(layout_.at(0, j, k));
-                                   float* to = rowOf(j, k) + 4;
-                                   std::size_t i = 0;
-                                   for (; i + 4 <= nx; i += 4, record += 4 * lanes, to += 16)
-                                       store(to, fourCentres(record, row, slab));
-                                   for (; i < nx; ++i, record += lanes, to += 4) {
-                                       const Float4 own = load<Float4>(record);
-                                       const Float4 next{record[lanes], (record + row)[1], (record + slab)[2], 0};
-                                       store(to, 0.5f * (own + next));
-                                   }
-                                   std::memcpy(to, to - 4, 4 * sizeof(float));
-                                   std::memcpy(rowOf(j, k), rowOf(j, k) + 4, 4 * sizeof(float));
-                               }
-                           });
-    const std::size_t rowBytes = layout_.row * 4 * sizeof(float);
-    for (int k = firstSlab; k < lastSlab; ++k) {
-        std::memcpy(rowOf(-1, k), rowOf(0, k), rowBytes);
-        std::memcpy(rowOf(ny, k), rowOf(ny - 1, k), rowBytes);
-    }
-    const std::size_t slabBytes = layout_.slab * 4 * sizeof(float);
-    if (firstSlab == 0 && lastSlab > 0) std::memcpy(centresOf(-1), centresOf(0), slabBytes);
-    if (lastSlab == nz && lastSlab > firstSlab) std::memcpy(centresOf(nz), centresOf(nz - 1), slabBytes);
 }
 
 /// The velocity half-way along the path of a cell, u(x − ½Δt·u(x)).
 void Advection::findPathsOfRow(const Pass& pass, int j, int k) {
     const auto nx = static_cast<std::size_t>(layout_.nx);
     const std::size_t at = inWindow(layout_.at(0, j, k));
-    const float* centres = centresOf(k) + layout_.at(0, j, -1) * 4;
-    CentreStrip strip(centres_.data(), static_cast<int>(heldCentres_), layout_);
+    const float* centres = centres_.slab(k) + layout_.at(0, j, -1) * 4;
+    CentreStrip strip(centres_.data(), static_cast<int>(centres_.slabs()), layout_);
     strip.lookFrom(std::max(k + 1 - pass.reach, 0));
     alignas(64) std::array<float, 4 * together> found;
     for (std::size_t i = 0; i < nx; i += together) {
         const std::size_t count = nx - i;
         const Triples speed = byComponent(centres + 4 * i);
         const auto back = [&](const Float16& place, const Float16& velocity, int cells) {
-            const Float16 middle = fused(everywhere<Float16>(-0.5f * pass.cellsPerSpeed), velocity, place);
+            const Float16 middle = fused(everywhere<Float16>(-0.5f * pass.step.cellsPerSpeed), velocity, place);
             return atMost(atLeast(middle, Float16{}), everywhere<Float16>(static_cast<float>(cells + 1)));
         };
         strip.find({back(static_cast<float>(i + 1) + upwards, speed.x, layout_.nx),
@@ -247,7 +210,7 @@ void Advection::findPaths(const Pass& pass, int firstSlab, int lastSlab) {
 void Advection::predict(const Pass& pass, int firstSlab, int lastSlab) {
     const bool corrected = pass.rule.scheme == AdvectionScheme::macCormack;
     const auto nx = static_cast<std::size_t>(layout_.nx), ny = static_cast<std::size_t>(layout_.ny);
-    const float step = pass.cellsPerSpeed;
+    const float step = pass.step.cellsPerSpeed;
     const auto predictStrip = [&](std::size_t first, std::size_t count, int j, int k, FieldStrip& corners) {
         const std::size_t at = layout_.at(0, j, k) + first, there = corrected ? inWindow(at) : at;
         const Row paths(*this, halfway, j, k);
@@ -285,7 +248,7 @@ void Advection::keepFarFaces(const Pass& pass, int firstSlab, int lastSlab) {
 /// c = ½(φⁿ − φ̃), limited, where φ̃ is the first guess sampled along the forward path; 0 where there is none.
 void Advection::findCorrections(const Pass& pass, int firstSlab, int lastSlab) {
     const auto nx = static_cast<std::size_t>(layout_.nx), ny = static_cast<std::size_t>(layout_.ny);
-    const float step = pass.cellsPerSpeed;
+    const float step = pass.step.cellsPerSpeed;
     struct Strip {
         ExtremaStrip began;
         WindowStrip ended;
@@ -357,19 +320,22 @@ void Advection::addCorrections(const Pass& pass, int firstSlab, int lastSlab) {
 }
 
 void Advection::advect(CellField& cells, CellField& spare, const Moving* moving, AdvectionRule rule,
-                       float cellsPerSpeed, float maximumSpeedZ) {
+                       const AdvectionStep& step) {
     const int nz = layout_.nz;
     const auto slabs = static_cast<std::size_t>(nz) + 2;
-    const double longest = std::min<double>(nz, std::ceil(static_cast<double>(maximumSpeedZ * cellsPerSpeed)));
+    const double longest =
+        std::min<double>(nz, std::ceil(static_cast<double>(step.maximumSpeeds.z * step.cellsPerSpeed)));
     const int reach = static_cast<int>(longest) + 2;
     const bool corrected = rule.scheme == AdvectionScheme::macCormack;
-    hold(std::min(slabs, static_cast<std::size_t>(slabsAtATime + 2 * reach + 1)),
-         std::min(slabs, static_cast<std::size_t>(slabsAtATime + 2 * reach + 2)));
+    hold(std::min(slabs, static_cast<std::size_t>(slabsAtATime + 2 * reach + 1)));
+    centres_.hold(std::min(slabs, static_cast<std::size_t>(slabsAtATime + 2 * reach + 2)));
+    const Extrapolation extrapolation{step.ahead, step.maximumSpeeds};
+    const bool atMiddle = rule.velocityAt == VelocityAt::middle;
     const Pass pass{cells,
                     spare,
                     moving,
                     rule,
-                    cellsPerSpeed,
+                    step,
                     reach,
                     {cells.data(), static_cast<int>(slabs)},
                     {window_.data(), static_cast<int>(heldSlabs_)}};
@@ -378,7 +344,7 @@ void Advection::advect(CellField& cells, CellField& spare, const Moving* moving,
     int done = 0, centred = 0, complete = 0;
     for (int first = 0; first < nz; first += slabsAtATime) {
         const int last = std::min(first + slabsAtATime, nz), next = std::min(nz, last + reach);
-        findCentres(pass, centred, next);
+        centres_.find(cells, atMiddle ? &extrapolation : nullptr, centred, next);
         centred = next;
         findPaths(pass, first, last);
         predict(pass, first, last);

@@ -2,16 +2,19 @@
 //
 // Velocities lie on the faces that they cross: velocityX of cell (i, j, k) on its face towards −x, and so on. A cell's
 // path follows the midpoint rule; that of a face is the mean of the paths of its two cells, of second order as well.
-// Units: metres per second, cells. Threads: rows in blocks; each cell by itself.
-// Source: Stam1999, 2.2 (semi-Lagrangian); Selle2008, Eq. 4 and 3.2 (MacCormack, clamped to the extrema or reverted).
-// Departs: the forward path is the mirrored backward path: x₊ = x₋ + 2Δt·u(x), also of second order, without another
-// sample; if either path leaves the box, the first guess is kept; only a window of slabs of first guesses is stored; of
-// the corrections what alternates from cell to cell is left out (evened_corrections.h).
+// The velocity that paths follow is that of one time, the beginning of the step or its middle (VelocityAt). Units:
+// metres per second, cells. Threads: rows in blocks; each cell by itself. Source: Stam1999, 2.2 (semi-Lagrangian);
+// Selle2008, Eq. 4 and 3.2 (MacCormack, clamped to the extrema or reverted). Departs: the forward path is the mirrored
+// backward path: x₊ = x₋ + 2Δt·u(x), also of second order, without another sample; if either path leaves the box, the
+// first guess is kept; only a window of slabs of first guesses is stored; of the corrections what alternates from cell
+// to cell is left out (evened_corrections.h).
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 
 #include "methods/grid_fluid/flow/cell_field.h"
+#include "methods/grid_fluid/flow/centre_velocities.h"
 
 namespace dustbench::grid_fluid::flow {
 
@@ -23,9 +26,22 @@ enum class Limit {
     none,
 };
 
+/// The time of the velocity that paths follow.
+enum class VelocityAt {
+    begin,   ///< of the step: paths through a flow that changes are of first order in the step
+    middle,  ///< of the step, extrapolated from the beginnings of this one and the last: of second order
+};
+
 struct AdvectionRule {
     AdvectionScheme scheme = AdvectionScheme::macCormack;
     Limit limit = Limit::clamp;
+    VelocityAt velocityAt = VelocityAt::begin;
+};
+
+struct AdvectionStep {
+    float cellsPerSpeed = 0;     ///< Δt/h
+    glm::vec3 maximumSpeeds{0};  ///< of the flow along each axis; it must not be faster along z
+    float ahead = 0;             ///< aheadOf, if VelocityAt::middle
 };
 
 /// What moves in a cell, as bits: its faces towards −x, −y, −z (1, 2, 4), and what lies at its centre (8).
@@ -37,12 +53,14 @@ inline constexpr float pathTolerance = 1.0f / 64;
 
 class Advection {
  public:
-    Advection(const CellLayout& layout, MemoryAccount& window) : layout_(layout), window_(window), centres_(window) {}
+    Advection(const CellLayout& layout, MemoryAccount& memory)
+        : layout_(layout), window_(memory), centres_(layout, memory) {}
 
-    /// Advects `cells`, with ghosts filled, by `cellsPerSpeed` = Δt/h; `spare` is temporary. What does not move stays.
-    /// The speed along z must not exceed `maximumSpeedZ`.
-    void advect(CellField& cells, CellField& spare, const Moving* moving, AdvectionRule rule, float cellsPerSpeed,
-                float maximumSpeedZ);
+    /// Advects `cells`, with ghosts filled; `spare` is temporary. What does not move stays.
+    void advect(CellField& cells, CellField& spare, const Moving* moving, AdvectionRule rule,
+                const AdvectionStep& step);
+    /// Moves what is kept from step to step by whole cells; new cells had the wind.
+    void scroll(glm::ivec3 by, glm::vec3 wind) { centres_.scroll(by, wind); }
 
  private:
     struct Pass;
@@ -59,12 +77,7 @@ class Advection {
     [[nodiscard]] float* velocities(std::size_t array) {
         return window_.data() + CellField::floatsBehind + (lanes + array) * heldSlabs_ * layout_.slab;
     }
-    /// Velocities at the centres of slab k, four floats each; k from −1 to nz.
-    [[nodiscard]] float* centresOf(int k) {
-        return centres_.data() + static_cast<std::size_t>(k + 1) % heldCentres_ * layout_.slab * 4;
-    }
-    void hold(std::size_t slabs, std::size_t centreSlabs);
-    void findCentres(const Pass& pass, int firstSlab, int lastSlab);
+    void hold(std::size_t slabs);
     void findPaths(const Pass& pass, int firstSlab, int lastSlab);
     void findPathsOfRow(const Pass& pass, int j, int k);
     void predict(const Pass& pass, int firstSlab, int lastSlab);
@@ -73,9 +86,9 @@ class Advection {
     void addCorrections(const Pass& pass, int firstSlab, int lastSlab);
 
     CellLayout layout_;
-    LedgerVector<float> window_;   ///< of the slabs in progress
-    LedgerVector<float> centres_;  ///< of the slabs that paths can reach
-    std::size_t heldSlabs_ = 1, heldCentres_ = 1;
+    LedgerVector<float> window_;  ///< of the slabs in progress
+    CentreVelocities centres_;    ///< of the slabs that paths can reach
+    std::size_t heldSlabs_ = 1;
 };
 
 }  // namespace dustbench::grid_fluid::flow

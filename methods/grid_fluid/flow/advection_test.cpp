@@ -59,7 +59,7 @@ Carried carryRound(int n, AdvectionRule rule, double turns) {
     for (int step = 0; step < steps; ++step) {
         fillGhosts(from, layout, {closed, {}, false});
         setFlow(from);
-        advection.advect(from, to, solids.moving(), rule, 1, 0);
+        advection.advect(from, to, solids.moving(), rule, {.cellsPerSpeed = 1});
     }
     Carried carried{0, 0};
     forAllCells(layout, [&](int i, int j, int, std::size_t at) {
@@ -85,6 +85,52 @@ TEST(Advection, ConvergesAtItsOrder) {
     EXPECT_GT(second.x, 1.6);
 }
 
+/// By how much a rotation is off, in radians, whose speed doubles in the meantime. It carries φ = x, which
+/// interpolation keeps; what the sides change does not reach the middle.
+double offAfterFasterAndFasterTurns(int steps, AdvectionRule rule) {
+    constexpr int n = 128;
+    constexpr double turned = 1;
+    const CellLayout layout(glm::ivec3(n, n, 1));
+    MemoryLedger ledger;
+    CellField cells(layout, ledger.account("a")), spare(layout, ledger.account("b"));
+    SolidCells solids(layout, openOverFloor, ledger.account("c"));
+    (void)solids.set({}, cells);
+    Advection advection(layout, ledger.account("d"));
+    const auto place = [](int i) { return static_cast<float>(i) + 0.5f - 0.5f * n; };
+    forAllCells(layout, [&](int i, int, int, std::size_t at) { cells.cell(at)[density] = place(i); });
+    const double begin = turned / 1.5 / steps;  // radians per step
+    for (int step = 0; step < steps; ++step) {
+        const auto angle = static_cast<float>(begin * (1 + static_cast<double>(step) / steps));
+        fillGhosts(cells, layout, {closed, {}, false});
+        for (int k = -1; k <= 1; ++k)
+            for (int j = -1; j <= n; ++j)
+                for (int i = -1; i <= n; ++i) {
+                    float* record = cells.cell(layout.at(i, j, k));
+                    record[velocityX] = -angle * place(j);  // the same on its faces
+                    record[velocityY] = angle * place(i);
+                    record[velocityZ] = 0;
+                }
+        const glm::vec3 fastest(angle * n, angle * n, 0);
+        advection.advect(cells, spare, solids.moving(), rule, {1, fastest, step == 0 ? 0.0f : 0.5f});
+    }
+    const auto at = [&](int i, int j) {
+        return static_cast<double>(cells.cell(layout.at(n / 2 + i, n / 2 + j, 0))[density]);
+    };
+    return std::atan2(at(0, 4) - at(0, -4), at(4, 0) - at(-4, 0)) - turned;
+}
+
+TEST(Advection, PathsThroughAFlowThatChangesAreOfSecondOrderByTheVelocityOfTheMiddle) {
+    for (const auto scheme : {AdvectionScheme::semiLagrangian, AdvectionScheme::macCormack}) {
+        const auto off = [&](int steps, VelocityAt time) {
+            return std::fabs(offAfterFasterAndFasterTurns(steps, {scheme, Limit::none, time}));
+        };
+        const double begin = off(24, VelocityAt::begin), middle = off(24, VelocityAt::middle);
+        EXPECT_NEAR(std::log2(off(12, VelocityAt::begin) / begin), 1, 0.1);
+        EXPECT_NEAR(std::log2(off(12, VelocityAt::middle) / middle), 2, 0.1);
+        EXPECT_LT(middle, 0.05 * begin);
+    }
+}
+
 TEST(Advection, WhatAlternatesFromCellToCellDoesNotStayBehind) {
     // Half a cell a step along an axis: interpolation leaves nothing of φ = (−1)^i, and a whole correction half of it.
     constexpr int n = 12;
@@ -103,7 +149,7 @@ TEST(Advection, WhatAlternatesFromCellToCellDoesNotStayBehind) {
                         record[density] = glm::ivec3(i, j, k)[axis] % 2 == 0 ? 1.0f : -1.0f;
                     }
             Advection advection(layout, ledger.account("d"));
-            advection.advect(cells, spare, solids.moving(), {AdvectionScheme::macCormack, limit}, 1, 0.5f);
+            advection.advect(cells, spare, solids.moving(), {AdvectionScheme::macCormack, limit}, {1, glm::vec3(0.5f)});
             forAllCells(layout, [&](int i, int j, int k, std::size_t at) {
                 const int along = glm::ivec3(i, j, k)[axis];
                 if (along > 1 && along < n - 2) {

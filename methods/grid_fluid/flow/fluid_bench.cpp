@@ -136,7 +136,7 @@ struct Kernels {
         from.swap(to);
         fillGhosts(from, layout, {plume.settings.sides, {}, false});
     }
-    void advect(AdvectionRule rule) { advection.advect(from, to, solids.moving(), rule, 1, 1.5f); }
+    void advect(AdvectionRule rule) { advection.advect(from, to, solids.moving(), rule, {1, glm::vec3(1.5f)}); }
     void build() { pressure.build(borrowed, solids.conductance()); }
     void gather() { gatherDivergence(from, layout, solids.conductance(), pressure.finest()); }
 

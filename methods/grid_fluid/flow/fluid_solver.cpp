@@ -9,6 +9,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "methods/contract/errors.h"
 #include "methods/grid_fluid/flow/density_balance.h"
@@ -26,10 +27,10 @@ const FluidSettings& checked(const FluidSettings& settings) {
     const CellLayout layout(settings.box.cells);
     requireAvailable("grid of the fluid", layout.padded() * (2 * lanes * sizeof(float) + 1));
     // Sampling (sampling.h) uses 32-bit indices of floats.
-    constexpr std::size_t maximumCells = std::numeric_limits<std::int32_t>::max() / lanes;
-    if (layout.padded() > maximumCells)
+    constexpr std::size_t maximumPaddedCells = std::numeric_limits<std::int32_t>::max() / lanes;
+    if (layout.padded() > maximumPaddedCells)
         throw InputError("grid: got " + std::to_string(layout.padded()) +
-                         " cells with their ghosts, allowed: " + std::to_string(maximumCells));
+                         " cells with their ghosts, allowed: " + std::to_string(maximumPaddedCells));
     return settings;
 }
 
@@ -42,7 +43,7 @@ FluidSolver::FluidSolver(const FluidSettings& settings, MemoryLedger& ledger)
       cells_(layout_, ledger.account("fluid cells"), floatsToLend()),
       spare_(layout_, ledger.account("fluid cells of the last step"), floatsToLend()),
       solids_(layout_, settings.sides, ledger.account("fluid solids")),
-      advection_(layout_, ledger.account("fluid advection window")) {
+      advection_(layout_, ledger.account("fluid advection")) {
     for (std::size_t at = 0; at < layout_.padded(); ++at)
         for (int axis = 0; axis < 3; ++axis) cells_.cell(at)[axis] = settings_.windMetresPerSecond[axis];
     setSideFaces(cells_, layout_, ghostRule());
@@ -54,8 +55,9 @@ std::size_t FluidSolver::floatsToLend() const {
 }
 
 void FluidSolver::setSolids(const SolidMask& mask) {
-    covered_ += solids_.set(mask, cells_);
-    speedsKnown_ = false;
+    const SolidCells::Change change = solids_.set(mask, cells_);
+    covered_ += change.coveredDensity;
+    maximumSpeeds_ = glm::max(maximumSpeeds_, change.greatestSpeeds);
 }
 
 StepReport FluidSolver::step(double stepSeconds, std::span<const FluidSource> sources, const StageClock& clock) {
@@ -96,7 +98,8 @@ void FluidSolver::advect(float seconds) {
         due -= densityLeaving(cells_, layout_, solids_.conductance(), cellsPerSpeed, notes ? &leaving_ : nullptr);
     solids_.extendInto(cells_, !settings_.noSlip);
     fillGhosts();
-    advection_.advect(cells_, spare_, solids_.moving(), settings_.advection, cellsPerSpeed, maximumSpeeds_.z);
+    const float ahead = aheadOf(seconds, std::exchange(advectedSeconds_, seconds));
+    advection_.advect(cells_, spare_, solids_.moving(), settings_.advection, {cellsPerSpeed, maximumSpeeds_, ahead});
     setSideFaces(cells_, layout_, ghostRule());
     solids_.restore(cells_);
     if (keeps) scaleDensity(cells_, layout_, due);
@@ -211,6 +214,7 @@ void FluidSolver::scroll(glm::ivec3 by) {
             }
     });
     cells_.swap(spare_);
+    advection_.scroll(by, settings_.windMetresPerSecond);
     settings_.box.originMetres += glm::dvec3(by) * settings_.box.spacingMetres;
     lastStepSeconds_ = 0;  // the memory of its pressure now holds the cells
     setSolids({});

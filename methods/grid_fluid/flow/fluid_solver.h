@@ -46,6 +46,7 @@ class FluidSolver final : public Solver {
     /// For setting the state directly.
     [[nodiscard]] CellField& changeCells() {
         speedsKnown_ = false;
+        advectedSeconds_ = 0;
         return cells_;
     }
     [[nodiscard]] const SolidCells& solids() const { return solids_; }
@@ -80,6 +81,7 @@ class FluidSolver final : public Solver {
     std::vector<LeavingDensity> leaving_;
     std::int64_t steps_ = 0;
     double lastStepSeconds_ = 0;
+    float advectedSeconds_ = 0;  ///< the last step that the flow has taken, 0 if the state was set since
 };
 
 }  // namespace dustbench::grid_fluid::flow

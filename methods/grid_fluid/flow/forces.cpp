@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "methods/grid_fluid/flow/curl.h"
 #include "methods/grid_fluid/flow/lanes.h"
-#include "methods/grid_fluid/flow/row_tiles.h"
 #include "methods/grid_fluid/flow/sixteen_records.h"
 #include "methods/kit/parallel/for_each_block.h"
 #include "methods/kit/parallel/for_stages.h"
@@ -18,70 +18,16 @@ constexpr std::size_t maximumForcedCells = 4096;
 /// Smaller values are set to 0: otherwise fading smoke becomes denormal numbers, which are slow.
 constexpr float nothing = 1e-18f;
 
-struct Curl {
-    Curl(const CellLayout& layout, std::span<float> memory)
-        : count(layout.rows() * static_cast<std::size_t>(layout.nx)),
-          x(memory.data()),
-          y(x + count),
-          z(y + count),
-          length(z + count),
-          lift(length + count) {}
-    std::size_t count;
-    float *x, *y, *z, *length;
-    float* lift;  ///< of the forces, once they replace the curl: what does not turn the air
-};
-
-/// ω at the centres of a row: central differences of the speeds there, each the mean of two faces; and |ω|.
-void curlOfRow(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, float spacingMetres,
-               int j, int k, const Curl& curl) {
-    const float perFourCells = 0.25f / spacingMetres;
-    const auto nx = static_cast<std::size_t>(layout.nx);
-    const std::size_t row = layout.row * lanes, slab = layout.slab * lanes;
-    const std::size_t at = layout.at(0, j, k);
-    const std::size_t r =
-        static_cast<std::size_t>(k) * static_cast<std::size_t>(layout.ny) + static_cast<std::size_t>(j);
-    const float* own = cells.cell(at);
-    float *x = curl.x + r * nx, *y = curl.y + r * nx, *z = curl.z + r * nx, *length = curl.length + r * nx;
-    const auto cell = [&](std::size_t i) {
-        const float fluid = conductance[at + i] == 1 ? perFourCells : 0.0f;
-        const float* record = own + i * lanes;
-        // Of lane u between the neighbours a step ahead and behind; `half` leads to its other face.
-        const auto along = [record](std::size_t step, std::size_t half, std::size_t u) {
-            const auto forth = static_cast<std::ptrdiff_t>(step);
-            return (record[forth + static_cast<std::ptrdiff_t>(u)] +
-                    (record + half)[forth + static_cast<std::ptrdiff_t>(u)]) -
-                   (record[static_cast<std::ptrdiff_t>(u) - forth] +
-                    (record + half)[static_cast<std::ptrdiff_t>(u) - forth]);
-        };
-        x[i] = (along(row, slab, 2) - along(slab, row, 1)) * fluid;
-        y[i] = (along(slab, lanes, 0) - along(lanes, slab, 2)) * fluid;
-        z[i] = (along(lanes, row, 1) - along(row, lanes, 0)) * fluid;
-    };
-    const auto sixteenCells = [&](std::size_t i) {
-        const float* records = own + i * lanes;
-        const auto between = [records](std::size_t step, std::size_t half) {
-            return (SixteenRecords(records + step) + SixteenRecords(records + half + step)) -
-                   (SixteenRecords(records - step) + SixteenRecords(records + half - step));
-        };
-        store(x + i, (between(row, slab).get<2>() - between(slab, row).get<1>()) * perFourCells);
-        store(y + i, (between(slab, lanes).get<0>() - between(lanes, slab).get<2>()) * perFourCells);
-        store(z + i, (between(lanes, row).get<1>() - between(row, lanes).get<0>()) * perFourCells);
-    };
-    forCells(conductance + at, nx, sixteenCells, cell);
-#pragma GCC ivdep
-    for (std::size_t i = 0; i < nx; ++i) length[i] = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
-}
-
 /// f = ε·h·(N × ω), N = ∇|ω| / |∇|ω||, in place of ω. Beyond the box |ω| is extended.
-void confineRow(const Curl& curl, const CellLayout& layout, int j, int k, float strength) {
-    const auto nx = static_cast<std::size_t>(layout.nx), slab = nx * static_cast<std::size_t>(layout.ny);
-    const std::size_t at = static_cast<std::size_t>(k) * slab + static_cast<std::size_t>(j) * nx;
-    const float* own = curl.length + at;
-    const float* below = j > 0 ? own - nx : own;
-    const float* above = j + 1 < layout.ny ? own + nx : own;
-    const float* before = k > 0 ? own - slab : own;
-    const float* behind = k + 1 < layout.nz ? own + slab : own;
-    float *wx = curl.x + at, *wy = curl.y + at, *wz = curl.z + at;
+void confineRow(const CurlField& field, const CellLayout& layout, int j, int k, float strength) {
+    const auto nx = static_cast<std::size_t>(layout.nx);
+    const float* own = field.length(j, k);
+    const float* below = field.length(std::max(j - 1, 0), k);
+    const float* above = field.length(std::min(j + 1, layout.ny - 1), k);
+    const float* before = field.length(j, std::max(k - 1, 0));
+    const float* behind = field.length(j, std::min(k + 1, layout.nz - 1));
+    const std::size_t at = field.row(j, k);
+    float *wx = field.curl()[0] + at, *wy = field.curl()[1] + at, *wz = field.curl()[2] + at;
     const auto cell = [&](std::size_t i, float left, float right) {
         const float gx = right - left, gy = above[i] - below[i], gz = behind[i] - before[i];
         const float scale = strength / std::sqrt(gx * gx + gy * gy + gz * gz + 1e-20f);
@@ -96,20 +42,11 @@ void confineRow(const Curl& curl, const CellLayout& layout, int j, int k, float 
     cell(nx - 1, own[nx - 2], own[nx - 1]);
 }
 
-/// What is added to the faces of a row's cells, in m/s.
-struct AddedRow {
+/// What confinement adds to the faces of a row's cells, in m/s.
+struct ConfinedRow {
     std::array<float, maximumForcedCells> x, y, z;
     std::array<float, maximumForcedCells + 3> sum;  ///< over rows; see sumOfRows
 };
-
-/// Buoyancy and weight at the centres; solids hold neither heat nor density.
-void findLift(const CellField& cells, const CellLayout& layout, int j, int k, float lift, float weight, float* force) {
-    const auto nx = static_cast<std::size_t>(layout.nx);
-    float* to =
-        force + (static_cast<std::size_t>(k) * static_cast<std::size_t>(layout.ny) + static_cast<std::size_t>(j)) * nx;
-    const float* record = cells.cell(layout.at(0, j, k));
-    for (std::size_t i = 0; i < nx; ++i, record += lanes) to[i] = lift * record[temperature] - weight * record[density];
-}
 
 /// Shares of the cells around a cell, (1, 2, 1)/4, and around the face towards its neighbour before it: the mean of the
 /// shares around both.
@@ -144,21 +81,13 @@ void sumOfRows(const float* field, const CellLayout& layout, int j, int k, const
     sum[nx] = sum[nx - 1];
 }
 
-/// A face has the mean force of its two cells. That of confinement is spread beforehand over the cells around each, by
-/// (1, 2, 1)/4 along each axis: N turns from cell to cell where |ω| varies little, and so would the force.
-void facesOfRow(const Curl& force, const CellLayout& layout, int j, int k, bool confined, AddedRow& row) {
-    const auto nx = static_cast<std::size_t>(layout.nx), slab = nx * static_cast<std::size_t>(layout.ny);
-    const float* lift = force.lift + static_cast<std::size_t>(k) * slab + static_cast<std::size_t>(j) * nx;
-    const float* liftBelow = j > 0 ? lift - nx : lift;
-#pragma GCC ivdep
-    for (std::size_t i = 0; i < nx; ++i) row.y[i] = 0.5f * (liftBelow[i] + lift[i]);
-    if (!confined) {
-        std::fill_n(row.x.begin(), nx, 0.0f);
-        std::fill_n(row.z.begin(), nx, 0.0f);
-        return;
-    }
+/// A face has the mean force of its two cells, spread beforehand over the cells around each, by (1, 2, 1)/4 along each
+/// axis: N turns from cell to cell where |ω| varies little, and so would the force.
+void facesOfRow(const CurlField& field, const CellLayout& layout, int j, int k, ConfinedRow& row) {
+    const auto nx = static_cast<std::size_t>(layout.nx);
+    const auto& force = field.curl();
     float* sum = row.sum.data() + 2;
-    sumOfRows(force.x, layout, j, k, aroundCell, aroundCell, sum);
+    sumOfRows(force[0], layout, j, k, aroundCell, aroundCell, sum);
 #pragma GCC ivdep
     for (std::size_t i = 0; i < nx; ++i) {
         const float* s = sum + i;
@@ -168,10 +97,10 @@ void facesOfRow(const Curl& force, const CellLayout& layout, int j, int k, bool 
         const float* s = sum + i;
         return aroundCell[0] * s[-1] + aroundCell[1] * s[0] + aroundCell[2] * s[1];
     };
-    sumOfRows(force.y, layout, j, k, aroundFace, aroundCell, sum);
+    sumOfRows(force[1], layout, j, k, aroundFace, aroundCell, sum);
 #pragma GCC ivdep
-    for (std::size_t i = 0; i < nx; ++i) row.y[i] += spreadAlongX(i);
-    sumOfRows(force.z, layout, j, k, aroundCell, aroundFace, sum);
+    for (std::size_t i = 0; i < nx; ++i) row.y[i] = spreadAlongX(i);
+    sumOfRows(force[2], layout, j, k, aroundCell, aroundFace, sum);
 #pragma GCC ivdep
     for (std::size_t i = 0; i < nx; ++i) row.z[i] = spreadAlongX(i);
 }
@@ -194,21 +123,32 @@ void forMoving(const Moving* moving, std::size_t cells, const SixteenCells& sixt
     }
 }
 
+/// Lift at the centres of a row's cells, in m/s.
+using LiftedRow = std::array<float, maximumForcedCells>;
+
 /// What a step changes in the cells of a row: forces on the faces, and decay at the centres.
 class Change {
  public:
     Change(const ForceSettings& settings, float stepSeconds)
-        : keptDensity_(std::exp(-settings.densityDecayPerSecond * stepSeconds)),
+        : buoyancy_(settings.buoyancyPerKelvin * stepSeconds),
+          weight_(settings.weightPerDensity * stepSeconds),
+          keptDensity_(std::exp(-settings.densityDecayPerSecond * stepSeconds)),
           keptHeat_(std::exp(-settings.coolingPerSecond * stepSeconds)),
           lost_(settings.reactionLossPerSecond * stepSeconds) {}
 
-    void row(CellField& cells, const CellLayout& layout, const Moving* moving, int j, int k,
-             const AddedRow& force) const {
+    /// Rows of a slab in the order of j: `below` holds the lift of row j − 1, before it changed, and receives that of
+    /// this row.
+    void row(CellField& cells, const CellLayout& layout, const Moving* moving, int j, int k, const ConfinedRow& force,
+             LiftedRow& below) const {
         const std::size_t at = layout.at(0, j, k);
         float* records = cells.cell(at);
+        const auto liftOf = [&](const auto& heat, const auto& smoke) { return buoyancy_ * heat - weight_ * smoke; };
         const auto cell = [&](std::size_t i) {
             float* record = records + i * lanes;
-            const std::array<float, 3> added{force.x[i], force.y[i], force.z[i]};
+            // Solids hold neither heat nor density.
+            const float lift = liftOf(record[temperature], record[density]);
+            const std::array<float, 3> added{force.x[i], 0.5f * (below[i] + lift) + force.y[i], force.z[i]};
+            below[i] = lift;
             for (std::size_t axis = 0; axis < 3; ++axis)
                 if ((moving[at + i] >> axis & 1) != 0) record[axis] = orNothing(record[axis] + added[axis]);
             if ((moving[at + i] & 8) == 0) return;
@@ -218,9 +158,11 @@ class Change {
         };
         const auto sixteenCells = [&](std::size_t i) {
             SixteenRecords::Quantities now = SixteenRecords(records + i * lanes).all();
+            const Float16 lift = liftOf(now[temperature], now[density]);
             now[velocityX] += load<Float16>(&force.x[i]);
-            now[velocityY] += load<Float16>(&force.y[i]);
+            now[velocityY] += 0.5f * (load<Float16>(&below[i]) + lift) + load<Float16>(&force.y[i]);
             now[velocityZ] += load<Float16>(&force.z[i]);
+            store(&below[i], lift);
             now[density] *= keptDensity_;
             now[temperature] *= keptHeat_;
             now[reaction] -= lost_;
@@ -232,48 +174,65 @@ class Change {
     }
 
  private:
+    float buoyancy_, weight_;
     float keptDensity_, keptHeat_, lost_;
 };
 
 }  // namespace
 
 std::size_t forceFloats(const CellLayout& layout) {
-    return 5 * layout.rows() * static_cast<std::size_t>(layout.nx);
-}
-
-void gatherCurl(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, float spacingMetres,
-                std::span<float> memory) {
-    const Curl curl(layout, memory);
-    struct Nothing {};
-    forRowsInTiles<Nothing>(
-        layout, [&](int j, int k, Nothing&) { curlOfRow(cells, layout, conductance, spacingMetres, j, k, curl); });
+    return CurlField::floats(layout);
 }
 
 void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, const Moving* moving,
                  const ForceSettings& settings, float spacingMetres, float stepSeconds, std::span<float> borrowed) {
-    const Curl curl(layout, borrowed);
+    CurlField curl(layout, borrowed);
     const bool confined = settings.confinementPerSecond > 0;
     const float strength = settings.confinementPerSecond * spacingMetres * stepSeconds;
-    const float lift = settings.buoyancyPerKelvin * stepSeconds, weight = settings.weightPerDensity * stepSeconds;
     const Change change(settings, stepSeconds);
-    enum Stage : std::size_t { findForces, confine, wait, apply, stages };  // a face needs forces two slabs before it
-    parallel::forStages(static_cast<std::size_t>(layout.nz), stages, 2 * parallel::threadCount(),
-                        [&](std::size_t stage, std::size_t slab) {
-                            if (stage == wait) return;
-                            const int k = static_cast<int>(slab);
-                            AddedRow added;
-                            for (int j = 0; j < layout.ny; ++j) {
-                                if (stage == findForces) {
-                                    if (confined) curlOfRow(cells, layout, conductance, spacingMetres, j, k, curl);
-                                    findLift(cells, layout, j, k, lift, weight, curl.lift);
-                                } else if (stage == confine) {
-                                    if (confined) confineRow(curl, layout, j, k, strength);
-                                } else {
-                                    facesOfRow(curl, layout, j, k, confined, added);
-                                    change.row(cells, layout, moving, j, k, added);
-                                }
-                            }
-                        });
+    const auto apply = [&](int k) {
+        ConfinedRow force;
+        if (!confined)
+            for (auto* axis : {&force.x, &force.y, &force.z}) std::fill_n(axis->begin(), layout.nx, 0.0f);
+        LiftedRow below;  // the first row's faces are the box's side, and do not move
+        std::fill_n(below.begin(), layout.nx, 0.0f);
+        for (int j = 0; j < layout.ny; ++j) {
+            if (confined) facesOfRow(curl, layout, j, k, force);
+            change.row(cells, layout, moving, j, k, force, below);
+        }
+    };
+    const auto slabs = static_cast<std::size_t>(layout.nz);
+    if (!confined) {
+        parallel::forEachBlock(slabs, 1, [&](std::size_t slab, std::size_t) { apply(static_cast<int>(slab)); });
+        return;
+    }
+    enum Stage : std::size_t {
+        speeds,
+        vorticity,
+        length,
+        confine,
+        wait,
+        faces,
+        stages
+    };  // a face needs forces two slabs before it
+    parallel::forStages(slabs, stages, 2 * parallel::threadCount(), [&](std::size_t stage, std::size_t slab) {
+        const int k = static_cast<int>(slab);
+        switch (stage) {
+            case speeds:
+                return curl.findSpeeds(cells, k);
+            case vorticity:
+                return curl.findCurl(conductance, spacingMetres, k);
+            case length:
+                return curl.findLength(k);
+            case confine:
+                for (int j = 0; j < layout.ny; ++j) confineRow(curl, layout, j, k, strength);
+                return;
+            case faces:
+                return apply(k);
+            default:
+                return;
+        }
+    });
 }
 
 void diffuse(CellField& cells, const CellLayout& layout, const Moving* moving, float diffusion,

@@ -36,9 +36,4 @@ void applyForces(CellField& cells, const CellLayout& layout, const std::uint8_t*
 void diffuse(CellField& cells, const CellLayout& layout, const Moving* moving, float diffusion,
              std::span<float> borrowed);
 
-/// Curl of the velocity at the centres in 1/s and its magnitude, as four arrays of all cells, x fastest, without
-/// ghosts.
-void gatherCurl(const CellField& cells, const CellLayout& layout, const std::uint8_t* conductance, float spacingMetres,
-                std::span<float> curl);
-
 }  // namespace dustbench::grid_fluid::flow

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "methods/grid_fluid/flow/curl.h"
 #include "methods/grid_fluid/flow/forces.h"
 #include "methods/grid_fluid/flow/kernels_test_world.h"
 #include "methods/grid_fluid/flow/plain_advection.h"
@@ -13,12 +14,29 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
+constexpr std::array allRules{AdvectionRule{AdvectionScheme::semiLagrangian, Limit::none},
+                              AdvectionRule{AdvectionScheme::macCormack, Limit::clamp},
+                              AdvectionRule{AdvectionScheme::macCormack, Limit::revert},
+                              AdvectionRule{AdvectionScheme::macCormack, Limit::none}};
+
+/// Numbers that are not as in the plain form. A position on the border of two cells may be rounded to either side,
+/// where the extrema differ.
+int differing(const World& world, const std::vector<PlainRecord>& plain, float speed) {
+    int different = 0;
+    for (int k = 0; k < world.layout.nz; ++k)
+        for (int j = 0; j < world.layout.ny; ++j)
+            for (int i = 0; i < world.layout.nx; ++i)
+                for (std::size_t lane = 0; lane < lanes; ++lane) {
+                    const std::size_t at = world.layout.at(i, j, k);
+                    const double error = std::fabs(static_cast<double>(world.from.cell(at)[lane]) - plain[at][lane]);
+                    if (error > 2e-5 * std::max(1.0, static_cast<double>(speed * speed))) ++different;
+                }
+    return different;
+}
+
 TEST(Advection, EqualsThePlainOne) {
     for (const float speed : {0.4f, 1.7f, 9.0f})
-        for (const AdvectionRule rule : {AdvectionRule{AdvectionScheme::semiLagrangian, Limit::none},
-                                         AdvectionRule{AdvectionScheme::macCormack, Limit::clamp},
-                                         AdvectionRule{AdvectionScheme::macCormack, Limit::revert},
-                                         AdvectionRule{AdvectionScheme::macCormack, Limit::none}}) {
+        for (const AdvectionRule rule : allRules) {
             World world({13, 9, 27});
             world.fillRandom(speed);
             world.setRandomSolids(0.1);
@@ -26,19 +44,32 @@ TEST(Advection, EqualsThePlainOne) {
             const float maximum = std::max(speed, 1.0f);
             const std::vector<PlainRecord> plain = plainAdvection(world.from, world.layout, world.solids.moving(), rule,
                                                                   0.9, static_cast<double>(maximum));
-            advection.advect(world.from, world.to, world.solids.moving(), rule, 0.9f, maximum);
-            // A position on the border of two cells may be rounded to either side, where the extrema differ.
-            int different = 0;
-            for (int k = 0; k < 27; ++k)
-                for (int j = 0; j < 9; ++j)
-                    for (int i = 0; i < 13; ++i)
-                        for (std::size_t lane = 0; lane < lanes; ++lane) {
-                            const std::size_t at = world.layout.at(i, j, k);
-                            const double error =
-                                std::fabs(static_cast<double>(world.from.cell(at)[lane]) - plain[at][lane]);
-                            if (error > 2e-5 * std::max(1.0, static_cast<double>(speed * speed))) ++different;
-                        }
-            EXPECT_LE(different, 6) << "speed " << speed << " limit " << static_cast<int>(rule.limit);
+            advection.advect(world.from, world.to, world.solids.moving(), rule, {0.9f, glm::vec3(maximum)});
+            EXPECT_LE(differing(world, plain, speed), 6)
+                << "speed " << speed << " limit " << static_cast<int>(rule.limit);
+        }
+}
+
+TEST(Advection, AlongThePathsOfTheMiddleOfTheStepEqualsThePlainOne) {
+    for (const float speed : {0.4f, 1.7f, 9.0f})
+        for (AdvectionRule rule : allRules) {
+            rule.velocityAt = VelocityAt::middle;
+            World world({13, 9, 27});
+            Advection advection(world.layout, world.ledger.account("window"));
+            const float maximum = std::max(speed, 1.0f);
+            PlainExtrapolation extrapolation{{}, 0.4, glm::dvec3(static_cast<double>(maximum))};
+            for (const bool isFirst : {true, false}) {
+                world.fillRandom(speed);
+                if (isFirst) world.setRandomSolids(0.1);
+                const std::vector<glm::dvec3> centres = plainCentres(world.from, world.layout);
+                const std::vector<PlainRecord> plain =
+                    plainAdvection(world.from, world.layout, world.solids.moving(), rule, 0.9,
+                                   static_cast<double>(maximum), isFirst ? nullptr : &extrapolation);
+                advection.advect(world.from, world.to, world.solids.moving(), rule,
+                                 {0.9f, glm::vec3(maximum), isFirst ? 0 : 0.4f});
+                EXPECT_LE(differing(world, plain, speed), 6) << "speed " << speed << (isFirst ? " first" : " second");
+                extrapolation.last = centres;
+            }
         }
 }
 
@@ -100,15 +131,20 @@ TEST(Forces, CurlOfARigidRotationIsTwiceItsSpeed) {
                         glm::cross(glm::vec3(0.5f, -1, 2), 0.25f * face)[axis];
                 }
             }
-    std::vector<float> curl(forceFloats(world.layout));
-    gatherCurl(world.from, world.layout, world.solids.conductance(), 0.25f, curl);
-    const std::size_t count = curl.size() / 5;
-    for (std::size_t c = 0; c < count; ++c) {
-        EXPECT_NEAR(curl[c], 1, 1e-5);
-        EXPECT_NEAR(curl[count + c], -2, 1e-5);
-        EXPECT_NEAR(curl[2 * count + c], 4, 1e-5);
-        EXPECT_NEAR(curl[3 * count + c], std::sqrt(21.0f), 1e-5);
-    }
+    std::vector<float> memory(CurlField::floats(world.layout));
+    CurlField field(world.layout, memory);
+    for (int k = 0; k < 6; ++k) field.findSpeeds(world.from, k);
+    for (int k = 0; k < 6; ++k) field.findCurl(world.solids.conductance(), 0.25f, k);
+    for (int k = 0; k < 6; ++k) field.findLength(k);
+    for (int k = 0; k < 6; ++k)
+        for (int j = 0; j < 8; ++j)
+            for (std::size_t i = 0; i < 10; ++i) {
+                const std::size_t at = field.row(j, k) + i;
+                EXPECT_NEAR(field.curl()[0][at], 1, 1e-5);
+                EXPECT_NEAR(field.curl()[1][at], -2, 1e-5);
+                EXPECT_NEAR(field.curl()[2][at], 4, 1e-5);
+                EXPECT_NEAR(field.length(j, k)[i], std::sqrt(21.0f), 1e-5);
+            }
 }
 
 TEST(Forces, ConfinementTurnsAroundAVortexRing) {

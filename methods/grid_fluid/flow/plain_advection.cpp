@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <utility>
 
 #include "methods/grid_fluid/flow/evened_corrections.h"
 
@@ -14,6 +15,16 @@ struct PlainPlaces {
     std::array<glm::dvec3, 4> at;  ///< of the faces across x, y, z and of the centre
     [[nodiscard]] const glm::dvec3& of(std::size_t lane) const { return at[std::min<std::size_t>(lane, 3)]; }
 };
+
+/// Calls `take(cell, the nearest in the box)` for all padded cells.
+template <typename Take>
+void forPadded(const CellLayout& layout, const Take& take) {
+    const glm::ivec3 size(layout.nx, layout.ny, layout.nz);
+    for (int k = -1; k <= size.z; ++k)
+        for (int j = -1; j <= size.y; ++j)
+            for (int i = -1; i <= size.x; ++i)
+                take(glm::ivec3(i, j, k), glm::clamp(glm::ivec3(i, j, k), glm::ivec3(0), size - 1));
+}
 
 /// φ at such places.
 struct Field {
@@ -47,17 +58,10 @@ double limited(Limit limit, double corrected, double guess, double minimum, doub
 /// Paths of cells and faces through the velocities at a time.
 class Paths {
  public:
-    Paths(const Field& phi, double dt)
-        : layout_(phi.layout), size_(layout_.nx, layout_.ny, layout_.nz), dt_(dt), centre_(layout_.padded()) {
-        forPadded([&](glm::ivec3 cell, glm::ivec3 inner) {
-            const std::size_t own = layout_.at(inner.x, inner.y, inner.z);
-            const std::array<std::size_t, 3> next{own + 1, own + layout_.row, own + layout_.slab};
-            glm::dvec3& u = centre_[layout_.at(cell.x, cell.y, cell.z)];
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                u[static_cast<int>(axis)] = 0.5 * (phi.values[own][axis] + phi.values[next[axis]][axis]);
-        });
+    Paths(const CellLayout& layout, std::vector<glm::dvec3> centres, double dt)
+        : layout_(layout), size_(layout.nx, layout.ny, layout.nz), dt_(dt), centre_(std::move(centres)) {
         halfway_ = centre_;
-        forPadded([&](glm::ivec3 cell, glm::ivec3 inner) {
+        forPadded(layout, [&](glm::ivec3 cell, glm::ivec3 inner) {
             const glm::dvec3 x(inner + 1), u = centre_[layout_.at(inner.x, inner.y, inner.z)];
             halfway_[layout_.at(cell.x, cell.y, cell.z)] =
                 velocity(glm::clamp(x - 0.5 * dt_ * u, glm::dvec3(0), glm::dvec3(size_ + 1)));
@@ -83,14 +87,6 @@ class Paths {
     }
 
  private:
-    /// Calls `take(cell, the nearest in the box)`.
-    template <typename Take>
-    void forPadded(const Take& take) const {
-        for (int k = -1; k <= size_.z; ++k)
-            for (int j = -1; j <= size_.y; ++j)
-                for (int i = -1; i <= size_.x; ++i)
-                    take(glm::ivec3(i, j, k), glm::clamp(glm::ivec3(i, j, k), glm::ivec3(0), size_ - 1));
-    }
     [[nodiscard]] glm::dvec3 velocity(glm::dvec3 x) const {
         const glm::ivec3 corner = glm::min(glm::ivec3(glm::floor(x)), size_);
         const glm::dvec3 f = x - glm::dvec3(corner);
@@ -111,11 +107,31 @@ class Paths {
 
 }  // namespace
 
+std::vector<glm::dvec3> plainCentres(const CellField& cells, const CellLayout& layout) {
+    std::vector<glm::dvec3> centres(layout.padded());
+    forPadded(layout, [&](glm::ivec3 cell, glm::ivec3 inner) {
+        const std::size_t own = layout.at(inner.x, inner.y, inner.z);
+        const std::array<std::size_t, 3> next{own + 1, own + layout.row, own + layout.slab};
+        glm::dvec3& u = centres[layout.at(cell.x, cell.y, cell.z)];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            u[static_cast<int>(axis)] =
+                0.5 * (static_cast<double>(cells.cell(own)[axis]) + static_cast<double>(cells.cell(next[axis])[axis]));
+    });
+    return centres;
+}
+
 std::vector<PlainRecord> plainAdvection(const CellField& from, const CellLayout& layout, const Moving* moving,
-                                        AdvectionRule rule, double dt, double maximumSpeedZ) {
+                                        AdvectionRule rule, double dt, double maximumSpeedZ,
+                                        const PlainExtrapolation* extrapolation) {
     Field phi{layout, std::vector<PlainRecord>(layout.padded())};
     for (std::size_t at = 0; at < layout.padded(); ++at) std::copy_n(from.cell(at), lanes, phi.values[at].begin());
-    const Paths paths(phi, dt);
+    std::vector<glm::dvec3> centres = plainCentres(from, layout);
+    if (extrapolation != nullptr)
+        for (std::size_t at = 0; at < layout.padded(); ++at) {
+            const glm::dvec3 u = centres[at], most = extrapolation->maximumSpeeds;
+            centres[at] = glm::clamp(u + extrapolation->ahead * (u - extrapolation->last[at]), -most, most);
+        }
+    const Paths paths(layout, std::move(centres), dt);
     const auto forMoving = [&](const auto& take) {
         for (int k = 0; k < layout.nz; ++k)
             for (int j = 0; j < layout.ny; ++j)

@@ -267,21 +267,6 @@ class CornerStrip {
     std::array<int, stripCells> elsewhere_{};  ///< bits of the faces that lie between other records than the centre
 };
 
-/// The velocities at the centres of four cells, four floats each: the means of their faces. The fourth is left out.
-[[gnu::always_inline]] inline Float16 fourCentres(const float* records, std::size_t row, std::size_t slab) {
-    const auto low = load<Float16>(records), high = load<Float16>(records + 16);
-    const float *above = records + row, *behind = records + slab;
-    const Float16 own = __builtin_shufflevector(low, high, 0, 1, 2, 3, 6, 7, 8, 9, 12, 13, 14, 15, 18, 19, 20, 21);
-    const Float16 x = __builtin_shufflevector(low, high, 6, 7, 8, 9, 12, 13, 14, 15, 18, 19, 20, 21, 24, 25, 26, 27);
-    const Float16 y = __builtin_shufflevector(load<Float16>(above), load<Float16>(above + 16), 0, 1, 2, 3, 6, 7, 8, 9,
-                                              12, 13, 14, 15, 18, 19, 20, 21);
-    const Float16 z = __builtin_shufflevector(load<Float16>(behind), load<Float16>(behind + 16), 0, 1, 2, 3, 6, 7, 8, 9,
-                                              12, 13, 14, 15, 18, 19, 20, 21);
-    const Float16 xy = __builtin_shufflevector(x, y, 0, 17, 2, 3, 4, 21, 6, 7, 8, 25, 10, 11, 12, 29, 14, 15);
-    const Float16 next = __builtin_shufflevector(xy, z, 0, 1, 18, 3, 4, 5, 22, 7, 8, 9, 26, 11, 12, 13, 30, 15);
-    return 0.5f * (own + next);
-}
-
 /// Trilinear samples of vectors of four floats in a ring of slabs, at sixteen positions.
 class CentreStrip {
  public:

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <mutex>
 #include <numeric>
 
 #include "methods/kit/parallel/for_each_block.h"
@@ -18,11 +20,14 @@ std::array<std::ptrdiff_t, 6> around(const CellLayout& layout) {
     return {-1, 1, -row, row, -slab, slab};
 }
 
-/// Most rows of most masks hold no solid; a vector of bytes at a time tells.
-bool anySolid(std::span<const std::uint8_t> row) {
+/// Whether any byte differs from `usual`; most rows of most boxes hold no solid. A vector of bytes at a time tells.
+bool anyOther(std::span<const std::uint8_t> row, std::uint8_t usual) {
     std::uint8_t any = 0;
-    for (const std::uint8_t body : row) any |= body;
+    for (const std::uint8_t byte : row) any |= byte ^ usual;
     return any != 0;
+}
+bool anySolid(std::span<const std::uint8_t> bodies) {
+    return anyOther(bodies, 0);
 }
 
 /// What of a cell moves: bit `lane` of a velocity, that of the centre for all else.
@@ -41,13 +46,14 @@ SolidCells::SolidCells(const CellLayout& layout, const Sides& sides, MemoryAccou
     rimOfSlab_.resize(static_cast<std::size_t>(layout.nz));
 }
 
-double SolidCells::set(const SolidMask& mask, CellField& cells) {
+SolidCells::Change SolidCells::set(const SolidMask& mask, CellField& cells) {
     check(mask, layout_);
-    const double covered = cover(mask, cells);
-    if (!mask.body.empty()) setFaces(mask, cells);
+    Change change;
+    change.coveredDensity = cover(mask, cells);
+    if (!mask.body.empty()) change.greatestSpeeds = setFaces(mask, cells);
     findMoving();
     findRim(cells);
-    return covered;
+    return change;
 }
 
 double SolidCells::cover(const SolidMask& mask, CellField& cells) {
@@ -75,8 +81,9 @@ double SolidCells::cover(const SolidMask& mask, CellField& cells) {
     return std::accumulate(covered.begin(), covered.end(), 0.0);
 }
 
-/// Each face between two cells belongs to the solid ahead of it, else to that behind; the far sides' included.
-void SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
+/// Each face between two cells belongs to the solid ahead of it, else to that behind; the far sides' included. Returns
+/// the greatest speed along each axis.
+glm::vec3 SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
     const glm::ivec3 size(layout_.nx, layout_.ny, layout_.nz);
     const auto indexOf = [&](glm::ivec3 cell) {
         return (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(size.y) +
@@ -90,6 +97,8 @@ void SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
     const auto speedOf = [&](std::uint8_t body, glm::ivec3 cell, int axis) {
         return mask.velocityOf(body, indexOf(cell), cell)[axis];
     };
+    glm::vec3 greatest(0);
+    std::mutex mutex;
     for (int axis = 0; axis < 3; ++axis) {
         const auto step = std::array<std::size_t, 3>{1, layout_.row, layout_.slab}[static_cast<std::size_t>(axis)];
         const auto hasFacesOfSolids = [&](glm::ivec3 row) {
@@ -102,6 +111,11 @@ void SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
             return isSolid(row);
         };
         parallel::forEachBlock(layout_.rows(), solidRows, [&](std::size_t first, std::size_t rows) {
+            float ofBlock = 0;
+            const auto setFace = [&](std::size_t at, float speed) {
+                cells.cell(at)[axis] = speed;
+                ofBlock = std::max(ofBlock, std::fabs(speed));
+            };
             for (std::size_t r = first; r < first + rows; ++r) {
                 glm::ivec3 cell(0, layout_.rowJ(r), layout_.rowK(r));
                 if (!hasFacesOfSolids(cell)) continue;
@@ -112,15 +126,17 @@ void SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
                     before[axis] -= 1;
                     const std::uint8_t other = before[axis] < 0 ? 0 : bodyOf(before);
                     if (own != 0)
-                        cells.cell(at)[axis] = speedOf(own, cell, axis);
+                        setFace(at, speedOf(own, cell, axis));
                     else if (other != 0)
-                        cells.cell(at)[axis] = speedOf(other, before, axis);
-                    if (own != 0 && cell[axis] == size[axis] - 1)
-                        cells.cell(at + step)[axis] = speedOf(own, cell, axis);
+                        setFace(at, speedOf(other, before, axis));
+                    if (own != 0 && cell[axis] == size[axis] - 1) setFace(at + step, speedOf(own, cell, axis));
                 }
             }
+            const std::scoped_lock lock(mutex);
+            greatest[axis] = std::max(greatest[axis], ofBlock);
         });
     }
+    return greatest;
 }
 
 void SolidCells::findMoving() {
@@ -151,6 +167,7 @@ void SolidCells::findRim(const CellField& cells) {
         for (int j = 0; j < layout_.ny; ++j) {
             const std::size_t first = layout_.at(0, j, static_cast<int>(k));
             const std::uint8_t* own = conductance_.data() + first;
+            if (!anyOther({own, static_cast<std::size_t>(layout_.nx)}, 1)) continue;
             for (int i = 0; i < layout_.nx; ++i) {
                 if (own[i] == 1) continue;
                 const std::size_t at = first + static_cast<std::size_t>(i);

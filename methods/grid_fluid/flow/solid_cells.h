@@ -20,10 +20,14 @@ class SolidCells {
  public:
     SolidCells(const CellLayout& layout, const Sides& sides, MemoryAccount& account);
 
+    /// What new solids change in the state.
+    struct Change {
+        double coveredDensity = 0;    ///< lost because solids cover it, summed over cells
+        glm::vec3 greatestSpeeds{0};  ///< of the solids' faces across x, y and z
+    };
     /// Replaces all solids. Faces of solids get their speeds, those of uncovered air keep them; both are written to
-    /// `cells`. Returns the density that is lost because solids cover it, summed over cells. Throws InputError if sizes
-    /// do not fit, a velocity is not finite, or no fluid remains.
-    double set(const SolidMask& mask, CellField& cells);
+    /// `cells`. Throws InputError if sizes do not fit, a velocity is not finite, or no fluid remains.
+    Change set(const SolidMask& mask, CellField& cells);
 
     /// For each padded cell, the conductance of a face between it and a fluid cell: 1 for fluid, 2 for air beyond an
     /// open side, whose pressure is known half a cell away, 0 for solids, walls and inflows.
@@ -45,7 +49,7 @@ class SolidCells {
         float solid;        ///< the solid's own speed
     };
     double cover(const SolidMask& mask, CellField& cells);
-    void setFaces(const SolidMask& mask, CellField& cells) const;
+    [[nodiscard]] glm::vec3 setFaces(const SolidMask& mask, CellField& cells) const;
     void findMoving();
     void findRim(const CellField& cells);
 

@@ -4,6 +4,8 @@
 // Source: Stam1999, 2.2; Selle2008, Eq. 4 and 3.2. Threads: the OpenGL thread's.
 #pragma once
 
+#include <optional>
+
 #include "methods/grid_fluid/flow/advection.h"
 #include "methods/grid_fluid/flow_gl/cells_on_gpu.h"
 #include "methods/grid_fluid/flow_gl/kernel.h"
@@ -15,19 +17,32 @@ class AdvectionOnGpu {
  public:
     AdvectionOnGpu(gpu::Device& device, const flow::CellLayout& layout, flow::AdvectionRule rule);
 
+    /// Of which buffers per padded cell hold a velocity, the largest and all.
+    static std::size_t largestBytes(const flow::CellLayout& layout, flow::AdvectionRule rule);
+    static std::size_t allBytes(const flow::CellLayout& layout, flow::AdvectionRule rule);
+
     /// Advects `cells`, with ghosts filled, by `cellsPerSpeed` = Δt/h; `spare` and `guess` are temporary. The report
-    /// must contain the maximum speeds.
+    /// must contain the maximum speeds. `ahead` is flow::AdvectionStep's.
     void advect(CellsOnGpu& cells, CellsOnGpu& spare, const CellsOnGpu& guess, const gpu::Buffer& kinds,
-                const StepReportOnGpu& report, float cellsPerSpeed);
-    [[nodiscard]] std::size_t bytes() const { return halfway_.bytes(); }
+                const StepReportOnGpu& report, float cellsPerSpeed, float ahead);
+    /// Moves what is kept from step to step by whole cells; new cells had the wind. `spare` is temporary.
+    void scroll(const glm::ivec3& by, const glm::vec3& wind, CellsOnGpu& spare);
+    [[nodiscard]] std::size_t bytes() const { return halfway_.bytes() + (last_ ? last_->velocities.bytes() : 0); }
 
  private:
-    void findPaths(const CellsOnGpu& cells, const CellsOnGpu& spare, const StepReportOnGpu& report,
-                   float cellsPerSpeed);
+    /// The velocities at the centres in the last step, if paths follow those of the middle of a step.
+    struct Last {
+        gpu::Buffer velocities;
+        Kernel keep, scroll;
+    };
+    void findPaths(const CellsOnGpu& cells, const CellsOnGpu& spare, const StepReportOnGpu& report, float cellsPerSpeed,
+                   float ahead);
+    void keepVelocities(const CellsOnGpu& cells) const;
 
     glm::ivec3 cells_;
     bool corrected_;
-    gpu::Buffer halfway_;  ///< velocities half-way along the cells' paths
+    gpu::Buffer halfway_;  ///< velocities half-way along the cells' paths; and at the centres (paths.glsl)
+    std::optional<Last> last_;
     Kernel centres_, findHalfway_, predict_, correct_, addCorrections_;
 };
 

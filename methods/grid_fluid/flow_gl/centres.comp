@@ -1,11 +1,22 @@
-// The velocity at each cell's centre: the mean of its two faces. Beyond the box it is that of the outermost cells.
+// The velocity at each cell's centre that paths follow: the mean of its two faces, with EXTRAPOLATED half-way through the
+// step (flow::CentreVelocities). Beyond the box it is that of the outermost cells.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 5) restrict writeonly buffer Centres { vec4 centres[]; };
+#ifdef EXTRAPOLATED
+layout(std430, binding = 2) restrict readonly buffer Last { vec4 last[]; };
+layout(std430, binding = 7) restrict readonly buffer Report { uint maximum[]; };
+uniform float ahead;  // half of this step over the last
+#endif
 
 void main() {
     ivec3 c = ivec3(gl_GlobalInvocationID) - 1;
     if (any(greaterThan(c, cells))) return;
     int cell = at(clamp(c, ivec3(0), cells - 1));
     vec3 next = vec3(moving[cell + 1].x, moving[cell + stepAlong(1)].y, moving[cell + stepAlong(2)].z);
-    centres[at(c)] = vec4(0.5 * (moving[cell].xyz + next), 0);
+    vec3 velocity = 0.5 * (moving[cell].xyz + next);
+#ifdef EXTRAPOLATED
+    vec3 most = uintBitsToFloat(uvec3(maximum[0], maximum[1], maximum[2]));
+    velocity = clamp(velocity + ahead * (velocity - last[cell].xyz), -most, most);
+#endif
+    centres[at(c)] = vec4(velocity, 0);
 }

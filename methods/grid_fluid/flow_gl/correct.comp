@@ -21,10 +21,15 @@ vec3 limited(vec3 value, vec3 first, vec3 low, vec3 high) {
 #endif
 }
 
+// At a cell's centre, of the time whose velocity paths follow.
 vec3 speedOf(ivec3 c) {
     int cell = at(max(c, ivec3(0)));
+#ifdef EXTRAPOLATED
+    return halfway[cell + paddedCells()].xyz;
+#else
     vec3 next = vec3(moving[cell + 1].x, moving[cell + stepAlong(1)].y, moving[cell + stepAlong(2)].z);
     return 0.5 * (moving[cell].xyz + next);
+#endif
 }
 
 // The first guess has no value beyond the outermost places that move, and is not used farther along z than the greatest speed.

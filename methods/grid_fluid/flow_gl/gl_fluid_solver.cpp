@@ -14,8 +14,10 @@ using namespace grid_fluid_flow_gl_shaders;
 
 const flow::FluidSettings& checked(const flow::FluidSettings& settings, const gpu::Device& device) {
     flow::check(settings);
-    const std::size_t padded = flow::CellLayout(settings.box.cells).padded();
-    const std::size_t bytes = padded * CellsOnGpu::bytesMoving, maximum = device.maximumStorageBytes();
+    const flow::CellLayout layout(settings.box.cells);
+    const std::size_t padded = layout.padded();
+    const std::size_t bytes = AdvectionOnGpu::largestBytes(layout, settings.advection),
+                      maximum = device.maximumStorageBytes();
     const auto text = [&](const char* what, std::size_t got, std::size_t allowed) {
         const glm::ivec3& cells = settings.box.cells;
         return "grid of the fluid on the GPU: got " + std::to_string(cells.x) + "x" + std::to_string(cells.y) + "x" +
@@ -23,9 +25,9 @@ const flow::FluidSettings& checked(const flow::FluidSettings& settings, const gp
                ", allowed: " + std::to_string(allowed);
     };
     if (bytes > maximum) throw InputError(text("in one buffer of OpenGL", bytes, maximum));
-    // Per cell three fields, its path, its kind, and the pressure: 16 bytes and a quarter more for the coarser levels.
-    const std::size_t all =
-        padded * (3 * (CellsOnGpu::bytesMoving + CellsOnGpu::bytesCarried) + CellsOnGpu::bytesMoving + 4 + 20);
+    // Per cell three fields, its kind, and the pressure: 16 bytes and a quarter more for the coarser levels.
+    const std::size_t all = padded * (3 * (CellsOnGpu::bytesMoving + CellsOnGpu::bytesCarried) + 4 + 20) +
+                            AdvectionOnGpu::allBytes(layout, settings.advection);
     if (const auto free = device.driverFreeBytes(); free && static_cast<std::int64_t>(all) > *free)
         throw InputError(text("in all", all, static_cast<std::size_t>(*free)));
     return settings;
@@ -67,7 +69,8 @@ void GlFluidSolver::setSolids(const flow::SolidMask& mask) {
     densityAdded_ = false;
     if (density_) density_->noteCovered(cells_, solids_.kinds());
     solids_.fill(cells_);
-    operatorKnown_ = speedsKnown_ = false;
+    operatorKnown_ = false;
+    solidsChanged_ = true;
 }
 
 flow::StepReport GlFluidSolver::step(double stepSeconds, std::span<const flow::FluidSource> sources,
@@ -75,7 +78,9 @@ flow::StepReport GlFluidSolver::step(double stepSeconds, std::span<const flow::F
     flow::checkStep(stepSeconds);
     const auto seconds = static_cast<float>(stepSeconds);
     const auto spacing = static_cast<float>(settings_.box.spacingMetres);
-    if (!speedsKnown_) findMaximum();
+    if (!speedsKnown_) report_.restartMaximum(settings_.windMetresPerSecond);
+    // What solids have covered since still counts.
+    if (!speedsKnown_ || std::exchange(solidsChanged_, false)) raiseMaximum();
     if (stateUnseen_) requireNumbers();
     {
         const auto timing = clock.measureDetail("advect");
@@ -109,7 +114,8 @@ void GlFluidSolver::advect(float seconds) {
     if (exchange_) exchange_->noteLeaving(cells_, solids_.kinds(), cellsPerSpeed);
     solids_.extendInto(cells_, !settings_.noSlip);
     ghosts_.fill(cells_);
-    advection_.advect(cells_, spare_, guess_, solids_.kinds(), report_, cellsPerSpeed);
+    const float ahead = flow::aheadOf(seconds, std::exchange(advectedSeconds_, seconds));
+    advection_.advect(cells_, spare_, guess_, solids_.kinds(), report_, cellsPerSpeed, ahead);
     ghosts_.setSideFaces(cells_);
     solids_.fill(cells_);
     if (density_) density_->restore(cells_, solids_.kinds());
@@ -144,7 +150,8 @@ void GlFluidSolver::project(float seconds) {
         pressure_.pressure().bindStorage(5);
         gradient_.run(settings_.box.cells + 1);
         std::swap(cells_.moving, spare_.moving);
-        findMaximum();
+        report_.restartMaximum(settings_.windMetresPerSecond);
+        raiseMaximum();
         std::swap(cells_.moving, spare_.moving);
         report_.read();
     } while (!pressure_.enough(report_));
@@ -167,8 +174,7 @@ float GlFluidSolver::divergencePerStep() const {
     return maximum * static_cast<float>(lastStepSeconds_ / settings_.box.spacingMetres);
 }
 
-void GlFluidSolver::findMaximum() {
-    report_.restartMaximum(settings_.windMetresPerSecond);
+void GlFluidSolver::raiseMaximum() {
     cells_.bind(1);
     report_.bind();
     maximum_.run(Kernel::columnsOf(settings_.box.cells));
@@ -189,11 +195,11 @@ void GlFluidSolver::move(const glm::ivec3& by) {
     scroll_.set("by", by);
     scroll_.run(settings_.box.cells + 1);
     std::swap(cells_, spare_);
-    speedsKnown_ = false;
 }
 
 void GlFluidSolver::scroll(glm::ivec3 by) {
     move(by);
+    advection_.scroll(by, settings_.windMetresPerSecond, spare_);
     settings_.box.originMetres += glm::dvec3(by) * settings_.box.spacingMetres;
     lastStepSeconds_ = 0;  // the pressure belongs to the cells before the move
     setSolids({});
@@ -216,6 +222,7 @@ void GlFluidSolver::writeCells(const flow::CellField& state) {
     cells_.moving.write(std::span<const glm::vec4>(moving));
     cells_.carried.write(std::span<const glm::vec2>(carried));
     speedsKnown_ = false;
+    advectedSeconds_ = 0;
     stateUnseen_ = true;
 }
 

@@ -61,7 +61,7 @@ class GlFluidSolver final : public flow::Solver {
     void move(const glm::ivec3& by);
     void gatherDivergence() const;
     void gather(flow::Lane lane, bool asStored, std::span<float> to) const;
-    void findMaximum();
+    void raiseMaximum();
     void requireNumbers();
 
     flow::FluidSettings settings_;
@@ -80,9 +80,11 @@ class GlFluidSolver final : public flow::Solver {
     PressureOnGpu pressure_;
     Kernel divergence_, gradient_, maximum_, scroll_;
     mutable Kernel gather_, gatherTexture_;  ///< `mutable` because running them sets uniforms
-    bool operatorKnown_ = false, speedsKnown_ = false, stateUnseen_ = false, densityAdded_ = false;
+    bool operatorKnown_ = false, speedsKnown_ = false, solidsChanged_ = false, stateUnseen_ = false,
+         densityAdded_ = false;
     std::int64_t steps_ = 0;
     double lastStepSeconds_ = 0;
+    float advectedSeconds_ = 0;  ///< the last step that the flow has taken, 0 if the state was set since
 };
 
 }  // namespace dustbench::grid_fluid::flow_gl

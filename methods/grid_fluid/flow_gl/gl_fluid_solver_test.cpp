@@ -90,6 +90,7 @@ struct Flow {
     std::vector<flow::BodyMotion> motions;
     bool deforms = false;
     std::vector<glm::vec3> velocities;
+    glm::ivec3 scrollBeforeEachStep{0};
 };
 
 template <typename Cell>
@@ -135,6 +136,9 @@ struct Pair {
         cpu.changeCells() = initial;
         gl.writeCells(initial);
         for (int step = 0; step < steps; ++step) {
+            if (flow.scrollBeforeEachStep != glm::ivec3(0))
+                for (flow::Solver* solver : {static_cast<flow::Solver*>(&cpu), static_cast<flow::Solver*>(&gl)})
+                    solver->scroll(flow.scrollBeforeEachStep);
             if (withBall) {
                 const flow::SolidMask mask = flow.ball(9.1f + 0.4f * static_cast<float>(step));
                 cpu.setSolids(mask);
@@ -217,6 +221,19 @@ TEST(GlFluidSolver, StepsAsTheCpuDoesInAClosedBoxOfOddSize) {
     pair.expectTheSame();
     EXPECT_GT(pair.onGpu.pressure.unremovable, 0);  // a ball that occupies new cells acts as a piston at times
     EXPECT_LE(pair.onGpu.divergencePerStep, 2e-5f);
+}
+
+TEST(GlFluidSolver, StepsAsTheCpuDoesAlongTheVelocityOfTheMiddleOfTheStep) {
+    for (const auto scheme : {flow::AdvectionScheme::semiLagrangian, flow::AdvectionScheme::macCormack})
+        for (const glm::ivec3 scroll : {glm::ivec3(0), glm::ivec3(2, 0, -1)}) {
+            Flow flow;
+            flow.settings.advection = {scheme, flow::Limit::none, flow::VelocityAt::middle};
+            flow.settings.windMetresPerSecond = {2, 0, -1};
+            flow.settings.sides = flow::withWind(flow::openOverFloor, flow.settings.windMetresPerSecond);
+            flow.scrollBeforeEachStep = scroll;
+            const Pair pair(flow, true, 4);
+            pair.expectTheSame();
+        }
 }
 
 TEST(GlFluidSolver, StepsAsTheCpuDoesAroundABallThatDeforms) {

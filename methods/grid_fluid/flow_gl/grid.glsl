@@ -24,6 +24,10 @@ int at(ivec3 c) {
     return atIn(c, cells);
 }
 
+int paddedCells() {
+    return (cells.x + 2) * (cells.y + 2) * (cells.z + 2);
+}
+
 // Stride from a cell to the next along an axis, in cells.
 int stepAlong(int axis) {
     return axis == 0 ? 1 : axis == 1 ? cells.x + 2 : (cells.x + 2) * (cells.y + 2);

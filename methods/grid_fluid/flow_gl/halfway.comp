@@ -12,4 +12,7 @@ void main() {
     vec3 middle = within(vec3(inner + 1) - 0.5 * cellsPerSpeed * centres[at(inner)].xyz);
     float reach = min(ceil(uintBitsToFloat(maximum[2]) * cellsPerSpeed), float(cells.z)) + 1.0;
     halfway[at(c)] = vec4(SAMPLED(centres, .xyz, cornersAround(middle)), reach);
+#ifdef EXTRAPOLATED
+    halfway[at(c) + paddedCells()] = centres[at(inner)];  // which the corrections replace
+#endif
 }

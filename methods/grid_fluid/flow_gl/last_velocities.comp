@@ -1,0 +1,11 @@
+// Keeps the velocities at the centres for the next step.
+layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
+layout(std430, binding = 2) restrict writeonly buffer Last { vec4 last[]; };
+
+void main() {
+    ivec3 c = ivec3(gl_GlobalInvocationID);
+    if (!inside(c)) return;
+    int cell = at(c);
+    vec3 next = vec3(moving[cell + 1].x, moving[cell + stepAlong(1)].y, moving[cell + stepAlong(2)].z);
+    last[cell] = vec4(0.5 * (moving[cell].xyz + next), 0);
+}
