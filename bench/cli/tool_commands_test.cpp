@@ -70,6 +70,17 @@ TEST_F(ToolCommands, SolversAreComparedWithOnesThatLeftTheirFlows) {
     }
 }
 
+TEST_F(ToolCommands, TheCarHasTheSameCellsWhateverGridsCameBefore) {
+    if (std::ranges::find(tools(), "precision", &ToolInfo::id) == tools().end()) GTEST_SKIP() << "no such tool";
+    const auto cellsAfter = [&](const std::string& name, const std::string& grids) {
+        const Called called = call("precision '" + (folder_ / name).string() + "' --problem car --scheme nothing " +
+                                   "--reference 0 --cells " + grids);
+        EXPECT_EQ(called.code, 0) << called.err;
+        return contentOf(folder_ / name / "car_64/solids.f32");
+    };
+    EXPECT_TRUE(cellsAfter("alone", "64") == cellsAfter("after", "8,16,64"));
+}
+
 TEST_F(ToolCommands, WrongUseIsOneLineAndExitCodeThree) {
     if (std::ranges::find(tools(), "shape", &ToolInfo::id) == tools().end()) GTEST_SKIP() << "no such tool";
     const std::vector<std::pair<std::string, std::string>> mistakes{

@@ -41,6 +41,19 @@ TEST(LargeStepsExperiment, TellsAStableFlowFromOneThatGrowsAndFromOneThatStands)
     EXPECT_GT(large_steps::measureSteps(settings).energy, 1.2);
 }
 
+TEST(LargeStepsExperiment, TheVelocityOfTheMiddleGainsNoEnergyEither) {
+    using flow::AdvectionScheme, flow::Limit, flow::VelocityAt;
+    for (const auto& [scheme, limit] : {std::pair{AdvectionScheme::semiLagrangian, Limit::none},
+                                        std::pair{AdvectionScheme::macCormack, Limit::revert},
+                                        std::pair{AdvectionScheme::macCormack, Limit::clamp}})
+        for (const double cellsPerStep : {2.0, 5.0, 20.0}) {
+            const large_steps::StepReport report =
+                large_steps::measureSteps({{scheme, limit, VelocityAt::middle}, cellsPerStep, false});
+            EXPECT_LE(report.energy, 1) << static_cast<int>(limit) << " in steps of " << cellsPerStep;
+            EXPECT_GT(report.travelMetres, 0.1);
+        }
+}
+
 TEST(SchemeAccuracyExperiment, MeasuresDistancesThatFallAsTheGridIsRefined) {
     using namespace scheme_accuracy;
     constexpr int cells = 8;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "methods/contract/choices.h"
@@ -90,18 +91,20 @@ Call callOf(std::span<const ToolArgument> arguments) {
     return call;
 }
 
-/// The car of the scene `wind_tunnel`.
+/// The car of the scene `wind_tunnel`, at the same moment on all grids.
 class Car {
  public:
     explicit Car(ExperimentContext& context) : context_(context) {}
 
     std::vector<std::uint8_t> operator()(flow::FluidBox box) {
-        if (!world_) world_ = context_.world("wind_tunnel", {}, 1, 1);
-        const Frame frame = world_->step();
-        box.originMetres += frame.state.vehicle.position;
+        if (!world_) {
+            world_ = context_.world("wind_tunnel", {}, 1, 1);
+            frame_.emplace(world_->step());
+        }
+        box.originMetres += frame_->state.vehicle.position;
         MemoryLedger ledger;
         FluidSolids solids(world_->scene(), box.cells, ledger.account("solids"));
-        (void)solids.voxelise(box, frame.state);
+        (void)solids.voxelise(box, frame_->state);
         std::vector<std::uint8_t> inside(solids.bodies().begin(), solids.bodies().end());
         for (std::uint8_t& cell : inside) cell = cell == 0 ? 0 : 1;
         return inside;
@@ -110,6 +113,7 @@ class Car {
  private:
     ExperimentContext& context_;
     std::unique_ptr<ExperimentWorld> world_;
+    std::optional<Frame> frame_;
 };
 
 using Table = std::vector<std::vector<std::string>>;
