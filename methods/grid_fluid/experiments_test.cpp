@@ -43,9 +43,9 @@ TEST(LargeStepsExperiment, TellsAStableFlowFromOneThatGrowsAndFromOneThatStands)
 
 TEST(LargeStepsExperiment, TheVelocityOfTheMiddleGainsNoEnergyEither) {
     using flow::AdvectionScheme, flow::Limit, flow::VelocityAt;
-    for (const auto& [scheme, limit] : {std::pair{AdvectionScheme::semiLagrangian, Limit::none},
-                                        std::pair{AdvectionScheme::macCormack, Limit::revert},
-                                        std::pair{AdvectionScheme::macCormack, Limit::clamp}})
+    for (const auto& [scheme, limit] :
+         {std::pair{AdvectionScheme::semiLagrangian, Limit::none},
+          std::pair{AdvectionScheme::macCormack, Limit::revert}, std::pair{AdvectionScheme::macCormack, Limit::clamp}})
         for (const double cellsPerStep : {2.0, 5.0, 20.0}) {
             const large_steps::StepReport report =
                 large_steps::measureSteps({{scheme, limit, VelocityAt::middle}, cellsPerStep, false});
