@@ -1,5 +1,7 @@
 #include "methods/grid_fluid/flow/box_ghosts.h"
 
+#include <array>
+
 #include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::grid_fluid::flow {
@@ -31,31 +33,31 @@ void fillGhost(float* ghost, const float* inner, const float* next, const BoxSid
     }
 }
 
-/// `face` is the record that holds the side's face, `next` the one that holds the next face inwards.
-void setFace(float* face, const float* next, const BoxSide& at, const GhostRule& rule) {
-    face[at.axis] = at.side == Side::inflow ? rule.windMetresPerSecond[static_cast<int>(at.axis)]
-                    : at.side == Side::open ? next[at.axis]
-                                            : 0;
+/// A line of faces on a side, `stride` floats from one to the next; `inwards` leads from a face to the next one within.
+void setFaces(float* face, std::ptrdiff_t inwards, std::size_t stride, int count, Side side, float wind) {
+    float* const end = face + static_cast<std::size_t>(count) * stride;
+    if (side == Side::open)
+        for (; face != end; face += stride) *face = face[inwards];
+    else
+        for (const float speed = side == Side::inflow ? wind : 0; face != end; face += stride) *face = speed;
 }
 
 }  // namespace
 
 void setSideFaces(CellField& cells, const CellLayout& layout, const GhostRule& rule) {
     const glm::ivec3 size(layout.nx, layout.ny, layout.nz);
+    const std::array<std::size_t, 3> steps{lanes, layout.row * lanes, layout.slab * lanes};
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (const bool high : {false, true}) {
-            const BoxSide side{axis, high, rule.sides[2 * axis + (high ? 1 : 0)]};
             const int a = static_cast<int>(axis), b = a == 0 ? 1 : 0, c = 3 - a - b;  // along memory in the inner loop
+            const auto ahead = static_cast<std::ptrdiff_t>(steps[axis]);
             parallel::forEachBlock(static_cast<std::size_t>(size[c]), 16, [&](std::size_t first, std::size_t count) {
                 glm::ivec3 face(0);
                 face[a] = high ? size[a] : 0;
                 for (face[c] = static_cast<int>(first); face[c] < static_cast<int>(first + count); ++face[c])
-                    for (face[b] = 0; face[b] < size[b]; ++face[b]) {
-                        glm::ivec3 next = face;
-                        next[a] += high ? -1 : 1;
-                        setFace(cells.cell(layout.at(face.x, face.y, face.z)),
-                                cells.cell(layout.at(next.x, next.y, next.z)), side, rule);
-                    }
+                    setFaces(cells.cell(layout.at(face.x, face.y, face.z)) + axis, high ? -ahead : ahead,
+                             steps[static_cast<std::size_t>(b)], size[b], rule.sides[2 * axis + (high ? 1 : 0)],
+                             rule.windMetresPerSecond[a]);
             });
         }
 }

@@ -20,14 +20,11 @@ std::array<std::ptrdiff_t, 6> around(const CellLayout& layout) {
     return {-1, 1, -row, row, -slab, slab};
 }
 
-/// Whether any byte differs from `usual`; most rows of most boxes hold no solid. A vector of bytes at a time tells.
-bool anyOther(std::span<const std::uint8_t> row, std::uint8_t usual) {
+/// A vector of bytes at a time tells.
+bool anySolid(std::span<const std::uint8_t> row) {
     std::uint8_t any = 0;
-    for (const std::uint8_t byte : row) any |= byte ^ usual;
+    for (const std::uint8_t body : row) any |= body;
     return any != 0;
-}
-bool anySolid(std::span<const std::uint8_t> bodies) {
-    return anyOther(bodies, 0);
 }
 
 /// What of a cell moves: bit `lane` of a velocity, that of the centre for all else.
@@ -43,6 +40,7 @@ SolidCells::SolidCells(const CellLayout& layout, const Sides& sides, MemoryAccou
     conductance_.resize(layout.padded() + 16);
     moving_.resize(layout.padded() + 16);
     conductEverywhere(layout, sides, std::span(conductance_).first(layout.padded()));
+    rowHasSolid_.resize(layout.rows());
     rimOfSlab_.resize(static_cast<std::size_t>(layout.nz));
 }
 
@@ -63,13 +61,14 @@ double SolidCells::cover(const SolidMask& mask, CellField& cells) {
         for (std::size_t r = first; r < first + rows; ++r) {
             const std::size_t at = layout_.at(0, layout_.rowJ(r), layout_.rowK(r));
             std::uint8_t* conductance = conductance_.data() + at;
-            if (mask.body.empty()) {
+            const auto body = mask.body.empty() ? mask.body : mask.body.subspan(r * width, width);
+            const bool hasSolid = anySolid(body);  // most rows of most masks hold none
+            rowHasSolid_[r] = hasSolid ? 1 : 0;
+            if (!hasSolid) {
                 std::memset(conductance, 1, width);
                 continue;
             }
-            const auto body = mask.body.subspan(r * width, width);
             for (std::size_t i = 0; i < width; ++i) conductance[i] = body[i] == 0 ? 1 : 0;
-            if (!anySolid(body)) continue;
             for (std::size_t i = 0; i < width; ++i) {
                 if (body[i] == 0) continue;
                 float* record = cells.cell(at + i);
@@ -102,13 +101,10 @@ glm::vec3 SolidCells::setFaces(const SolidMask& mask, CellField& cells) const {
     for (int axis = 0; axis < 3; ++axis) {
         const auto step = std::array<std::size_t, 3>{1, layout_.row, layout_.slab}[static_cast<std::size_t>(axis)];
         const auto hasFacesOfSolids = [&](glm::ivec3 row) {
-            const auto isSolid = [&](glm::ivec3 of) {
-                return anySolid(mask.body.subspan(indexOf(of), static_cast<std::size_t>(size.x)));
-            };
-            if (isSolid(row)) return true;
+            if (!isAllFluid(row.y, row.z)) return true;
             if (axis == 0 || row[axis] == 0) return false;
             row[axis] -= 1;
-            return isSolid(row);
+            return !isAllFluid(row.y, row.z);
         };
         parallel::forEachBlock(layout_.rows(), solidRows, [&](std::size_t first, std::size_t rows) {
             float ofBlock = 0;
@@ -143,9 +139,15 @@ void SolidCells::findMoving() {
     const std::array<std::size_t, 3> steps{1, layout_.row, layout_.slab};
     parallel::forEachBlock(layout_.rows(), solidRows, [&](std::size_t first, std::size_t rows) {
         for (std::size_t r = first; r < first + rows; ++r) {
-            const std::size_t at = layout_.at(0, layout_.rowJ(r), layout_.rowK(r));
+            const int j = layout_.rowJ(r), k = layout_.rowK(r);
+            const std::size_t at = layout_.at(0, j, k);
             const std::uint8_t* own = conductance_.data() + at;
             Moving* moving = moving_.data() + at;
+            if (isAllFluid(j, k) && isAllFluid(j - 1, k) && isAllFluid(j, k - 1)) {
+                std::memset(moving, allMoves, static_cast<std::size_t>(layout_.nx));
+                moving[0] = allMoves & ~bitOf(0);  // the face on the box's side
+                continue;
+            }
             const std::array<const std::uint8_t*, 3> before{own - steps[0], own - steps[1], own - steps[2]};
             const auto isFluid = [](std::uint8_t conductance, Moving bit) {
                 return conductance == 1 ? bit : Moving{0};
@@ -166,8 +168,8 @@ void SolidCells::findRim(const CellField& cells) {
         rim.clear();
         for (int j = 0; j < layout_.ny; ++j) {
             const std::size_t first = layout_.at(0, j, static_cast<int>(k));
+            if (isAllFluid(j, static_cast<int>(k))) continue;
             const std::uint8_t* own = conductance_.data() + first;
-            if (!anyOther({own, static_cast<std::size_t>(layout_.nx)}, 1)) continue;
             for (int i = 0; i < layout_.nx; ++i) {
                 if (own[i] == 1) continue;
                 const std::size_t at = first + static_cast<std::size_t>(i);
