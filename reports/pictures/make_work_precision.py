@@ -14,7 +14,7 @@ import pathlib
 HERE = pathlib.Path(__file__).parent
 PROBLEMS = {"plume": "plume past a ball", "ring": "vortex ring against a wall", "car": "car in a wind tunnel"}
 SOLVERS = {"dustbench": "#1f6fb4", "mantaflow": "#c8501e"}
-SCHEMES = {"revert_midstep": ("12 2", "square"), "revert": ("", "circle"), "clamp": ("7 3", "square"), "unlimited": ("2 3", "diamond"), "midpoint": ("9 3 2 3", "diamond"), "semi_lagrangian": ("4 4", "triangle")}
+SCHEMES = {"revert_midstep": ("12 2", "inverted"), "revert": ("", "circle"), "clamp": ("7 3", "square"), "unlimited": ("2 3", "diamond"), "midpoint": ("9 3 2 3", "diamond"), "semi_lagrangian": ("4 4", "triangle")}
 CHARTS = {
     "work_precision": {"density_error": "error of the density", "velocity_error": "error of the velocity"},
     "work_precision_structure": {"enstrophy_error": "error of the enstrophy", "spectrum_error": "error of the spectrum"},
@@ -33,7 +33,7 @@ def mark(shape, x, y, colour, filled):
     style = f'fill="{fill}" stroke="{colour}" stroke-width="1.5"'
     if shape == "circle":
         return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" {style}/>'
-    corners = {"square": [(-4, -4), (4, -4), (4, 4), (-4, 4)], "diamond": [(0, -5), (5, 0), (0, 5), (-5, 0)], "triangle": [(0, -5), (5, 4), (-5, 4)]}[shape]
+    corners = {"square": [(-4, -4), (4, -4), (4, 4), (-4, 4)], "diamond": [(0, -5), (5, 0), (0, 5), (-5, 0)], "triangle": [(0, -5), (5, 4), (-5, 4)], "inverted": [(0, 5), (5, -4), (-5, -4)]}[shape]
     return f'<polygon points="{" ".join(f"{x + a:.1f},{y + b:.1f}" for a, b in corners)}" {style}/>'
 
 
