@@ -106,10 +106,10 @@ MethodInfo describe() {
         .choice("limit", flow::Limit::revert, limits,
                 "what is done where that correction overshoots: the paper's clamp to the cells around, or back to the "
                 "uncorrected value")
-        .choice(
-            "velocity_at", flow::VelocityAt::begin, velocityTimes,
-            "which velocity the paths follow: that of the step's beginning, or, by those of the last two steps, that "
-            "of its middle, of second order")
+        .choice("velocity_at", flow::VelocityAt::begin, velocityTimes,
+                "velocity that paths follow: at the beginning of the step, or at its middle, extrapolated from the "
+                "last two "
+                "states: paths of second order in time")
         .choice("pressure", flow::PressureMethod::multigrid, pressureMethods,
                 "the paper's sweeps, or cycles over coarser and coarser grids until the tolerance is met")
         .choice("solver", SolverBackend::automatic, solverBackends,

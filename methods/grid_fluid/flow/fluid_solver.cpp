@@ -25,7 +25,8 @@ const FluidSettings& checked(const FluidSettings& settings) {
     check(settings);
     // Checked for all memory at once, so that nothing is half allocated.
     const CellLayout layout(settings.box.cells);
-    requireAvailable("grid of the fluid", layout.padded() * (2 * lanes * sizeof(float) + 1));
+    const std::size_t velocities = settings.advection.velocityAt == VelocityAt::middle ? 3 * sizeof(float) : 0;
+    requireAvailable("grid of the fluid", layout.padded() * (2 * lanes * sizeof(float) + 1 + velocities));
     // Sampling (sampling.h) uses 32-bit indices of floats.
     constexpr std::size_t maximumPaddedCells = std::numeric_limits<std::int32_t>::max() / lanes;
     if (layout.padded() > maximumPaddedCells)

@@ -296,6 +296,24 @@ TEST(FluidSolver, ScrollsByWholeCells) {
     plume.solver->step(0.03, plume.sources);
 }
 
+TEST(FluidSolver, PathsReachAsFarAsASolidIsFastThatTheAirIsNot) {
+    // The same step with the greatest speeds searched in the whole state.
+    const auto stateAfter = [](bool searched) {
+        Plume plume({12, 12, 12});
+        plume.start();
+        for (int step = 0; step < 3; ++step) plume.solver->step(0.03, plume.sources);
+        std::vector<std::uint8_t> inside(plume.settings.box.cellCount(), 0);
+        for (const std::size_t k : {5, 6})
+            for (const std::size_t i : {4, 5, 6}) inside[(k * 12 + 3) * 12 + i] = 1;
+        const BodyMotion motion{{0, 0, -30}, {}, {}, false};
+        plume.solver->setSolids({inside, {&motion, 1}});
+        if (searched) (void)plume.solver->changeCells();
+        plume.solver->step(0.03, plume.sources);
+        return plume.solver->stateHash();
+    };
+    EXPECT_EQ(stateAfter(false), stateAfter(true));
+}
+
 TEST(FluidSolver, DecaysPerSecondNotPerStep) {
     const auto leftAfterASecond = [](int steps) {
         Plume plume({8, 8, 8});

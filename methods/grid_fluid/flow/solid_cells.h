@@ -53,14 +53,14 @@ class SolidCells {
     void findMoving();
     void findRim(const CellField& cells);
 
-    CellLayout layout_;
-    /// Whether a row of the box holds no solid; not one beside it.
+    /// Whether it is a row of the box, and holds no solid.
     [[nodiscard]] bool isAllFluid(int j, int k) const {
         return j >= 0 && k >= 0 &&
                !rowHasSolid_[static_cast<std::size_t>(k) * static_cast<std::size_t>(layout_.ny) +
                              static_cast<std::size_t>(j)];
     }
 
+    CellLayout layout_;
     LedgerVector<std::uint8_t> conductance_, moving_;
     std::vector<std::uint8_t> rowHasSolid_;
     std::vector<Rim> rim_;

@@ -17,7 +17,7 @@ class AdvectionOnGpu {
  public:
     AdvectionOnGpu(gpu::Device& device, const flow::CellLayout& layout, flow::AdvectionRule rule);
 
-    /// Of which buffers per padded cell hold a velocity, the largest and all.
+    /// Bytes of its largest buffer, and of all.
     static std::size_t largestBytes(const flow::CellLayout& layout, flow::AdvectionRule rule);
     static std::size_t allBytes(const flow::CellLayout& layout, flow::AdvectionRule rule);
 

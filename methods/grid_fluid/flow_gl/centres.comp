@@ -1,4 +1,4 @@
-// The velocity at each cell's centre that paths follow: the mean of its two faces, with EXTRAPOLATED half-way through the
+// The velocity at each cell's centre that paths follow: that of the state, with EXTRAPOLATED half-way through the
 // step (flow::CentreVelocities). Beyond the box it is that of the outermost cells.
 layout(std430, binding = 1) restrict readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 5) restrict writeonly buffer Centres { vec4 centres[]; };
@@ -12,8 +12,7 @@ void main() {
     ivec3 c = ivec3(gl_GlobalInvocationID) - 1;
     if (any(greaterThan(c, cells))) return;
     int cell = at(clamp(c, ivec3(0), cells - 1));
-    vec3 next = vec3(moving[cell + 1].x, moving[cell + stepAlong(1)].y, moving[cell + stepAlong(2)].z);
-    vec3 velocity = 0.5 * (moving[cell].xyz + next);
+    vec3 velocity = CENTRE_VELOCITY(moving, cell);
 #ifdef EXTRAPOLATED
     vec3 most = uintBitsToFloat(uvec3(maximum[0], maximum[1], maximum[2]));
     velocity = clamp(velocity + ahead * (velocity - last[cell].xyz), -most, most);

@@ -27,8 +27,7 @@ vec3 speedOf(ivec3 c) {
 #ifdef EXTRAPOLATED
     return halfway[cell + paddedCells()].xyz;
 #else
-    vec3 next = vec3(moving[cell + 1].x, moving[cell + stepAlong(1)].y, moving[cell + stepAlong(2)].z);
-    return 0.5 * (moving[cell].xyz + next);
+    return CENTRE_VELOCITY(moving, cell);
 #endif
 }
 

@@ -78,9 +78,10 @@ flow::StepReport GlFluidSolver::step(double stepSeconds, std::span<const flow::F
     flow::checkStep(stepSeconds);
     const auto seconds = static_cast<float>(stepSeconds);
     const auto spacing = static_cast<float>(settings_.box.spacingMetres);
+    // What solids have covered since the last step still counts, as on the CPU.
+    const bool solidsChanged = std::exchange(solidsChanged_, false);
     if (!speedsKnown_) report_.restartMaximum(settings_.windMetresPerSecond);
-    // What solids have covered since still counts.
-    if (!speedsKnown_ || std::exchange(solidsChanged_, false)) raiseMaximum();
+    if (!speedsKnown_ || solidsChanged) raiseMaximum();
     if (stateUnseen_) requireNumbers();
     {
         const auto timing = clock.measureDetail("advect");

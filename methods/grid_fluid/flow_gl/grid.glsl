@@ -33,6 +33,10 @@ int stepAlong(int axis) {
     return axis == 0 ? 1 : axis == 1 ? cells.x + 2 : (cells.x + 2) * (cells.y + 2);
 }
 
+// The velocity at a cell's centre: the mean of its two faces, whose speeds `field` holds.
+#define CENTRE_VELOCITY(field, cell) \
+    (0.5 * (field[cell].xyz + vec3(field[(cell) + 1].x, field[(cell) + stepAlong(1)].y, field[(cell) + stepAlong(2)].z)))
+
 ivec3 unit(int axis) {
     return ivec3(axis == 0, axis == 1, axis == 2);
 }

@@ -6,6 +6,5 @@ void main() {
     ivec3 c = ivec3(gl_GlobalInvocationID);
     if (!inside(c)) return;
     int cell = at(c);
-    vec3 next = vec3(moving[cell + 1].x, moving[cell + stepAlong(1)].y, moving[cell + stepAlong(2)].z);
-    last[cell] = vec4(0.5 * (moving[cell].xyz + next), 0);
+    last[cell] = vec4(CENTRE_VELOCITY(moving, cell), 0);
 }
