@@ -13,8 +13,7 @@
 namespace dustbench::grid_fluid::flow {
 namespace {
 
-constexpr int slabsAtATime = 4;
-constexpr std::size_t rowsInABlock = 8;
+constexpr std::size_t blocksOfSlab = 8, maximumRows = 8;  ///< of a block; fewer in a flat box
 constexpr std::size_t together = SixteenRecords::count;
 using FieldStrip = CornerStrip<Memory::whole, Reads::samples>;
 using ExtremaStrip = CornerStrip<Memory::whole, Reads::extrema>;
@@ -59,6 +58,19 @@ using Int8 = int __attribute__((vector_size(32)));
 [[gnu::always_inline]] inline Float8 chosen(Moving moving, const Float8& value, const Float8& own) {
     constexpr Int8 bits{1, 2, 4, 8, 8, 8, 8, 8};
     return ((Int8{} + moving) & bits) != 0 ? value : own;
+}
+
+[[gnu::always_inline]] inline bool moves(Moving moving, std::size_t lane) {
+    return (moving >> lane & 1) != 0;
+}
+
+/// The corrected value within the extrema around where the path began.
+template <Limit limit, typename Number>
+[[gnu::always_inline]] inline Number limited(const Number& value, const Number& first, const Number& minimum,
+                                             const Number& maximum) {
+    if constexpr (limit == Limit::clamp) return atMost(atLeast(value, minimum), maximum);
+    if constexpr (limit == Limit::revert) return ((value >= minimum) & (value <= maximum)) ? value : first;
+    return value;
 }
 
 /// The places of sixteen cells of a row, and of their faces.
@@ -114,13 +126,36 @@ class Region {
 
 }  // namespace
 
+/// How many slabs each stage works behind the first one, the velocities at the centres, and how many slabs are held of
+/// what: in a turn each stage has a slab of its own. All that it reads was found in an earlier turn and is still there,
+/// and no stage reads the state where another one replaces it.
+struct Advection::Stagger {
+    Stagger(int nz, double cellsAlongZ) {
+        const int longest = static_cast<int>(std::min<double>(nz, std::ceil(cellsAlongZ)));
+        reach = longest + 2;
+        reachHalfway = (longest + 1) / 2 + 2;
+        paths = reachHalfway + 1;
+        guesses = paths + 1;
+        corrections = guesses + reach + 1;
+        results = corrections + reach + 1;
+        const auto held = [&](int slabs) { return static_cast<std::size_t>(std::min(nz + 2, slabs)); };
+        // From the slab farthest ahead that a turn writes, ghosts included, to the one farthest behind that it reads.
+        heldCentres = held(paths + reachHalfway + 2);
+        heldPaths = held(corrections - paths + 2);
+        heldGuesses = held(results - guesses + 2);
+    }
+    int reach, reachHalfway;  ///< slabs that a sample along z may touch, on either side, of a path and of half of it
+    int paths, guesses, corrections, results;
+    std::size_t heldCentres, heldPaths, heldGuesses;
+};
+
 struct Advection::Pass {
     CellField& cells;
     CellField& spare;  ///< of the semi-Lagrangian scheme the result, of MacCormack's the corrections
     const Moving* moving;
     AdvectionRule rule;
     AdvectionStep step;
-    int reach;  ///< slabs that a sample along z may touch, on either side
+    Stagger stagger;
     RecordView field, window;
 };
 
@@ -129,7 +164,7 @@ class Advection::Row {
  public:
     Row(Advection& of, Kept array, int j, int k) {
         const CellLayout& layout = of.layout_;
-        const std::size_t at = of.inWindow(layout.at(0, j, k)), slabBefore = of.inWindow(layout.at(0, j, k - 1));
+        const std::size_t at = of.inPaths(layout.at(0, j, k)), slabBefore = of.inPaths(layout.at(0, j, k - 1));
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const float* all = of.velocities(array + axis);
             own_[axis] = all + at;
@@ -157,19 +192,21 @@ class Advection::Row {
     Pointers own_, below_, before_;
 };
 
-void Advection::hold(std::size_t slabs) {
-    heldSlabs_ = slabs;
-    const std::size_t floats = (lanes + kept) * slabs * layout_.slab + 2 * CellField::floatsBehind;
+void Advection::hold(const Stagger& stagger) {
+    heldGuesses_ = stagger.heldGuesses;
+    heldPaths_ = stagger.heldPaths;
+    const std::size_t floats = (lanes * heldGuesses_ + kept * heldPaths_) * layout_.slab + 2 * CellField::floatsBehind;
     if (window_.size() < floats) window_.resize(floats);
+    centres_.hold(stagger.heldCentres);
 }
 
 /// The velocity half-way along the path of a cell, u(x − ½Δt·u(x)).
 void Advection::findPathsOfRow(const Pass& pass, int j, int k) {
     const auto nx = static_cast<std::size_t>(layout_.nx);
-    const std::size_t at = inWindow(layout_.at(0, j, k));
+    const std::size_t at = inPaths(layout_.at(0, j, k));
     const float* centres = centres_.slab(k) + layout_.at(0, j, -1) * 4;
     CentreStrip strip(centres_.data(), static_cast<int>(centres_.slabs()), layout_);
-    strip.lookFrom(std::max(k + 1 - pass.reach, 0));
+    strip.lookFrom(std::max(k + 1 - pass.stagger.reachHalfway, 0));
     alignas(64) std::array<float, 4 * together> found;
     for (std::size_t i = 0; i < nx; i += together) {
         const std::size_t count = nx - i;
@@ -186,179 +223,172 @@ void Advection::findPathsOfRow(const Pass& pass, int j, int k) {
         const std::array<const Float16*, kept> all{&speed.x, &speed.y, &speed.z, &middle.x, &middle.y, &middle.z};
         for (std::size_t array = 0; array < kept; ++array) storeFirst(velocities(array) + at + i, *all[array], count);
     }
-    // The face of the first cell has no other cell in the box.
-    for (std::size_t array = 0; array < kept; ++array) velocities(array)[at - 1] = velocities(array)[at];
+    // Faces on the sides towards −x, −y and −z have no other cell in the box.
+    const std::size_t rowBytes = layout_.row * sizeof(float), sideY = inPaths(layout_.at(-1, -1, k)),
+                      sideZ = inPaths(layout_.at(-1, j, -1));
+    for (std::size_t array = 0; array < kept; ++array) {
+        float* row = velocities(array) + at - 1;
+        row[0] = row[1];
+        if (j == 0) std::memcpy(velocities(array) + sideY, row, rowBytes);
+        if (k == 0) std::memcpy(velocities(array) + sideZ, row, rowBytes);
+    }
 }
 
-void Advection::findPaths(const Pass& pass, int firstSlab, int lastSlab) {
-    const std::size_t rows = static_cast<std::size_t>(lastSlab - firstSlab) * static_cast<std::size_t>(layout_.ny);
-    parallel::forEachBlock(rows, rowsInABlock, [&](std::size_t first, std::size_t count) {
-        for (std::size_t r = first; r < first + count; ++r)
-            findPathsOfRow(pass, layout_.rowJ(r), firstSlab + layout_.rowK(r));
-    });
-    const std::size_t rowBytes = layout_.row * sizeof(float), slabBytes = layout_.slab * sizeof(float);
-    for (std::size_t array = 0; array < kept; ++array) {
-        float* all = velocities(array);
-        for (int k = firstSlab; k < lastSlab; ++k)
-            std::memcpy(all + inWindow(layout_.at(-1, -1, k)), all + inWindow(layout_.at(-1, 0, k)), rowBytes);
-        if (firstSlab == 0)
-            std::memcpy(all + inWindow(layout_.at(-1, -1, -1)), all + inWindow(layout_.at(-1, -1, 0)), slabBytes);
-    }
+void Advection::findPaths(const Pass& pass, const Rows& rows) {
+    for (int j = rows.first; j < rows.end; ++j) findPathsOfRow(pass, j, rows.k);
 }
 
 /// The first guess: the sample at the beginning of each path, x₋ = x − Δt·u.
-void Advection::predict(const Pass& pass, int firstSlab, int lastSlab) {
+void Advection::predict(const Pass& pass, const Rows& rows) {
     const bool corrected = pass.rule.scheme == AdvectionScheme::macCormack;
-    const auto nx = static_cast<std::size_t>(layout_.nx), ny = static_cast<std::size_t>(layout_.ny);
+    const auto nx = static_cast<std::size_t>(layout_.nx);
     const float step = pass.step.cellsPerSpeed;
-    const auto predictStrip = [&](std::size_t first, std::size_t count, int j, int k, FieldStrip& corners) {
-        const std::size_t at = layout_.at(0, j, k) + first, there = corrected ? inWindow(at) : at;
-        const Row paths(*this, halfway, j, k);
+    FieldStrip corners(pass.field, layout_);
+    const auto predictStrip = [&](std::size_t first, std::size_t count, int j) {
+        const std::size_t at = layout_.at(0, j, rows.k) + first;
+        const Row paths(*this, halfway, j, rows.k);
         const float* own = pass.cells.cell(at);
         const Moving* moving = pass.moving + at;
         for (std::size_t i = 0; i < count; i += together)
-            corners.find(i, began(paths.at(first + i), here(first + i, j, k), step, layout_));
+            corners.find(i, began(paths.at(first + i), here(first + i, j, rows.k), step, layout_), count);
         const FieldStrip::Reader field(corners);
-        float* out = (corrected ? guesses() : pass.spare.data()) + there * lanes;
+        float* out = corrected ? guess(at) : pass.spare.cell(at);
         for (std::size_t i = 0; i < count; ++i)
             storeRecord(out + i * lanes, chosen(moving[i], field.sample(i), load<Float8>(own + i * lanes)));
-    };
-    parallel::forEachBlock(
-        static_cast<std::size_t>(lastSlab - firstSlab) * ny, rowsInABlock, [&](std::size_t first, std::size_t count) {
-            FieldStrip strip(pass.field, layout_);
-            for (std::size_t r = first; r < first + count; ++r)
-                for (std::size_t i = 0; i < nx; i += stripCells)
-                    predictStrip(i, std::min(stripCells, nx - i), layout_.rowJ(r), firstSlab + layout_.rowK(r), strip);
+        field.forElsewhere([&](Elsewhere e) {
+            if (moves(moving[e.i], e.lane)) out[e.i * lanes + e.lane] = field.sample(e);
         });
+    };
+    for (int j = rows.first; j < rows.end; ++j) {
+        for (std::size_t i = 0; i < nx; i += stripCells) predictStrip(i, std::min(stripCells, nx - i), j);
+        if (corrected) keepFarFaces(pass, j, rows.k);
+    }
 }
 
 /// The faces on the far sides do not move, and have no cells of their own.
-void Advection::keepFarFaces(const Pass& pass, int firstSlab, int lastSlab) {
-    const auto keep = [&](int i, int j, int k, std::size_t records) {
-        const std::size_t at = layout_.at(i, j, k);
-        std::memcpy(guesses() + inWindow(at) * lanes, pass.cells.cell(at), records * lanes * sizeof(float));
+void Advection::keepFarFaces(const Pass& pass, int j, int k) {
+    const auto keep = [&](int i, int y, int z, std::size_t records) {
+        const std::size_t at = layout_.at(i, y, z);
+        std::memcpy(guess(at), pass.cells.cell(at), records * lanes * sizeof(float));
     };
-    for (int k = firstSlab; k < lastSlab; ++k) {
-        for (int j = 0; j < layout_.ny; ++j) keep(layout_.nx, j, k, 1);
-        keep(-1, layout_.ny, k, layout_.row);
-    }
-    if (lastSlab == layout_.nz) keep(-1, -1, layout_.nz, layout_.slab);
+    keep(layout_.nx, j, k, 1);
+    if (j + 1 == layout_.ny) keep(-1, layout_.ny, k, layout_.row);
+    if (k + 1 == layout_.nz) keep(-1, j, layout_.nz, layout_.row);
+    if (j + 1 == layout_.ny && k + 1 == layout_.nz) keep(-1, layout_.ny, layout_.nz, layout_.row);
 }
 
 /// c = ½(φⁿ − φ̃), limited, where φ̃ is the first guess sampled along the forward path; 0 where there is none.
-void Advection::findCorrections(const Pass& pass, int firstSlab, int lastSlab) {
-    const auto nx = static_cast<std::size_t>(layout_.nx), ny = static_cast<std::size_t>(layout_.ny);
+template <Limit limit>
+void Advection::findCorrections(const Pass& pass, const Rows& rows) {
+    const int k = rows.k;
+    const auto nx = static_cast<std::size_t>(layout_.nx);
     const float step = pass.step.cellsPerSpeed;
-    struct Strip {
-        ExtremaStrip began;
-        WindowStrip ended;
-        alignas(64) std::array<int, stripCells> within{};
-    };
-    const auto findInStrip = [&](std::size_t firstCell, std::size_t count, int j, int k, Strip& strip) {
-        const std::size_t at = layout_.at(0, j, k) + firstCell, there = inWindow(at);
+    const Region region(layout_, k, pass.stagger.reach);
+    ExtremaStrip beginnings(pass.field, layout_);
+    WindowStrip ends(pass.window, layout_);
+    ends.lookFrom(region.lowestSlab());
+    alignas(64) std::array<int, stripCells> isWithin{};
+    alignas(64) std::array<float, 8 * stripCells> corrections;
+    const auto correctStrip = [&](std::size_t firstCell, std::size_t count, int j) {
+        const std::size_t at = layout_.at(0, j, k) + firstCell;
         const Row paths(*this, halfway, j, k), speeds(*this, centre, j, k);
-        const Region region(layout_, k, pass.reach);
-        strip.ended.lookFrom(region.lowestSlab());
         for (std::size_t i = 0; i < count; i += together) {
             const std::size_t cell = firstCell + i;
             PlacesOfCells places = began(paths.at(cell), here(cell, j, k), step, layout_);
-            strip.began.find(i, places);
+            beginnings.find(i, places, count);
             const PlacesOfCells speed = speeds.at(cell);
             Int16 within{};
             for (std::size_t place = 0; place < places.size(); ++place)
                 within |=
                     region.lead(places[place], moved(places[place], 2 * step, speed[place]), place) & (1 << place);
-            store(&strip.within[i], within);
-            strip.ended.find(i, places);
+            store(&isWithin[i], within);
+            ends.find(i, places, count);
         }
-        const WindowStrip::Reader ended(strip.ended);
-        const ExtremaStrip::Reader field(strip.began);
-        const Limit limit = pass.rule.limit;
-        const Moving* moving = pass.moving + at;
         const float* own = pass.cells.cell(at);
-        const float* guess = guesses() + there * lanes;
+        const WindowStrip::Reader ended(ends);
+        for (std::size_t i = 0; i < count; ++i)
+            store(&corrections[8 * i], 0.5f * (load<Float8>(own + i * lanes) - ended.sample(i)));
+        ended.forElsewhere(
+            [&](Elsewhere e) { corrections[8 * e.i + e.lane] = 0.5f * (own[e.i * lanes + e.lane] - ended.sample(e)); });
+        const ExtremaStrip::Reader field(beginnings);
+        const Moving* moving = pass.moving + at;
+        const float* guessed = guess(at);
         float* out = pass.spare.cell(at);
-        for (std::size_t i = 0; i < count; ++i, own += lanes, guess += lanes, out += lanes) {
-            const auto first = load<Float8>(guess);
-            const auto corrected = static_cast<Moving>(strip.within[i] & moving[i]);
-            Float8 value = first;
-            if (corrected != 0) {
-                value += 0.5f * (load<Float8>(own) - ended.sample(i));
-                if (limit != Limit::none) {
-                    Float8 minimum, maximum;
-                    field.extrema(i, minimum, maximum);
-                    value = limit == Limit::clamp                       ? atMost(atLeast(value, minimum), maximum)
-                            : ((value >= minimum) & (value <= maximum)) ? value
-                                                                        : first;
-                }
-            }
-            storeRecord(out, chosen(corrected, value - first, Float8{}));
+        const auto corrected = [&](std::size_t i) { return static_cast<Moving>(isWithin[i] & moving[i]); };
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto first = load<Float8>(guessed + i * lanes);
+            Float8 minimum{}, maximum{};
+            if constexpr (limit != Limit::none) field.extrema(i, minimum, maximum);
+            const Float8 value = limited<limit>(first + load<Float8>(&corrections[8 * i]), first, minimum, maximum);
+            storeRecord(out + i * lanes, chosen(corrected(i), value - first, Float8{}));
         }
+        if constexpr (limit == Limit::none) return;
+        field.forElsewhere([&](Elsewhere e) {
+            const float first = guessed[e.i * lanes + e.lane];
+            float minimum, maximum;
+            field.extrema(e, minimum, maximum);
+            const float value = limited<limit>(first + corrections[8 * e.i + e.lane], first, minimum, maximum);
+            if (moves(corrected(e.i), e.lane)) out[e.i * lanes + e.lane] = value - first;
+        });
     };
-    parallel::forEachBlock(static_cast<std::size_t>(lastSlab - firstSlab) * ny, rowsInABlock,
-                           [&](std::size_t first, std::size_t count) {
-                               Strip strip{ExtremaStrip(pass.field, layout_), WindowStrip(pass.window, layout_)};
-                               for (std::size_t r = first; r < first + count; ++r) {
-                                   const int j = layout_.rowJ(r), k = firstSlab + layout_.rowK(r);
-                                   for (std::size_t i = 0; i < nx; i += stripCells)
-                                       findInStrip(i, std::min(stripCells, nx - i), j, k, strip);
-                                   mirrorRow(pass.spare, layout_, j, k);
-                               }
-                           });
+    for (int j = rows.first; j < rows.end; ++j) {
+        for (std::size_t i = 0; i < nx; i += stripCells) correctStrip(i, std::min(stripCells, nx - i), j);
+        mirrorRow(pass.spare, layout_, j, k);
+    }
 }
 
-void Advection::addCorrections(const Pass& pass, int firstSlab, int lastSlab) {
-    parallel::forEachBlock(static_cast<std::size_t>(lastSlab - firstSlab) * static_cast<std::size_t>(layout_.ny),
-                           rowsInABlock, [&](std::size_t first, std::size_t count) {
-                               for (std::size_t r = first; r < first + count; ++r) {
-                                   const int j = layout_.rowJ(r), k = firstSlab + layout_.rowK(r);
-                                   const std::size_t at = layout_.at(0, j, k);
-                                   addEvened(pass.spare, layout_, j, k, guesses() + inWindow(at) * lanes,
-                                             pass.cells.cell(at));
-                               }
-                           });
+void Advection::addCorrections(const Pass& pass, const Rows& rows) {
+    for (int j = rows.first; j < rows.end; ++j) {
+        const std::size_t at = layout_.at(0, j, rows.k);
+        addEvened(pass.spare, layout_, j, rows.k, guess(at), pass.cells.cell(at));
+    }
 }
 
 void Advection::advect(CellField& cells, CellField& spare, const Moving* moving, AdvectionRule rule,
                        const AdvectionStep& step) {
     const int nz = layout_.nz;
-    const auto slabs = static_cast<std::size_t>(nz) + 2;
-    const double longest =
-        std::min<double>(nz, std::ceil(static_cast<double>(step.maximumSpeeds.z * step.cellsPerSpeed)));
-    const int reach = static_cast<int>(longest) + 2;
+    const Stagger stagger(nz, static_cast<double>(step.maximumSpeeds.z * step.cellsPerSpeed));
     const bool corrected = rule.scheme == AdvectionScheme::macCormack;
-    hold(std::min(slabs, static_cast<std::size_t>(slabsAtATime + 2 * reach + 1)));
-    centres_.hold(std::min(slabs, static_cast<std::size_t>(slabsAtATime + 2 * reach + 2)));
-    const Extrapolation extrapolation{step.ahead, step.maximumSpeeds};
     const bool atMiddle = rule.velocityAt == VelocityAt::middle;
+    hold(stagger);
+    if (atMiddle) centres_.keepLast();
+    const Extrapolation toMiddle{step.ahead, step.maximumSpeeds};
+    const Extrapolation* extrapolation = atMiddle ? &toMiddle : nullptr;
     const Pass pass{cells,
                     spare,
                     moving,
                     rule,
                     step,
-                    reach,
-                    {cells.data(), static_cast<int>(slabs)},
-                    {window_.data(), static_cast<int>(heldSlabs_)}};
-    // A slab is corrected as soon as all slabs that its paths can reach are available.
-    // Its new state is written as soon as no path can reach its old one.
-    int done = 0, centred = 0, complete = 0;
-    for (int first = 0; first < nz; first += slabsAtATime) {
-        const int last = std::min(first + slabsAtATime, nz), next = std::min(nz, last + reach);
-        centres_.find(cells, atMiddle ? &extrapolation : nullptr, centred, next);
-        centred = next;
-        findPaths(pass, first, last);
-        predict(pass, first, last);
-        if (!corrected) continue;
-        keepFarFaces(pass, first, last);
-        const int ready = last == nz ? nz : std::max(done, last - reach);
-        findCorrections(pass, done, ready);
-        if (done == 0) mirrorSlab(spare, layout_, -1, 0);
-        if (ready == nz) mirrorSlab(spare, layout_, nz, nz - 1);
-        done = ready;
-        const int free = last == nz ? nz : std::max(complete, ready - reach);
-        addCorrections(pass, complete, free);
-        complete = free;
-    }
+                    stagger,
+                    {cells.data(), nz + 2},
+                    {window_.data(), static_cast<int>(heldGuesses_)}};
+    const int turns = nz + (corrected ? stagger.results : stagger.guesses);
+    const auto ny = static_cast<std::size_t>(layout_.ny);
+    const std::size_t rowsInABlock = std::clamp<std::size_t>(ny / blocksOfSlab, 1, maximumRows);
+    for (int turn = 0; turn < turns; ++turn)
+        parallel::forEachBlock(ny, rowsInABlock, [&](std::size_t first, std::size_t count) {
+            const auto stage = [&](int behind, const auto& work) {
+                const Rows rows{turn - behind, static_cast<int>(first), static_cast<int>(first + count)};
+                if (rows.k >= 0 && rows.k < nz) work(rows);
+            };
+            stage(0, [&](const Rows& rows) {
+                for (int j = rows.first; j < rows.end; ++j) centres_.findRow(cells, extrapolation, j, rows.k);
+            });
+            stage(stagger.paths, [&](const Rows& rows) { findPaths(pass, rows); });
+            stage(stagger.guesses, [&](const Rows& rows) { predict(pass, rows); });
+            if (!corrected) return;
+            stage(stagger.corrections, [&](const Rows& rows) {
+                switch (rule.limit) {
+                    case Limit::clamp:
+                        return findCorrections<Limit::clamp>(pass, rows);
+                    case Limit::revert:
+                        return findCorrections<Limit::revert>(pass, rows);
+                    case Limit::none:
+                        return findCorrections<Limit::none>(pass, rows);
+                }
+            });
+            stage(stagger.results, [&](const Rows& rows) { addCorrections(pass, rows); });
+        });
     if (!corrected) cells.swap(spare);
 }
 

@@ -6,8 +6,7 @@
 // metres per second, cells. Threads: rows in blocks; each cell by itself. Source: Stam1999, 2.2 (semi-Lagrangian);
 // Selle2008, Eq. 4 and 3.2 (MacCormack, clamped to the extrema or reverted). Departs: the forward path is the mirrored
 // backward path: x₊ = x₋ + 2Δt·u(x), also of second order, without another sample; if either path leaves the box, the
-// first guess is kept; only a window of slabs of first guesses is stored; of the corrections what alternates from cell
-// to cell is left out (evened_corrections.h).
+// first guess is kept; of the corrections what alternates from cell to cell is left out (evened_corrections.h).
 #pragma once
 
 #include <cstdint>
@@ -63,32 +62,38 @@ class Advection {
     void scroll(glm::ivec3 by, glm::vec3 wind) { centres_.scroll(by, wind); }
 
  private:
+    struct Stagger;
     struct Pass;
     class Row;
-    /// Arrays of the window besides the first guesses: velocities at the cells' centres, and half-way along their
-    /// paths.
+    /// Rows of a slab.
+    struct Rows {
+        int k, first, end;
+    };
+    /// Velocities of the window: at the cells' centres, and half-way along their paths.
     enum Kept : std::size_t { centre = 0, halfway = 3, kept = 6 };
 
-    /// Index in the window of a cell of the whole field.
-    [[nodiscard]] std::size_t inWindow(std::size_t at) const {
-        return at / layout_.slab % heldSlabs_ * layout_.slab + at % layout_.slab;
+    /// Index in a ring of so many slabs of a cell of the whole field.
+    [[nodiscard]] std::size_t inRing(std::size_t at, std::size_t slabs) const {
+        return at / layout_.slab % slabs * layout_.slab + at % layout_.slab;
     }
-    [[nodiscard]] float* guesses() { return window_.data(); }
+    [[nodiscard]] std::size_t inPaths(std::size_t at) const { return inRing(at, heldPaths_); }
+    [[nodiscard]] float* guess(std::size_t at) { return window_.data() + inRing(at, heldGuesses_) * lanes; }
     [[nodiscard]] float* velocities(std::size_t array) {
-        return window_.data() + CellField::floatsBehind + (lanes + array) * heldSlabs_ * layout_.slab;
+        return window_.data() + CellField::floatsBehind + (lanes * heldGuesses_ + array * heldPaths_) * layout_.slab;
     }
-    void hold(std::size_t slabs);
-    void findPaths(const Pass& pass, int firstSlab, int lastSlab);
+    void hold(const Stagger& stagger);
+    void findPaths(const Pass& pass, const Rows& rows);
     void findPathsOfRow(const Pass& pass, int j, int k);
-    void predict(const Pass& pass, int firstSlab, int lastSlab);
-    void keepFarFaces(const Pass& pass, int firstSlab, int lastSlab);
-    void findCorrections(const Pass& pass, int firstSlab, int lastSlab);
-    void addCorrections(const Pass& pass, int firstSlab, int lastSlab);
+    void predict(const Pass& pass, const Rows& rows);
+    void keepFarFaces(const Pass& pass, int j, int k);
+    template <Limit limit>
+    void findCorrections(const Pass& pass, const Rows& rows);
+    void addCorrections(const Pass& pass, const Rows& rows);
 
     CellLayout layout_;
-    LedgerVector<float> window_;  ///< of the slabs in progress
+    LedgerVector<float> window_;  ///< first guesses and velocities of the slabs in progress
     CentreVelocities centres_;    ///< of the slabs that paths can reach
-    std::size_t heldSlabs_ = 1;
+    std::size_t heldGuesses_ = 1, heldPaths_ = 1;
 };
 
 }  // namespace dustbench::grid_fluid::flow

@@ -4,12 +4,9 @@
 #include <cstring>
 
 #include "methods/grid_fluid/flow/lanes.h"
-#include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::grid_fluid::flow {
 namespace {
-
-constexpr std::size_t centreRows = 8;
 
 /// The velocities at the centres of four cells, four floats each: the means of their faces. The fourth is left out.
 [[gnu::always_inline]] inline Float16 fourCentres(const float* records, std::size_t row, std::size_t slab) {
@@ -79,49 +76,38 @@ float* CentreVelocities::lastOfRow(int j, int k) {
                (static_cast<std::size_t>(k) * static_cast<std::size_t>(layout_.ny) + static_cast<std::size_t>(j));
 }
 
-template <bool extrapolated>
-void CentreVelocities::findRow(const CellField& cells, const Extrapolation& extrapolation, int j, int k) {
+void CentreVelocities::keepLast() {
+    constexpr std::size_t readBeyond = 16;
+    if (last_.empty()) last_.resize(3 * layout_.rows() * static_cast<std::size_t>(layout_.nx) + readBeyond);
+}
+
+template <typename StoreAt>
+void CentreVelocities::findCells(const CellField& cells, int j, int k, const StoreAt& storeAt) {
     const std::size_t stepY = layout_.row * lanes, stepZ = layout_.slab * lanes;
     const auto nx = static_cast<std::size_t>(layout_.nx);
     const float* record = cells.cell(layout_.at(0, j, k));
-    float *to = row(j, k) + 4, *last = extrapolated ? lastOfRow(j, k) : nullptr;
-    const MidStep midStep(extrapolation);
-    const auto storeThat = [&](const auto& now, std::size_t i) {
-        if constexpr (extrapolated)
-            store(to + 4 * i, midStep(now, last + 3 * i));
-        else
-            store(to + 4 * i, now);
-    };
     std::size_t i = 0;
-    for (; i + 4 <= nx; i += 4) storeThat(fourCentres(record + i * lanes, stepY, stepZ), i);
-    for (; i < nx; ++i) storeThat(oneCentre(record + i * lanes, stepY, stepZ), i);
+    for (; i + 4 <= nx; i += 4) storeAt(i, fourCentres(record + i * lanes, stepY, stepZ));
+    for (; i < nx; ++i) storeAt(i, oneCentre(record + i * lanes, stepY, stepZ));
+}
+
+void CentreVelocities::findRow(const CellField& cells, const Extrapolation* extrapolation, int j, int k) {
+    const int ny = layout_.ny, nz = layout_.nz;
+    const auto nx = static_cast<std::size_t>(layout_.nx);
+    float *own = row(j, k), *to = own + 4;
+    if (extrapolation == nullptr) {
+        findCells(cells, j, k, [&](std::size_t i, const auto& now) { store(to + 4 * i, now); });
+    } else {
+        const MidStep midStep(*extrapolation);
+        float* last = lastOfRow(j, k);
+        findCells(cells, j, k, [&](std::size_t i, const auto& now) { store(to + 4 * i, midStep(now, last + 3 * i)); });
+    }
     const std::size_t cellBytes = 4 * sizeof(float);
     std::memcpy(to - 4, to, cellBytes);
     std::memcpy(to + 4 * nx, to + 4 * (nx - 1), cellBytes);
-}
-
-void CentreVelocities::find(const CellField& cells, const Extrapolation* extrapolation, int first, int last) {
-    const int ny = layout_.ny, nz = layout_.nz;
-    const auto rows = static_cast<std::size_t>(std::max(last - first, 0)) * static_cast<std::size_t>(ny);
-    constexpr std::size_t readBeyond = 16;
-    if (extrapolation != nullptr && last_.empty())
-        last_.resize(3 * layout_.rows() * static_cast<std::size_t>(layout_.nx) + readBeyond);
-    parallel::forEachBlock(rows, centreRows, [&](std::size_t firstRow, std::size_t count) {
-        for (std::size_t r = firstRow; r < firstRow + count; ++r) {
-            const int j = layout_.rowJ(r), k = first + layout_.rowK(r);
-            if (extrapolation != nullptr)
-                findRow<true>(cells, *extrapolation, j, k);
-            else
-                findRow<false>(cells, {}, j, k);
-        }
-    });
-    const std::size_t rowBytes = layout_.row * 4 * sizeof(float), slabBytes = layout_.slab * 4 * sizeof(float);
-    for (int k = first; k < last; ++k) {
-        std::memcpy(row(-1, k), row(0, k), rowBytes);
-        std::memcpy(row(ny, k), row(ny - 1, k), rowBytes);
-    }
-    if (first == 0 && last > 0) std::memcpy(slab(-1), slab(0), slabBytes);
-    if (last == nz && last > first) std::memcpy(slab(nz), slab(nz - 1), slabBytes);
+    for (const int z : {k, k == 0 ? -1 : k, k + 1 == nz ? nz : k})
+        for (const int y : {j, j == 0 ? -1 : j, j + 1 == ny ? ny : j})
+            if (y != j || z != k) std::memcpy(row(y, z), own, layout_.row * cellBytes);
 }
 
 void CentreVelocities::scroll(glm::ivec3 by, glm::vec3 wind) {

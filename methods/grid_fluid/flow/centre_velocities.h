@@ -2,7 +2,7 @@
 //
 // A centre's velocity is the mean of those of two faces: that of the state, uⁿ, or by the last two states half-way
 // through the step, u* = uⁿ + ½Δt/Δt₋·(uⁿ − uⁿ⁻¹). For the latter three floats a cell are kept from step to step.
-// Units: metres per second. Threads: rows in blocks. Owns its memory, booked on a ledger.
+// Units: metres per second. Threads: rows apart. Owns its memory, booked on a ledger.
 // Source: Temperton1987. Departs: u* is no faster than the flow, so that it is known how far paths reach.
 #pragma once
 
@@ -32,9 +32,11 @@ class CentreVelocities {
 
     /// Holds so many slabs from now on.
     void hold(std::size_t slabs);
-    /// Finds those of slabs `first` to `last` − 1, each once a step; beyond the box they are those of the outermost
-    /// cells. Of the state, if there is no extrapolation.
-    void find(const CellField& cells, const Extrapolation* extrapolation, int first, int last);
+    /// From now on there is memory for what is kept from step to step, as an extrapolation requires.
+    void keepLast();
+    /// Finds those of row (j, k), once a step; beyond the box they are those of the outermost cells. Of the state, if
+    /// there is no extrapolation.
+    void findRow(const CellField& cells, const Extrapolation* extrapolation, int j, int k);
     /// Moves what is kept from step to step by whole cells; new cells had the wind.
     void scroll(glm::ivec3 by, glm::vec3 wind);
 
@@ -47,14 +49,14 @@ class CentreVelocities {
     [[nodiscard]] std::size_t slabs() const { return slabs_; }
 
  private:
-    template <bool extrapolated>
-    void findRow(const CellField& cells, const Extrapolation& extrapolation, int j, int k);
+    template <typename StoreAt>
+    void findCells(const CellField& cells, int j, int k, const StoreAt& storeAt);
     [[nodiscard]] float* row(int j, int k) { return slab(k) + layout_.at(-1, j, -1) * 4; }
     [[nodiscard]] float* lastOfRow(int j, int k);
 
     CellLayout layout_;
     LedgerVector<float> ring_;
-    LedgerVector<float> last_;  ///< uⁿ⁻¹ of all cells, three floats each, once there was an extrapolation
+    LedgerVector<float> last_;  ///< uⁿ⁻¹ of all cells, three floats each, if kept
     std::size_t slabs_ = 1;
 };
 

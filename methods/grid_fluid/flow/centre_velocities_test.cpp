@@ -21,12 +21,14 @@ void forPaddedCells(const Take& take) {
             for (c.x = -1; c.x <= odd.x; ++c.x) take(c);
 }
 
-/// Finds them slab by slab, and compares each with `expected(cell, axis)`.
+/// Finds them row by row, and compares each with `expected(cell, axis)`.
 template <typename Expected>
 void expectThem(CentreVelocities& velocities, const CellField& cells, const CellLayout& layout,
                 const Extrapolation* extrapolation, const Expected& expected) {
     velocities.hold(static_cast<std::size_t>(odd.z) + 2);
-    for (int k = 0; k < odd.z; k += 4) velocities.find(cells, extrapolation, k, std::min(k + 4, odd.z));
+    velocities.keepLast();
+    for (std::size_t r = 0; r < layout.rows(); ++r)
+        velocities.findRow(cells, extrapolation, layout.rowJ(r), layout.rowK(r));
     forPaddedCells([&](glm::ivec3 c) {
         for (int axis = 0; axis < 3; ++axis)
             ASSERT_NEAR(velocities.slab(c.z)[4 * layout.at(c.x, c.y, -1) + static_cast<std::size_t>(axis)],

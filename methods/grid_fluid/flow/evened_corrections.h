@@ -19,8 +19,6 @@ inline constexpr float keptOfSpeeds = 1.5f, keptOfCentres = 1.1f;
 /// Gives the ghosts beside row (j, k) the corrections of the cells within, and those on the far sides none for their
 /// faces, which do not move.
 void mirrorRow(CellField& corrections, const CellLayout& layout, int j, int k);
-/// The same for the ghosts before the first slab or behind the last, which is `slab`.
-void mirrorSlab(CellField& corrections, const CellLayout& layout, int ghostSlab, int slab);
 
 /// φ = φ̂ + c' for the cells of row (j, k); `guess` and `to` are its first records.
 void addEvened(const CellField& corrections, const CellLayout& layout, int j, int k, const float* guess, float* to);

@@ -57,6 +57,7 @@ std::size_t FluidSolver::floatsToLend() const {
 
 void FluidSolver::setSolids(const SolidMask& mask) {
     const SolidCells::Change change = solids_.set(mask, cells_);
+    sameSolids_ = false;
     covered_ += change.coveredDensity;
     maximumSpeeds_ = glm::max(maximumSpeeds_, change.greatestSpeeds);
 }
@@ -109,7 +110,8 @@ void FluidSolver::advect(float seconds) {
 
 PressureResult FluidSolver::project(float seconds) {
     setSideFaces(cells_, layout_, ghostRule());
-    pressure_.build(borrowed(), solids_.conductance());
+    pressure_.build(borrowed(), solids_.conductance(), sameSolids_);
+    sameSolids_ = true;
     gatherDivergence(cells_, layout_, solids_.conductance(), pressure_.finest());
     const PressureRule rule{settings_.pressure, settings_.jacobiSweeps, settings_.maximumCycles,
                             settings_.divergencePerStep * static_cast<float>(settings_.box.spacingMetres) / seconds};
@@ -126,38 +128,43 @@ void FluidSolver::addSources(std::span<const FluidSource> sources, float seconds
             const glm::vec3 d = (place - glm::vec3(reach.centreCells)) * reach.perRadius;
             return std::exp(-0.5f * glm::dot(d, d));
         };
-        const auto forCellsInReach = [&](const auto& take) {
-            for (int k = reach.first.z; k <= reach.last.z; ++k)
-                for (int j = reach.first.y; j <= reach.last.y; ++j)
-                    for (int i = reach.first.x; i <= reach.last.x; ++i) {
-                        const std::size_t at = layout_.at(i, j, k);
-                        take(cells_.cell(at), solids_.moving()[at], glm::vec3(i, j, k));
-                    }
+        const auto forCellsOfSlab = [&](int k, const auto& take) {
+            for (int j = reach.first.y; j <= reach.last.y; ++j)
+                for (int i = reach.first.x; i <= reach.last.x; ++i) {
+                    const std::size_t at = layout_.at(i, j, k);
+                    take(cells_.cell(at), solids_.moving()[at], glm::vec3(i, j, k));
+                }
         };
         float added = source.densityPerSecond * seconds;
         if (source.amountM3PerSecond > 0) {
             double sum = 0;
-            forCellsInReach([&](const float*, Moving moving, const glm::vec3& place) {
-                if ((moving & 8) != 0) sum += static_cast<double>(strengthAt(place));
-            });
+            for (int k = reach.first.z; k <= reach.last.z; ++k)
+                forCellsOfSlab(k, [&](const float*, Moving moving, const glm::vec3& place) {
+                    if ((moving & 8) != 0) sum += static_cast<double>(strengthAt(place));
+                });
             const double cell = box.spacingMetres * box.spacingMetres * box.spacingMetres;
             if (sum > 0)
                 added += static_cast<float>(static_cast<double>(source.amountM3PerSecond * seconds) / (sum * cell));
         }
         const float taken = 1 - std::exp(-source.velocityPerSecond * seconds);
-        forCellsInReach([&](float* record, Moving moving, const glm::vec3& place) {
+        const auto takeIn = [&](float* record, Moving moving, const glm::vec3& place) {
             if ((moving & 8) != 0) {
                 const float strength = strengthAt(place);
                 record[density] += strength * added;
                 record[temperature] += strength * source.kelvinPerSecond * seconds;
                 record[reaction] = std::max(record[reaction], strength * source.reaction);
             }
+            if (taken == 0) return;
             for (int axis = 0; axis < 3; ++axis) {
                 if ((moving >> axis & 1) == 0) continue;
                 glm::vec3 face = place;
                 face[axis] -= 0.5f;
                 record[axis] += strengthAt(face) * taken * (source.velocityMetresPerSecond[axis] - record[axis]);
             }
+        };
+        const auto slabs = static_cast<std::size_t>(std::max(reach.last.z - reach.first.z + 1, 0));
+        parallel::forEachBlock(slabs, 1, [&](std::size_t slab, std::size_t) {
+            forCellsOfSlab(reach.first.z + static_cast<int>(slab), takeIn);
         });
     }
 }

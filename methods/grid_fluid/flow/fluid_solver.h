@@ -74,6 +74,7 @@ class FluidSolver final : public Solver {
     PressureSolver pressure_;
     CellField cells_, spare_;  ///< `spare_`: the previous state; between steps, memory for forces and pressure
     SolidCells solids_;
+    bool sameSolids_ = false;  ///< as in the last projection
     Advection advection_;
     glm::vec3 maximumSpeeds_{0};
     bool speedsKnown_ = false;

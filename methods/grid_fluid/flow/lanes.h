@@ -5,6 +5,7 @@
 #include <immintrin.h>
 #endif
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -41,6 +42,24 @@ inline constexpr bool sixteenAtOnce = false;
     for (int i = 0; i < 16; ++i) numbers[i] = bytes[i];
 #endif
     return numbers;
+}
+
+/// Writes those of `values` whose `condition` is -1, not 0, one behind the other, and returns how many; `to` has room
+/// for sixteen.
+[[gnu::always_inline]] inline std::size_t storeWhere(const Int16& condition, const Int16& values, int* to) {
+#ifdef __AVX512F__
+    const __mmask16 those =
+        _mm512_test_epi32_mask(std::bit_cast<__m512i>(condition), std::bit_cast<__m512i>(condition));
+    store(to, _mm512_maskz_compress_epi32(those, std::bit_cast<__m512i>(values)));
+    return static_cast<std::size_t>(std::popcount(those));
+#else
+    std::size_t count = 0;
+    for (int lane = 0; lane < 16; ++lane) {
+        to[count] = values[lane];
+        count += condition[lane] != 0 ? 1 : 0;
+    }
+    return count;
+#endif
 }
 
 /// a·b + c per lane, rounded once. Without a hardware instruction it is computed by a slower equivalent, so that all

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "methods/grid_fluid/flow/relaxation.h"
+#include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::grid_fluid::flow {
 namespace {
@@ -39,13 +40,19 @@ void PressureSolver::layOut(Arena& arena) {
     } while (levels_.back()->layout.cells() > fewCells);
 }
 
-void PressureSolver::build(std::span<float> memory, const std::uint8_t* conductance) {
+void PressureSolver::build(std::span<float> memory, const std::uint8_t* conductance, bool sameSolids) {
     Arena arena(memory);
     layOut(arena);
-    levels_.front()->build(layout_, conductance);
-    for (std::size_t level = 1; level < levels_.size(); ++level) levels_[level]->buildFrom(*levels_[level - 1]);
-    factorCoarsest();
-    closed_ = closedRegions(layout_, conductance);
+    const auto buildLevels = [&] {
+        levels_.front()->build(layout_, conductance);
+        for (std::size_t level = 1; level < levels_.size(); ++level) levels_[level]->buildFrom(*levels_[level - 1]);
+        if (!sameSolids) factorCoarsest();
+    };
+    const auto findClosedRegions = [&] {
+        if (!sameSolids) closed_ = closedRegions(layout_, conductance);
+    };
+    parallel::forEachBlock(2, 1,
+                           [&](std::size_t part, std::size_t) { part == 0 ? buildLevels() : findClosedRegions(); });
 }
 
 void PressureSolver::factorCoarsest() {

@@ -39,8 +39,9 @@ class PressureSolver {
 
     /// Number of floats to borrow.
     [[nodiscard]] std::size_t floatsNeeded() const { return floatsNeeded_; }
-    /// Borrows memory and builds the operator for these solids (SolidCells::conductance).
-    void build(std::span<float> memory, const std::uint8_t* conductance);
+    /// Borrows memory and builds the operator for these solids (SolidCells::conductance). What does not lie in that
+    /// memory is kept if they are the same as in the last call.
+    void build(std::span<float> memory, const std::uint8_t* conductance, bool sameSolids = false);
     /// Fill in its right side before `solve`. Afterwards it holds the pressure.
     [[nodiscard]] PoissonLevel& finest() { return *levels_.front(); }
     [[nodiscard]] const PoissonLevel& finest() const { return *levels_.front(); }

@@ -8,8 +8,10 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "methods/grid_fluid/flow/fluid_solver.h"
 #include "methods/grid_fluid/flow/kernels_test_world.h"
 #include "methods/grid_fluid/flow/plain_pressure.h"
 #include "methods/grid_fluid/flow/plain_projection.h"
@@ -262,6 +264,49 @@ TEST(Pressure, JacobiConvergesToTheSame) {
     EXPECT_NEAR(few.divergence, few.result.residual, 1e-5);
     EXPECT_LT(many.divergence, 1e-4f);
     EXPECT_GT(few.divergence, 10 * many.divergence);
+}
+
+TEST(Pressure, KeepsWhatLiesElsewhereWithTheSameSolidsOnly) {
+    // Without solids, then with a wall that presses on what cannot leave, twice: each time as by a new solver.
+    World world({16, 8, 8}, closed);
+    world.fillRandom(1);
+    world.inside.assign(1024, 0);
+    world.motions = {{{1, 0, 0}}};
+    PressureSolver solver(world.layout, world.sides);
+    const auto solvedAgain = [&](PressureSolver& by, bool sameSolids) {
+        std::vector<float> memory(by.floatsNeeded(), std::numeric_limits<float>::quiet_NaN());
+        by.build(memory, world.solids.conductance(), sameSolids);
+        gatherDivergence(world.from, world.layout, world.solids.conductance(), by.finest());
+        const PressureResult result = by.solve({PressureMethod::multigrid, 0, 30, 1e-4f});
+        return std::pair(result.unremovable, padded(world.layout, by.finest(), by.finest().pressure));
+    };
+    for (const bool wall : {false, true, true}) {
+        const bool sameSolids = wall && world.inside[0] == 1;
+        if (wall)
+            for (std::size_t row = 0; row < 64; ++row) world.inside[row * 16] = 1;
+        world.solids.set({world.inside, world.motions}, world.from);
+        PressureSolver another(world.layout, world.sides);
+        const auto here = solvedAgain(solver, sameSolids), there = solvedAgain(another, false);
+        EXPECT_EQ(here, there);
+        EXPECT_EQ(here.first > 0.01f, wall);
+    }
+}
+
+TEST(Pressure, OfAFluidKnowsWhenItsSolidsChange) {
+    FluidSettings settings;
+    settings.box = {{8, 8, 8}, 1, {}};
+    settings.sides = closed;
+    MemoryLedger ledger;
+    FluidSolver fluid(settings, ledger);
+    EXPECT_LE(fluid.step(1, {}).pressure.unremovable, 1e-6f);
+    std::vector<std::uint8_t> inside(512, 0);
+    for (std::size_t row = 0; row < 64; ++row) inside[row * 8] = 1;
+    const std::vector<BodyMotion> motions{{{0.5f, 0, 0}}};
+    fluid.setSolids({inside, motions});
+    EXPECT_NEAR(fluid.step(1, {}).pressure.unremovable, 0.5 / 7, 1e-5);
+    EXPECT_NEAR(fluid.step(1, {}).pressure.unremovable, 0.5 / 7, 1e-5);
+    fluid.setSolids({});
+    EXPECT_LE(fluid.step(1, {}).pressure.unremovable, 1e-6f);
 }
 
 TEST(ClosedRegions, AreFoundWhereNothingFlowsOut) {

@@ -64,6 +64,11 @@ struct RecordView {
 enum class Memory : std::uint8_t { whole, ring };
 enum class Reads : std::uint8_t { samples, extrema };  ///< extrema need no shares of the way between the cells
 
+/// The quantity of cell `i` of a strip that lies on one of its faces, and between other records than the centre.
+struct Elsewhere {
+    std::size_t i, lane;
+};
+
 /// The eight cells around each position of a strip.
 template <Memory memory, Reads reads>
 class CornerStrip {
@@ -76,22 +81,25 @@ class CornerStrip {
     /// For a ring: samples will use slabs from here on, at most as many as the ring holds.
     void lookFrom(int slab) { shift_ = slab % view_.slabs - slab; }
 
-    /// The places of cells i to i + 15 of the strip, i a multiple of sixteen. All positions must lie within the places
-    /// of the outermost ghosts.
-    [[gnu::always_inline]] void find(std::size_t i, const PlacesOfCells& p) {
+    /// The places of cells i to i + 15 of the strip, i a multiple of sixteen, from 0 on; those from `cells` on do not
+    /// count. All positions must lie within the places of the outermost ghosts.
+    [[gnu::always_inline]] void find(std::size_t i, const PlacesOfCells& p, std::size_t cells) {
         const Cells x = cellsAlong<0>(p[0].x, p[1].x, p[2].x, p[3].x, i);
         const Cells y = cellsAlong<1>(p[0].y, p[1].y, p[2].y, p[3].y, i);
         const Cells z = cellsAlong<2>(p[0].z, p[1].z, p[2].z, p[3].z, i);
-        Int16 elsewhere{};
-        for (std::size_t place = 0; place < 3; ++place) {
-            const Int16 differs = (x[place] != x[3]) | (y[place] != y[3]) | (z[place] != z[3]);
-            elsewhere |= differs & (1 << place);
-        }
-        store(&elsewhere_[i], elsewhere);
-        for (std::size_t place = 0; place < 4; ++place) findCorner(place, i, x[place], y[place], z[place]);
+        std::array<Int16, 4> corners;
+        for (std::size_t place = 0; place < 4; ++place)
+            corners[place] = findCorner(place, i, x[place], y[place], z[place]);
+        constexpr Int16 upwards{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+        const Int16 cell = upwards + static_cast<int>(i);
+        const Int16 counts = cell < static_cast<int>(cells);
+        if (i == 0) elsewhereCount_ = 0;
+        for (std::size_t lane = 0; lane < 3; ++lane)
+            elsewhereCount_ += storeWhere((corners[lane] != corners[3]) & counts, 4 * cell + static_cast<int>(lane),
+                                          elsewhere_.data() + elsewhereCount_);
     }
 
-    /// Reads the samples found, cell by cell. Copies what it needs, so that it can stay in registers.
+    /// Reads what was found, cell by cell. Copies what it needs, so that it can stay in registers.
     class Reader {
      public:
         explicit Reader(const CornerStrip& strip)
@@ -101,31 +109,12 @@ class CornerStrip {
               fractions_(strip.fractions_.data()->data()),
               low_(strip.low_.data()->data()),
               high_(strip.high_.data()->data()),
-              elsewhere_(strip.elsewhere_.data()) {}
+              elsewhere_(strip.elsewhere_.data()),
+              elsewhereCount_(strip.elsewhereCount_) {}
 
-        /// Six quantities at position `i`, and two meaningless numbers.
+        /// Six quantities at position `i`, and two meaningless numbers. Those that lie elsewhere are to be read again
+        /// by themselves: asked for cell by cell, they would cost mispredicted branches.
         [[gnu::always_inline]] Float8 sample(std::size_t i) const {
-            Float8 all = sampleAroundCentre(i);
-            for (int rest = elsewhere_[i]; rest != 0; rest &= rest - 1) {
-                const auto lane = static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(rest)));
-                all[lane] = sampleOf(lane, i);
-            }
-            return all;
-        }
-        /// Minimum and maximum of the eight numbers around, per quantity.
-        [[gnu::always_inline]] void extrema(std::size_t i, Float8& minimum, Float8& maximum) const {
-            extremaAroundCentre(i, minimum, maximum);
-            for (int rest = elsewhere_[i]; rest != 0; rest &= rest - 1) {
-                const auto lane = static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(rest)));
-                const auto c = column<Float8>(i, lane, lane);
-                const Float8 low = minimumOf(c), high = maximumOf(c);
-                minimum[lane] = std::min(low[0], low[lanes]);
-                maximum[lane] = std::max(high[0], high[lanes]);
-            }
-        }
-
-     private:
-        [[gnu::always_inline]] Float8 sampleAroundCentre(std::size_t i) const {
             const auto along = [&](const auto& c, const auto& y, const auto& z) {
                 return mixed(mixed(c.a, c.b, y), mixed(c.c, c.d, y), z);
             };
@@ -137,7 +126,8 @@ class CornerStrip {
                 return mixed(along(column<Float8>(i, 0), y, z), along(column<Float8>(i, lanes), y, z), ofRecord(i, 0));
             }
         }
-        [[gnu::always_inline]] void extremaAroundCentre(std::size_t i, Float8& minimum, Float8& maximum) const {
+        /// Minimum and maximum of the eight numbers around, per quantity; the same holds of those elsewhere.
+        [[gnu::always_inline]] void extrema(std::size_t i, Float8& minimum, Float8& maximum) const {
             if constexpr (sixteenAtOnce) {
                 const auto both = column<Float16>(i, 0);
                 const Float16 low = minimumOf(both), high = maximumOf(both);
@@ -149,6 +139,28 @@ class CornerStrip {
                 maximum = atLeast(maximumOf(first), maximumOf(second));
             }
         }
+        /// Calls `take(Elsewhere)` for all that lie elsewhere.
+        template <typename Take>
+        [[gnu::always_inline]] void forElsewhere(const Take& take) const {
+            for (std::size_t n = 0; n < elsewhereCount_; ++n) {
+                const auto code = static_cast<std::size_t>(elsewhere_[n]);
+                take(Elsewhere{code / 4, code % 4});
+            }
+        }
+        [[gnu::always_inline]] float sample(Elsewhere e) const {
+            const auto share = [&](std::size_t axis) { return fractions_[axis * fractionPitch + 4 * e.i + e.lane]; };
+            const auto c = column<Float8>(e.i, e.lane, e.lane);
+            const Float8 both = mix(mix(c.a, c.b, share(1)), mix(c.c, c.d, share(1)), share(2));
+            return std::fma(share(0), both[lanes] - both[0], both[0]);
+        }
+        [[gnu::always_inline]] void extrema(Elsewhere e, float& minimum, float& maximum) const {
+            const auto c = column<Float8>(e.i, e.lane, e.lane);
+            const Float8 low = minimumOf(c), high = maximumOf(c);
+            minimum = std::min(low[0], low[lanes]);
+            maximum = std::max(high[0], high[lanes]);
+        }
+
+     private:
         /// Four records of equal x: those of larger y second, of larger z last. In a Float16 each is together with its
         /// neighbour in x, which is adjacent in memory.
         template <typename Vector>
@@ -161,12 +173,6 @@ class CornerStrip {
             const float* low = base_ + from + std::size_t{low_[place * stripCells + i]};
             const float* high = ring ? base_ + from + std::size_t{high_[place * stripCells + i]} : low + slab_;
             return {load<Vector>(low), load<Vector>(low + row_), load<Vector>(high), load<Vector>(high + row_)};
-        }
-        [[gnu::always_inline]] float sampleOf(std::size_t lane, std::size_t i) const {
-            const auto share = [&](std::size_t axis) { return fractions_[axis * fractionPitch + 4 * i + lane]; };
-            const auto c = column<Float8>(i, lane, lane);
-            const Float8 both = mix(mix(c.a, c.b, share(1)), mix(c.c, c.d, share(1)), share(2));
-            return std::fma(share(0), both[lanes] - both[0], both[0]);
         }
         template <typename Vector>
         [[gnu::always_inline]] static Vector minimumOf(const Column<Vector>& c) {
@@ -198,6 +204,7 @@ class CornerStrip {
         const float* fractions_;
         const std::uint32_t *low_, *high_;
         const int* elsewhere_;
+        std::size_t elsewhereCount_;
     };
 
  private:
@@ -220,16 +227,15 @@ class CornerStrip {
                          share(centre, cells[3]));
         return cells;
     }
-    [[gnu::always_inline]] void findCorner(std::size_t place, std::size_t i, const Int16& x, const Int16& y,
-                                           const Int16& z) {
+    /// The record before each position on all axes, as an index of floats.
+    [[gnu::always_inline]] Int16 findCorner(std::size_t place, std::size_t i, const Int16& x, const Int16& y,
+                                            const Int16& z) {
         const int row = static_cast<int>(row_), slab = static_cast<int>(slab_);
         const Int16 inSlab = x * static_cast<int>(lanes) + y * row;
-        if constexpr (ring) {
-            store(&low_[place][i], inSlab + inRing(z + shift_) * slab);
-            store(&high_[place][i], inSlab + inRing(z + (shift_ + 1)) * slab);
-        } else {
-            store(&low_[place][i], inSlab + z * slab);
-        }
+        const Int16 low = inSlab + (ring ? inRing(z + shift_) : z) * slab;
+        store(&low_[place][i], low);
+        if constexpr (ring) store(&high_[place][i], inSlab + inRing(z + (shift_ + 1)) * slab);
+        return low;
     }
     /// a₀ b₀ c₀ d₀ a₁ …
     [[gnu::always_inline]] static void storeInterleaved(float* to, const Float16& a, const Float16& b, const Float16& c,
@@ -264,7 +270,8 @@ class CornerStrip {
     static constexpr std::size_t fractionPitch = 4 * stripCells + 16;
     alignas(64) std::array<std::array<float, fractionPitch>, 3> fractions_{};
     std::array<std::array<std::uint32_t, stripCells>, 4> low_{}, high_{};
-    std::array<int, stripCells> elsewhere_{};  ///< bits of the faces that lie between other records than the centre
+    std::array<int, 3 * stripCells + 16> elsewhere_{};  ///< 4·cell + face
+    std::size_t elsewhereCount_ = 0;
 };
 
 /// Trilinear samples of vectors of four floats in a ring of slabs, at sixteen positions.
