@@ -70,15 +70,18 @@ void CentreVelocities::hold(std::size_t slabs) {
     if (ring_.size() < floats) ring_.resize(floats);
 }
 
+/// Four cells are read with four floats behind them.
+std::size_t CentreVelocities::lastFloatsOfRow() const {
+    return 3 * static_cast<std::size_t>(layout_.nx) + 4;
+}
+
 float* CentreVelocities::lastOfRow(int j, int k) {
-    return last_.data() +
-           3 * static_cast<std::size_t>(layout_.nx) *
-               (static_cast<std::size_t>(k) * static_cast<std::size_t>(layout_.ny) + static_cast<std::size_t>(j));
+    return last_.data() + lastFloatsOfRow() * (static_cast<std::size_t>(k) * static_cast<std::size_t>(layout_.ny) +
+                                               static_cast<std::size_t>(j));
 }
 
 void CentreVelocities::keepLast() {
-    constexpr std::size_t readBeyond = 16;
-    if (last_.empty()) last_.resize(3 * layout_.rows() * static_cast<std::size_t>(layout_.nx) + readBeyond);
+    if (last_.empty()) last_.resize(lastFloatsOfRow() * layout_.rows());
 }
 
 template <typename StoreAt>

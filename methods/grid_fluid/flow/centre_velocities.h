@@ -52,6 +52,7 @@ class CentreVelocities {
     template <typename StoreAt>
     void findCells(const CellField& cells, int j, int k, const StoreAt& storeAt);
     [[nodiscard]] float* row(int j, int k) { return slab(k) + layout_.at(-1, j, -1) * 4; }
+    [[nodiscard]] std::size_t lastFloatsOfRow() const;
     [[nodiscard]] float* lastOfRow(int j, int k);
 
     CellLayout layout_;
