@@ -8,6 +8,7 @@
 
 #include "methods/grid_fluid/flow/evened_corrections.h"
 #include "methods/grid_fluid/flow/sampling.h"
+#include "methods/grid_fluid/flow/sixteen_records.h"
 #include "methods/kit/parallel/for_each_block.h"
 
 namespace dustbench::grid_fluid::flow {

@@ -16,7 +16,6 @@
 
 #include "methods/grid_fluid/flow/cell_field.h"
 #include "methods/grid_fluid/flow/lanes.h"
-#include "methods/grid_fluid/flow/sixteen_records.h"
 
 namespace dustbench::grid_fluid::flow {
 
@@ -30,22 +29,6 @@ struct Triples {
 
 /// The same for the faces of each cell across x, y and z, and for its centre.
 using PlacesOfCells = std::array<Triples, 4>;
-
-/// The velocities at the beginning of each of sixteen records.
-[[gnu::always_inline]] inline Triples velocitiesOf(const float* records) {
-    if constexpr (sixteenAtOnce) {
-        const SixteenRecords all(records);
-        return {all.get<0>(), all.get<1>(), all.get<2>()};
-    } else {
-        Triples velocities;
-        for (std::size_t i = 0; i < SixteenRecords::count; ++i, records += lanes) {
-            velocities.x[i] = records[0];
-            velocities.y[i] = records[1];
-            velocities.z[i] = records[2];
-        }
-        return velocities;
-    }
-}
 
 /// Within the centres of the outermost ghost cells.
 [[gnu::always_inline]] inline Triples inBox(const Triples& place, const CellLayout& layout) {
