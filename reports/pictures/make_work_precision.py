@@ -94,7 +94,7 @@ def legend(width, names):
         yield f'<line x1="{x}" x2="{x + 34}" y1="{y - 4}" y2="{y - 4}" stroke="#444" stroke-width="1.6" stroke-dasharray="{dash}"/>' + mark(shape, x + 17, y - 4, "#444", True)
         yield f'<text x="{x + 40}" y="{y}">{scheme.replace("_", "-")}</text>'
         x += 62 + 7 * len(scheme)
-    yield f'<text x="{LEFT}" y="{y + 20}" fill="#555">filled, thick: against dustbench’s reference; hollow, thin: against Mantaflow’s. Left and below is better.</text>'
+    yield f'<text x="{LEFT}" y="{y + 20}" fill="#555">filled, thick: against dustbench’s reference; hollow, thin: against Mantaflow’s. Left and below is better. revert-midstep was timed on another day: see the text.</text>'
 
 
 def draw(name, measures, rows):
