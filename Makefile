@@ -12,7 +12,7 @@ INPUTS ?= 10000
 SEED ?= 17
 KILLS ?= 1000
 JOBS ?= $(shell nproc)
-LINT = $(if $(SINCE),--since $(SINCE)) $(if $(LINT_SECONDS),--seconds $(LINT_SECONDS))
+LINT = $(if $(SINCE),--since $(SINCE)) $(if $(LINT_SECONDS),--seconds $(LINT_SECONDS)) $(FILES)
 PROGRAM := build/release/dustbench
 
 # Paths inside the tree count relative to it, so that a copy of the tree finds its objects in the compiler cache.
@@ -44,6 +44,14 @@ build/%/build.ninja: CMakePresets.json | packages
 .PHONY: build
 build: build/release/build.ninja ## The program, build/release/dustbench
 	@cmake --build --preset release --parallel $(JOBS) --target dustbench
+
+.PHONY: check
+check: build/release/build.ninja ## Check a module (MODULE=weighted_oit): build, tests, rules, format, lint; without: what changed since origin/main
+	@.ci/gates check $(if $(SINCE),--since $(SINCE)) $(MODULE)
+
+.PHONY: all-gates
+all-gates: ## All gates of .ci/run, whatever has changed: up to 45 minutes
+	@.ci/gates run --all
 
 .PHONY: package
 package: build ## The Debian package, build/release/dustbench_*.deb
@@ -100,8 +108,8 @@ bench: build/release/build.ninja ## Run every benchmark program
 	@for program in build/release/*_bench; do echo "== $$program"; "$$program"; done
 
 .PHONY: without
-without: packages ## Build and list without one method (METHOD=grid_fluid), in a copy of the tree
-	@tests/without_a_method/without_a_method.sh $(METHOD)
+without: build/release/build.ninja ## Build, list and run with a method more and without one (METHOD=grid_fluid), in a copy of the tree
+	@cmake -DSOURCE=$(CURDIR) -DWORK=$(CURDIR)/build/add_a_method -DWITHOUT=$(METHOD) -P tests/add_a_method/add_a_method.cmake
 
 .PHONY: planted
 planted: packages ## Plant faults in a copy of the tree: tests and verdicts must notice (FAULTS=NAME …; default: all)
@@ -149,7 +157,7 @@ format-check: ## Say which sources `make format` would change
 	@clang-format-14 --dry-run --Werror $(SOURCES)
 
 .PHONY: lint
-lint: build/lint/build.ninja ## Run clang-tidy over all sources, or what changed since a revision (SINCE=origin/main)
+lint: build/lint/build.ninja ## Run clang-tidy over all sources, those named (FILES=…), or what changed since a revision (SINCE=origin/main)
 	@.ci/install lint
 	@cmake --build --preset lint --parallel $(JOBS) --target generated_headers
 	@.ci/lint $(LINT)

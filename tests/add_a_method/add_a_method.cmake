@@ -1,12 +1,19 @@
 # A method folder dropped into methods/ is listed and runs in a suite with no other edit, and the file of a particle
-# part is listed; deleted, they leave no trace.
+# part is listed; deleted, they leave no trace. So does a method of ours, WITHOUT: all else builds, lists and runs.
 #
 # The folder, the suite and the part are those of methods/README.md, so that the page cannot go wrong. All happens in a
 # copy of the tree below WORK, which is kept from one run to the next: only what changed is compiled again, the first
 # time from the compiler cache.
 #
-#   cmake -DSOURCE=tree -DWORK=folder -DCOMPILER=c++ -DC_COMPILER=cc -DARCH=native -DWERROR=OFF -P add_a_method.cmake
+#   cmake -DSOURCE=tree -DWORK=folder [-DWITHOUT=grid_fluid] [-DOPTIONS=cmake options] -P add_a_method.cmake
 cmake_minimum_required(VERSION 3.25)
+
+if(NOT WITHOUT)
+  set(WITHOUT grid_fluid)
+endif()
+if(NOT EXISTS ${SOURCE}/methods/${WITHOUT} OR WITHOUT MATCHES "^(contract|kit|null_method|README.md)$")
+  message(FATAL_ERROR "WITHOUT: got '${WITHOUT}', expected a method's folder in methods/ other than null_method")
+endif()
 
 set(TREE ${WORK}/tree)
 set(BUILD ${TREE}/build/release) # as far below its tree as the real one, so that the compiler cache knows the files
@@ -75,8 +82,7 @@ endif()
 write_from_page(methods/dots/dots.cpp)
 write_from_page(data/suites/dots.toml)
 write_from_page(methods/kit/particles/parts/force/updraught.cpp)
-must_run(IGNORED ${CMAKE_COMMAND} -S ${TREE} --preset release -DDUSTBENCH_ARCH=${ARCH} -DDUSTBENCH_WERROR=${WERROR}
-  -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_C_COMPILER=${C_COMPILER})
+must_run(IGNORED ${CMAKE_COMMAND} -S ${TREE} --preset release ${OPTIONS})
 build_copy()
 
 ids_of(methods WITH)
@@ -88,7 +94,7 @@ if(NOT "force/updraught" IN_LIST PARTS_WITH)
   message(FATAL_ERROR "'force/updraught' is not among the listed parts: ${PARTS_WITH}")
 endif()
 
-file(REMOVE_RECURSE ${WORK}/results)
+file(REMOVE_RECURSE ${WORK}/results ${WORK}/left)
 must_run(IGNORED ${PROGRAM} suite dots --out ${WORK}/results)
 file(STRINGS ${WORK}/results/summary.csv ROWS)
 list(LENGTH ROWS COUNT)
@@ -98,19 +104,21 @@ if(NOT COUNT EQUAL 3 OR NOT ROW MATCHES ",done,.*dots,")
   message(FATAL_ERROR "the suite should have two runs of 'dots', done:\n${ROWS}")
 endif()
 
-file(REMOVE_RECURSE ${TREE}/methods/dots)
+file(REMOVE_RECURSE ${TREE}/methods/dots ${TREE}/methods/${WITHOUT})
 file(REMOVE ${TREE}/data/suites/dots.toml ${TREE}/methods/kit/particles/parts/force/updraught.cpp)
 build_copy()
-ids_of(parts PARTS_WITHOUT)
+ids_of(parts PARTS_LEFT)
 list(REMOVE_ITEM PARTS_WITH force/updraught)
-if(NOT "${PARTS_WITHOUT}" STREQUAL "${PARTS_WITH}")
-  message(FATAL_ERROR "with the file deleted the parts should be '${PARTS_WITH}', they are '${PARTS_WITHOUT}'")
+if(NOT "${PARTS_LEFT}" STREQUAL "${PARTS_WITH}")
+  message(FATAL_ERROR "with the file deleted the parts should be '${PARTS_WITH}', they are '${PARTS_LEFT}'")
 endif()
-ids_of(methods WITHOUT)
-list(REMOVE_ITEM WITH dots)
-if(NOT "${WITHOUT}" STREQUAL "${WITH}")
-  message(FATAL_ERROR "with the folder deleted the methods should be '${WITH}', they are '${WITHOUT}'")
+ids_of(methods METHODS_LEFT)
+list(REMOVE_ITEM WITH dots ${WITHOUT})
+if(NOT "${METHODS_LEFT}" STREQUAL "${WITH}")
+  message(FATAL_ERROR "with the folders deleted the methods should be '${WITH}', they are '${METHODS_LEFT}'")
 endif()
+must_run(IGNORED ${PROGRAM} list)
+must_run(IGNORED ${PROGRAM} run --method null_method --frames 2 --size 64x48 -P preroll=0 --out ${WORK}/left)
 execute_process(COMMAND ${PROGRAM} run --method dots --frames 1 --out ${WORK}/gone
   RESULT_VARIABLE STATUS OUTPUT_QUIET ERROR_QUIET)
 if(NOT STATUS EQUAL 3)
