@@ -22,6 +22,14 @@ std::string oneLine(std::string message) {
     return message.empty() ? "no reason given" : message;
 }
 
+/// The channel that is alpha; -1: none. Of a GIF OpenImageIO 2.4 names the channel after the last one.
+int alphaChannelOf(const OIIO::ImageSpec& spec) {
+    if (spec.alpha_channel >= 0 && spec.alpha_channel < spec.nchannels) return spec.alpha_channel;
+    for (int channel = 0; channel < std::min(spec.nchannels, static_cast<int>(spec.channelnames.size())); ++channel)
+        if (spec.channelnames[static_cast<std::size_t>(channel)] == "A") return channel;
+    return -1;
+}
+
 class OpenImageIo final : public PictureLibrary {
  public:
 #ifdef __SANITIZE_THREAD__
@@ -47,7 +55,7 @@ class OpenImageIo final : public PictureLibrary {
         picture = {spec.width,
                    spec.height,
                    channels,
-                   spec.alpha_channel,
+                   alphaChannelOf(spec),
                    space.empty() ? integers : OIIO::Strutil::iequals(space, "sRGB"),
                    !integers && spec.get_int_attribute("oiio:UnassociatedAlpha") == 0,
                    std::vector<float>(spec.image_pixels() * static_cast<std::size_t>(channels))};
