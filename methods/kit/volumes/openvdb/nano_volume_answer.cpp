@@ -21,11 +21,6 @@ namespace {
 
 using Handle = nanovdb::GridHandle<nanovdb::HostBuffer>;
 
-struct NanoName {
-    std::string name;
-    int components = 1;
-};
-
 struct NanoChoice {
     const WantedField* wanted;
     Handle handle;
@@ -147,9 +142,10 @@ void putValues(const Grid& grid, const nanovdb::CoordBBox& box) {
 }
 
 std::vector<NanoChoice> choose(const std::string& file, const std::array<WantedField, 3>& wanted) {
-    std::vector<NanoName> present;
+    std::vector<PresentField> present;
     for (const auto& each : nanovdb::io::readGridMetaData(file))
-        present.push_back({each.gridName, componentsOf(each.gridType)});
+        present.push_back({each.gridName, componentsOf(each.gridType),
+                           "grid " + std::to_string(present.size() + 1) + " of " + nanovdb::toStr(each.gridType)});
     if (present.empty()) throw Refusal{notWholeOf(file)};
     std::vector<NanoChoice> chosen;
     for (const WantedField& each : wanted)
