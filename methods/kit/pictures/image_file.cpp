@@ -102,6 +102,8 @@ Image readImage(const fs::path& file) {
     StoredPicture stored;
     if (const std::string reason = readPicture(file, stored); !reason.empty())
         throw InputError("cannot read image '" + file.string() + "': " + reason);
+    if (const std::string reason = stored.encoding.refusal(); !reason.empty())
+        throw InputError("cannot read image '" + file.string() + "': " + reason);
     if (const std::string reason = tooLarge(stored.width, stored.height, 4); !reason.empty())
         throw InputError("cannot read image '" + file.string() + "': " + reason);
     const auto pixels = static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height);
@@ -109,7 +111,7 @@ Image readImage(const fs::path& file) {
     Image image{stored.width, stored.height, std::vector<glm::vec4>(pixels)};
     for (std::size_t i = 0; i < pixels; ++i) {
         glm::vec4 pixel = toRgba({&stored.values[i * channels], channels}, stored.alphaChannel);
-        if (stored.isEncoded) pixel = {decodeSrgb(pixel.r), decodeSrgb(pixel.g), decodeSrgb(pixel.b), pixel.a};
+        for (int colour = 0; colour < 3; ++colour) pixel[colour] = stored.encoding.decoded(pixel[colour]);
         if (!stored.isPremultiplied) pixel = {glm::vec3(pixel) * pixel.a, pixel.a};
         image.pixels[i] = pixel;
     }

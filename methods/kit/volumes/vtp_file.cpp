@@ -68,6 +68,7 @@ class VtpParser {
         table.points = points_;
         for (const StoredArray& array : pointArrays_) {
             PointColumn& column = table.columns.emplace_back(PointColumn{array.name, array.components, {}});
+            column.isByte = array.stored.type->name == "UInt8";
             if (wants(column.name)) column.values = numbersOf(array);
         }
         for (const StoredArray& array : fieldArrays_)

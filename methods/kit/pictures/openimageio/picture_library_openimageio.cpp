@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <initializer_list>
+#include <string_view>
 
 #include "methods/kit/pictures/picture_library.h"
 #include "methods/kit/pictures/picture_limits.h"
@@ -30,6 +32,22 @@ int alphaChannelOf(const OIIO::ImageSpec& spec) {
     return -1;
 }
 
+/// What the file says of its colours; if nothing, integers are encoded and floats are linear.
+ColourEncoding encodingOf(const OIIO::ImageSpec& spec, std::string_view format) {
+    using Kind = ColourEncoding::Kind;
+    const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+    // Of PNM the library says Rec709 whatever the file is, as also of the floats of a .pfm.
+    if (space.empty() || format == "pnm") return {spec.format.is_floating_point() ? Kind::linear : Kind::srgb};
+    const auto isOne = [&](std::initializer_list<const char*> names) {
+        return std::ranges::any_of(names, [&](const char* name) { return OIIO::Strutil::iequals(space, name); });
+    };
+    if (isOne({"linear", "scene_linear", "lin_srgb"})) return {Kind::linear};
+    if (isOne({"sRGB", "Rec709"})) return {Kind::srgb};
+    const float exponent = spec.get_float_attribute("oiio:Gamma");
+    if (exponent > 0 && OIIO::Strutil::istarts_with(space, "gamma")) return ColourEncoding::ofPower(exponent);
+    return {Kind::unknown, 1, space};
+}
+
 class OpenImageIo final : public PictureLibrary {
  public:
 #ifdef __SANITIZE_THREAD__
@@ -50,13 +68,12 @@ class OpenImageIo final : public PictureLibrary {
         const int channels = spec.nchannels;
         if (channels < 1 || spec.width < 1 || spec.height < 1 || spec.depth > 1) return "it is not a flat picture";
         if (std::string reason = tooLarge(spec.width, spec.height, channels); !reason.empty()) return reason;
-        const std::string space = spec.get_string_attribute("oiio:ColorSpace");
         const bool integers = !spec.format.is_floating_point();
         picture = {spec.width,
                    spec.height,
                    channels,
                    alphaChannelOf(spec),
-                   space.empty() ? integers : OIIO::Strutil::iequals(space, "sRGB"),
+                   encodingOf(spec, input->format_name()),
                    !integers && spec.get_int_attribute("oiio:UnassociatedAlpha") == 0,
                    std::vector<float>(spec.image_pixels() * static_cast<std::size_t>(channels))};
         if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, picture.values.data()))
