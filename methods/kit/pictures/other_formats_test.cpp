@@ -173,5 +173,49 @@ TEST(OtherFormats, ColoursThatCannotBeDecodedAreRefusedAndTheirValuesRead) {
     EXPECT_NEAR(stored.values.front(), 0.5f, 1e-3f);
 }
 
+TEST(OtherFormats, ExrFillsItsDisplayWindow) {
+    const TestFolder folder;
+    const auto expectFilled = [&](const char* arguments, int left, int top) {
+        const Image image = readImage(made(folder, "a.exr", arguments));
+        ASSERT_EQ(image.width, 12) << arguments;
+        ASSERT_EQ(image.height, 10) << arguments;
+        for (int y = 0; y < 10; ++y)
+            for (int x = 0; x < 12; ++x) {
+                const bool isInside = x >= left && x < left + 4 && y >= top && y < top + 3;
+                ASSERT_EQ(image.at(x, y), isInside ? glm::vec4(0.5f, 0.25f, 1, 1) : glm::vec4(0, 0, 0, 1))
+                    << arguments << ": " << x << ' ' << y;
+            }
+    };
+    const std::string pixels = "--pattern constant:color=0.5,0.25,1 4x3 3 -d float --fullsize 12x10+0+0 ";
+    expectFilled((pixels + "--origin +0+0").c_str(), 0, 0);
+    expectFilled((pixels + "--origin +7+6").c_str(), 7, 6);
+    expectFilled((pixels + "--origin -2-1").c_str(), -2, -1);  // overscan is not shown
+    expectFilled((pixels + "--origin +30+0").c_str(), 30, 0);  // nothing is
+    expectFilled("--pattern constant:color=0.5,0.25,1 4x3 3 -d float --fullsize 12x10+100+50 --origin +101+52", 1, 2);
+    StoredPicture size;
+    EXPECT_EQ(readPictureSize(folder.path() / "a.exr", size), "");
+    EXPECT_EQ(size.width, 12);
+    // The place of a picture on a page, as scanners and GIMP write it, moves nothing.
+    EXPECT_EQ(readImage(made(folder, "b.png", "--pattern constant:color=1 4x3 3 --origin +2+1 -d uint16")).width, 4);
+}
+
+TEST(OtherFormats, SeveralPartsOrLayersAreRefusedAndNamed) {
+    using testing::HasSubstr;
+    const TestFolder folder;
+    const auto refusal = [&](const char* name, const std::string& arguments) {
+        return inputError([&] { (void)readImage(made(folder, name, arguments)); });
+    };
+    const std::string picture = "--pattern constant:color=0.5,0.25,1 16x16 3 ";
+    EXPECT_THAT(refusal("a.exr", picture + "--attrib oiio:subimagename left " + picture +
+                                     "--attrib oiio:subimagename right --siappend -d half"),
+                HasSubstr("it has several parts, expected one: left, right"));
+    EXPECT_THAT(refusal("a.tif", picture + picture + "--siappend -d uint8"), HasSubstr("it has several parts"));
+    EXPECT_THAT(refusal("a.gif", picture + picture + "--siappend -d uint8"), HasSubstr("it has several parts"));
+    EXPECT_THAT(refusal("b.exr", picture + "--chnames a.R,a.G,a.B " + picture + "--chnames b.R,b.G,b.B --chappend"),
+                HasSubstr("it has several layers, expected one or channels without a layer: a, b"));
+    const Image image = readImage(made(folder, "c.exr", picture + picture + "--chnames b.R,b.G,b.B --chappend"));
+    expectEverywhere(image, {0.5f, 0.25f, 1, 1}, 1e-3f, "a layer beside plain channels");
+}
+
 }  // namespace
 }  // namespace dustbench::pictures

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cctype>
 #include <initializer_list>
+#include <set>
 #include <string_view>
+#include <utility>
 
 #include "methods/kit/pictures/picture_library.h"
 #include "methods/kit/pictures/picture_limits.h"
@@ -48,6 +50,62 @@ ColourEncoding encodingOf(const OIIO::ImageSpec& spec, std::string_view format) 
     return {Kind::unknown, 1, space};
 }
 
+/// The pixels that a file shows, which may be more or fewer than it holds.
+struct Window {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// The display window of an EXR, and of any other file that has one of another size than its pixels. The offset alone
+/// of a PNG or TIFF is its place on a page.
+Window shownBy(const OIIO::ImageSpec& spec, std::string_view format) {
+    const bool isWindow = format == "openexr" || spec.full_width != spec.width || spec.full_height != spec.height;
+    if (isWindow && spec.full_width > 0 && spec.full_height > 0)
+        return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
+    return {spec.x, spec.y, spec.width, spec.height};
+}
+
+/// What of the pixels lies in the window; the rest of it is black, and clear if there is alpha.
+std::vector<float> filled(const Window& window, const OIIO::ImageSpec& spec, const std::vector<float>& pixels) {
+    const auto channels = static_cast<std::ptrdiff_t>(spec.nchannels);
+    std::vector<float> values(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height) *
+                              static_cast<std::size_t>(spec.nchannels));
+    const int left = std::max(window.x, spec.x), right = std::min(window.x + window.width, spec.x + spec.width);
+    for (int y = std::max(window.y, spec.y); y < std::min(window.y + window.height, spec.y + spec.height); ++y) {
+        if (left >= right) break;
+        const auto from = (std::ptrdiff_t{y - spec.y} * spec.width + (left - spec.x)) * channels;
+        const auto to = (std::ptrdiff_t{y - window.y} * window.width + (left - window.x)) * channels;
+        std::copy_n(pixels.begin() + from, (right - left) * channels, values.begin() + to);
+    }
+    return values;
+}
+
+/// Empty if the file has one picture, else a reason with the names of its parts. A .psd has the whole before its
+/// layers.
+std::string severalParts(const std::filesystem::path& file) {
+    constexpr int mostNames = 10;
+    const auto input = OIIO::ImageInput::open(file.string());  // of its own: a GIF forgets where it was
+    if (!input || std::string_view(input->format_name()) == "psd" || !input->seek_subimage(1, 0)) return "";
+    std::string names;
+    for (int part = 0; part < mostNames && input->seek_subimage(part, 0); ++part)
+        if (const std::string name = input->spec().get_string_attribute("oiio:subimagename"); !name.empty())
+            names += (names.empty() ? ": " : ", ") + name;
+    return "it has several parts, expected one" + names;
+}
+
+/// Empty unless all channels belong to layers, and to more than one: then a reason with their names.
+std::string severalLayers(const OIIO::ImageSpec& spec) {
+    std::set<std::string> layers;
+    for (const std::string& channel : spec.channelnames) {
+        const std::size_t end = channel.rfind('.');
+        if (end == std::string::npos) return "";
+        layers.insert(channel.substr(0, end));
+    }
+    if (layers.size() < 2) return "";
+    std::string names;
+    for (const std::string& layer : layers) names += (names.empty() ? "" : ", ") + layer;
+    return "it has several layers, expected one or channels without a layer: " + names;
+}
+
 class OpenImageIo final : public PictureLibrary {
  public:
 #ifdef __SANITIZE_THREAD__
@@ -64,13 +122,18 @@ class OpenImageIo final : public PictureLibrary {
         wanted.attribute("oiio:UnassociatedAlpha", 1);
         const auto input = OIIO::ImageInput::open(file.string(), &wanted);
         if (!input) return oneLine(OIIO::geterror());
+        if (std::string reason = severalParts(file); !reason.empty()) return reason;
         const OIIO::ImageSpec& spec = input->spec();
         const int channels = spec.nchannels;
-        if (channels < 1 || spec.width < 1 || spec.height < 1 || spec.depth > 1) return "it is not a flat picture";
-        if (std::string reason = tooLarge(spec.width, spec.height, channels); !reason.empty()) return reason;
+        if (channels < 1 || spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep)
+            return "it is not a flat picture";
+        const Window window = shownBy(spec, input->format_name());
+        for (const auto& [width, height] : {std::pair(spec.width, spec.height), std::pair(window.width, window.height)})
+            if (std::string reason = tooLarge(width, height, channels); !reason.empty()) return reason;
+        if (std::string reason = severalLayers(spec); !reason.empty()) return reason;
         const bool integers = !spec.format.is_floating_point();
-        picture = {spec.width,
-                   spec.height,
+        picture = {window.width,
+                   window.height,
                    channels,
                    alphaChannelOf(spec),
                    encodingOf(spec, input->format_name()),
@@ -78,14 +141,17 @@ class OpenImageIo final : public PictureLibrary {
                    std::vector<float>(spec.image_pixels() * static_cast<std::size_t>(channels))};
         if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, picture.values.data()))
             return oneLine(input->geterror());
+        if (window.x != spec.x || window.y != spec.y || window.width != spec.width || window.height != spec.height)
+            picture.values = filled(window, spec, picture.values);
         return "";
     }
 
     std::string readSize(const std::filesystem::path& file, StoredPicture& picture) const override {
         const auto input = OIIO::ImageInput::open(file.string());
         if (!input) return oneLine(OIIO::geterror());
-        picture.width = input->spec().width;
-        picture.height = input->spec().height;
+        const Window window = shownBy(input->spec(), input->format_name());
+        picture.width = window.width;
+        picture.height = window.height;
         return "";
     }
 
