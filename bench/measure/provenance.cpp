@@ -12,6 +12,7 @@
 #include "bench/measure/sha256.h"
 #include "build_facts_values.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/matching_files.h"
 
 namespace dustbench::bench {
 
@@ -85,6 +86,19 @@ std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& inpu
     for (const std::filesystem::path& file : inputs) files.try_emplace(nameOfInput(file), file);
     hashes.reserve(files.size());
     for (const auto& [name, file] : files) hashes.push_back({name, sha256OfFile(file)});
+    return hashes;
+}
+
+std::string hashOfFoundNames(const std::filesystem::path& path) {
+    std::string names;
+    for (const std::filesystem::path& file : files::foundFiles(path)) names += file.filename().string() + '\n';
+    return sha256(names);
+}
+
+std::vector<InputHash> hashSearches(const std::vector<std::filesystem::path>& paths) {
+    std::vector<InputHash> hashes;
+    hashes.reserve(paths.size());
+    for (const std::filesystem::path& path : paths) hashes.push_back({path.generic_string(), hashOfFoundNames(path)});
     return hashes;
 }
 

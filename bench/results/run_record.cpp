@@ -62,6 +62,9 @@ Json parametersObject(const ParameterTexts& parameters) {
 Json provenanceObject(const Provenance& provenance) {
     Json inputs = Json::array();
     for (const InputHash& input : provenance.inputs) inputs.push_back({{"file", input.file}, {"sha256", input.sha256}});
+    Json searches = Json::array();
+    for (const InputHash& search : provenance.searches)
+        searches.push_back({{"path", search.file}, {"names_sha256", search.sha256}});
     const BuildFacts& build = provenance.build;
     const Machine& machine = provenance.machine;
     return {
@@ -93,7 +96,8 @@ Json provenanceObject(const Provenance& provenance) {
         {"gpu_timers", provenance.gpuTimersTrusted},
         {"clock_reading_ns", provenance.clock.readingNs},
         {"clock_stage_ns", provenance.clock.stageNs},
-        {"inputs", inputs}};
+        {"inputs", inputs},
+        {"searches", searches}};
 }
 
 Json outputsArray(const std::optional<std::vector<OutputFile>>& outputs) {

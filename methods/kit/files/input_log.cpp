@@ -27,6 +27,16 @@ std::vector<std::filesystem::path> InputLog::files() const {
     return {files_.begin(), files_.end()};
 }
 
+std::vector<std::filesystem::path> InputLog::searches() const {
+    const std::scoped_lock lock(guard);
+    return {searches_.begin(), searches_.end()};
+}
+
+void noteSearch(const std::filesystem::path& path) {
+    const std::scoped_lock lock(guard);
+    if (current) current->searches_.insert(std::filesystem::absolute(path).lexically_normal());
+}
+
 void noteInput(const std::filesystem::path& file) {
     const std::scoped_lock lock(guard);
     if (current) current->files_.insert(std::filesystem::absolute(file).lexically_normal());
