@@ -25,7 +25,7 @@ const std::vector<Quantity>& quantities() {
                                            {"lifetime", 1, {"lifetime", "Lifetime", "life"}},
                                            {"id", 1, {"serial", "id", "Id", "ID", "particle_id", "ParticleId"}},
                                            {"velocity", 3, {"velocity", "Velocity", "v", "vel", "vx+vy+vz"}},
-                                           {"colour", 3, {"colour", "color", "Cd", "r+g+b", "red+green+blue"}},
+                                           {"colour", 3, {"colour", "color", "Cd", "r+g+b", "R+G+B", "red+green+blue"}},
                                            {"time", 1, {"time_s", "time", "Time"}}};
     return all;
 }
@@ -78,6 +78,23 @@ std::vector<ColumnNumbers::Part> partsOf(const volumes::PointTable& table, const
         found.clear();
     }
     return found;
+}
+
+/// True for one of three columns that together are a vector by a usual name: `R` of `R`, `G` and `B` is no radius.
+bool isPartOfVector(const volumes::PointTable& table, const std::string& name) {
+    const auto isThere = [&](const std::string& each) {
+        const volumes::PointColumn* const column = table.find(each);
+        return column && column->components == 1;
+    };
+    for (const Quantity& quantity : quantities()) {
+        if (quantity.parts != 3) continue;
+        for (const std::string& vector : quantity.names)
+            for (const std::vector<std::string>& three : spellings(vector))
+                if (three.size() == 3 && std::ranges::find(three, name) != three.end() &&
+                    std::ranges::all_of(three, isThere))
+                    return true;
+    }
+    return false;
 }
 
 bool isNamed(std::string_view column, const std::string& name, std::size_t parts) {
@@ -148,9 +165,11 @@ std::optional<ColumnNumbers> DustColumns::find(const volumes::PointTable& table,
     const Quantity& quantity = quantityOf(key);
     const auto given = given_.find(key);
     if (given == given_.end()) {
-        for (const std::string& name : quantity.names)
+        for (const std::string& name : quantity.names) {
+            if (quantity.parts == 1 && isPartOfVector(table, name)) continue;
             if (auto parts = partsOf(table, name, quantity); !parts.empty())
                 return ColumnNumbers{name, std::move(parts)};
+        }
         return std::nullopt;
     }
     const std::string& name = given->second;

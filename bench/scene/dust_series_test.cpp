@@ -144,6 +144,16 @@ TEST_F(DustSeriesFile, BytesOfColoursAreSrgbAndFloatsLinear) {
                 HasSubstr("red+green+blue has whole numbers up to 255"));
 }
 
+TEST_F(DustSeriesFile, NamesAreReadTogether) {
+    const Puffs coloured = at(read("x,y,z,R,G,B,pscale,opacity\n1,2,3,0.9,0.5,0.25,2,0.1\n"), 0);
+    EXPECT_EQ(coloured.radius[0], 2);
+    EXPECT_EQ(glm::vec3(coloured.red[0], coloured.green[0], coloured.blue[0]), glm::vec3(0.9f, 0.5f, 0.25f));
+    EXPECT_EQ(at(read("x,y,z,R,pscale,opacity\n1,2,3,0.9,2,0.1\n"), 0).radius[0], 0.9f);  // alone it is the radius
+    EXPECT_EQ(at(read("x,y,z,R,G,pscale,opacity\n1,2,3,0.9,0.5,2,0.1\n"), 0).radius[0], 0.9f);
+    EXPECT_THAT(refusal("x,y,z,R,G,B,opacity\n1,2,3,0.9,0.5,0.25,0.1\n"), HasSubstr("no column for radius"));
+    EXPECT_EQ(at(read("x,y,z,R,G,B,opacity\n1,2,3,0.9,0.5,0.25,0.1\n", "radius=R"), 0).radius[0], 0.9f);
+}
+
 class DustIndex : public DustSeriesFile {
  protected:
     void SetUp() override {
