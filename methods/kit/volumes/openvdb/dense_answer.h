@@ -5,6 +5,9 @@
 #include <openvdb/tools/Dense.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
 
 #include "methods/kit/volumes/openvdb/answer.h"
 
@@ -44,6 +47,38 @@ void putDense(const Grid& grid, const openvdb::CoordBBox& box) {
         openvdb::tools::copyToDense(grid, slab);
         put(slab.data(), slab.valueCount() * sizeof(Value));
     }
+}
+
+/// What is switched off counts as the background, whatever value was left there.
+template <typename Grid>
+void forgetInactive(Grid& grid) {
+    const auto background = grid.background();
+    for (auto value = grid.beginValueOff(); value; ++value) value.setValue(background);
+}
+
+/// Vectors at the middles of cells. Those of class `staggered` lie on the lower faces: half of both faces, or the
+/// lower one alone if there is no upper one.
+inline void putVectors(const openvdb::Vec3SGrid& grid, const openvdb::CoordBBox& box) {
+    if (grid.getGridClass() != openvdb::GRID_STAGGERED) return putDense<openvdb::Vec3s>(grid, box);
+    const auto faces = grid.getConstAccessor();
+    std::vector<openvdb::Vec3s> row(static_cast<std::size_t>(box.dim().x()));
+    const openvdb::Coord dim = box.dim();
+    for (int z = 0; z < dim.z(); ++z)
+        for (int y = 0; y < dim.y(); ++y) {
+            for (int x = 0; x < dim.x(); ++x) {
+                const openvdb::Coord cell = box.min() + openvdb::Coord(x, y, z);
+                openvdb::Vec3s& middle = row[static_cast<std::size_t>(x)];
+                middle = faces.getValue(cell);
+                for (int axis = 0; axis < 3; ++axis) {
+                    openvdb::Coord upper = cell;
+                    if (upper[axis] == std::numeric_limits<int>::max()) continue;
+                    upper[axis] += 1;
+                    openvdb::Vec3s above;
+                    if (faces.probeValue(upper, above)) middle[axis] = (middle[axis] + above[axis]) / 2;
+                }
+            }
+            put(row.data(), row.size() * sizeof row[0]);
+        }
 }
 
 }  // namespace dustbench::volumes

@@ -151,7 +151,8 @@ std::vector<Column> columnsOf(const PointDataGrid& grid) {
     const openvdb::Vec3SGrid::Ptr grid = readGrid(file, field);
     const openvdb::CoordBBox box = boxOfVectors(*grid);
     put(messageOf(*grid, box));
-    putDense<openvdb::Vec3s>(*grid, box);
+    forgetInactive(*grid);
+    putVectors(*grid, box);
     finish();
 }
 

@@ -68,10 +68,14 @@ openvdb::CoordBBox boxOf(const FloatGrid& density, const VolumeFields& fields) {
 
 void putField(const WantedField& field, const openvdb::GridBase::Ptr& grid, const openvdb::CoordBBox& box) {
     put(columnOf(field));
-    if (const auto vectors = openvdb::gridPtrCast<Vec3SGrid>(grid))
-        putDense<openvdb::Vec3s>(*vectors, box);
-    else
-        putDense<float>(*inFloats(grid), box);
+    if (const auto vectors = openvdb::gridPtrCast<Vec3SGrid>(grid)) {
+        forgetInactive(*vectors);
+        putVectors(*vectors, box);
+    } else {
+        const FloatGrid::Ptr numbers = inFloats(grid);
+        forgetInactive(*numbers);
+        putDense<float>(*numbers, box);
+    }
 }
 
 }  // namespace
