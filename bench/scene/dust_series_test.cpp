@@ -174,6 +174,18 @@ TEST_F(DustIndex, ReadsCollectionsAndFileSeries) {
                                  "timestep='2' part='0' file='a.csv'/>\n<DataSet timestep='4' file='b.csv'/>\n"
                                  "</Collection></VTKFile>\n");
     EXPECT_DOUBLE_EQ(pvd.seconds(), 2);
+    folder_.write("a & <\xc3\xa4>.csv", "x,y,z,radius,opacity\n1,2,3,1,0.1\n");
+    for (const char* named : {"a &amp; &lt;&#228;&gt;.csv", "a &#x26; &#60;&#xE4;>.csv"})
+        EXPECT_EQ(
+            index("e.pvd", std::string("<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"") +
+                               named + "\"/></Collection></VTKFile>")
+                .files()
+                .back()
+                .filename(),
+            "a & <\xc3\xa4>.csv");
+    EXPECT_THAT(
+        refusalOf("e.pvd", "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"a &nbsp;\"/>"),
+        HasSubstr("the reference '&nbsp;'"));
     EXPECT_EQ(pvd.files().size(), 3u);
     const DustSeries series = index("d.csv.series",
                                     R"({"file-series-version": "1.0", "files": [{"name": "a.csv", "time": 0},

@@ -73,6 +73,18 @@ TEST(VoxelState, ATemperatureThatIsSwitchedOffIsTheBackground) {
     }
 }
 
+TEST(VoxelState, LatticesThatDifferByRoundingAreOne) {
+    const TestFolder folder;
+    const auto heat =
+        cubeOf<openvdb::FloatGrid>("temperature", openvdb::GRID_UNKNOWN, [](const openvdb::Coord&) { return 900.0f; });
+    const auto density = evenDensity();
+    density->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
+    heat->setTransform(openvdb::math::Transform::createLinearTransform(0.1 * (1 + 1e-7)));
+    for (const VolumeGrid& read : readBoth(folder, {density, heat})) EXPECT_EQ(read.temperature.size(), 64u);
+    heat->setTransform(openvdb::math::Transform::createLinearTransform(0.101));
+    for (const VolumeGrid& read : readBoth(folder, {density, heat})) EXPECT_TRUE(read.temperature.empty());
+}
+
 /// Each component is linear along its own axis: 0.1, 0.2 and 0.3 a voxel.
 openvdb::Vec3SGrid::Ptr slopes(openvdb::GridClass is) {
     return cubeOf<openvdb::Vec3SGrid>("velocity", is, [](const openvdb::Coord& at) {

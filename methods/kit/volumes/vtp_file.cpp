@@ -129,7 +129,7 @@ class VtpParser {
     /// Arrays of cells are not looked at; text that is no number, as units are, and bits are passed over.
     void openArray(const Tag& tag) {
         array_.emplace();
-        array_->name = inside() == "Points" ? pointsColumn : tag["Name"];
+        array_->name = inside() == "Points" ? std::string(pointsColumn) : tag.text("Name");
         array_->components = static_cast<int>(wholeNumberOf(tag, "NumberOfComponents", 1, maximumComponents, 1));
         if (inside() == "Points" && array_->components != 3) throw VolumeFault{"its points have not three coordinates"};
         array_->stored.type = findNumberType(tag["type"]);

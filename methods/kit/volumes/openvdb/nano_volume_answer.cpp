@@ -77,7 +77,10 @@ struct Lattice {
     nanovdb::Vec3d origin{0};
     nanovdb::CoordBBox box;
 
-    bool operator==(const Lattice& other) const { return spacing == other.spacing && origin == other.origin; }
+    /// But for rounding.
+    bool operator==(const Lattice& other) const {
+        return std::abs(other.spacing / spacing - 1) <= 1e-5 && (other.origin - origin).length() <= 1e-5 * spacing;
+    }
 };
 
 /// Cells are cubes along the axes of the world.
