@@ -38,9 +38,14 @@ struct Provenance {
     ClockCost clock;
     std::vector<InputHash> inputs;
     std::vector<InputHash> searches;  ///< what was looked for, with the hash of the names that were found
-    std::string startedUtc;           ///< ISO 8601, to the second
+    /// Variables of the environment that change drawing or threads, `NAME=value` in order of their names, by blanks.
+    std::string environment;
+    std::string startedUtc;  ///< ISO 8601, to the second
     std::vector<std::string> warnings;
 };
+
+/// Of these variables, `NAME=value`, those of Mesa, LLVM, OpenGL's drivers, oneTBB and OpenMP.
+[[nodiscard]] std::string drawingEnvironment(const char* const* variables);
 
 /// Facts known at the start of this process. The caller adds device, timers and inputs. `measuresTimes`: warns of what
 /// disturbs them.

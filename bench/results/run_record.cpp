@@ -86,6 +86,7 @@ Json provenanceObject(const Provenance& provenance) {
         {"virtual_machine", machine.virtualMachine},
         {"stolen_share", machine.stolenShare},
         {"quota_cores", machine.quotaCores},
+        {"environment", provenance.environment},
         {"gl_vendor", provenance.device.vendor},
         {"gl_renderer", provenance.device.renderer},
         {"gl_version", provenance.device.version},
