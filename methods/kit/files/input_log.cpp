@@ -3,6 +3,9 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "methods/contract/errors.h"
+#include "methods/kit/files/printable.h"
+
 namespace dustbench::files {
 namespace {
 
@@ -38,6 +41,9 @@ void noteSearch(const std::filesystem::path& path) {
 }
 
 void noteInput(const std::filesystem::path& file) {
+    if (!isUtf8(file.native()))
+        throw InputError(printable(file.native()) +
+                         ": the file's name is not UTF-8, in which results name their inputs; rename it");
     const std::scoped_lock lock(guard);
     if (current) current->files_.insert(std::filesystem::absolute(file).lexically_normal());
 }

@@ -30,6 +30,7 @@ class DUSTBENCH_API InputLog {
     std::set<std::filesystem::path> files_, searches_;
 };
 
+/// Throws InputError for a name that is not UTF-8.
 DUSTBENCH_API void noteInput(const std::filesystem::path& file);
 /// A pattern whose files were taken, or a file that was not there and was taken from elsewhere.
 DUSTBENCH_API void noteSearch(const std::filesystem::path& path);

@@ -149,5 +149,18 @@ TEST(WhichField, TwoVdbGridsOfANameAreRefused) {
                 HasSubstr("wind (grid 1 of vec3s), wind (grid 2"));
 }
 
+TEST(VdbTime, IsAFloatOrADouble) {
+    const TestFolder folder;
+    const std::string file = folder.path() / "a.vdb";
+    for (const auto& [time, seconds] : std::vector<std::pair<openvdb::Metadata::Ptr, double>>{
+             {std::make_shared<openvdb::FloatMetadata>(0.25f), 0.25},
+             {std::make_shared<openvdb::DoubleMetadata>(0.1), 0.1}}) {
+        const auto grid = gridOfOneCell<openvdb::FloatGrid>("density", 1);
+        grid->insertMeta("time_s", *time);
+        openvdb::io::File(file).write({grid});
+        EXPECT_EQ(readVolume(file, {}).timeSeconds, seconds);
+    }
+}
+
 }  // namespace
 }  // namespace dustbench::volumes

@@ -21,6 +21,13 @@ namespace dustbench::volumes {
     return cells;
 }
 
+/// The metadata `time_s`, a float or a double.
+[[nodiscard]] inline std::optional<double> timeOf(const openvdb::GridBase& grid) {
+    if (const auto time = grid.getMetadata<openvdb::DoubleMetadata>("time_s")) return time->value();
+    if (const auto time = grid.getMetadata<openvdb::FloatMetadata>("time_s")) return static_cast<double>(time->value());
+    return std::nullopt;
+}
+
 /// Where the cells of the box lie, and when.
 [[nodiscard]] inline VdbMessage messageOf(const openvdb::GridBase& grid, const openvdb::CoordBBox& box) {
     VdbMessage message;
@@ -30,9 +37,9 @@ namespace dustbench::volumes {
         message.cells[axis] = box.max()[axis] - box.min()[axis] + 1;
         message.origin[axis] = first[axis] - message.spacing / 2;
     }
-    if (const auto time = grid.getMetadata<openvdb::DoubleMetadata>("time_s")) {
+    if (const std::optional<double> time = timeOf(grid)) {
         message.hasTime = 1;
-        message.timeSeconds = time->value();
+        message.timeSeconds = *time;
     }
     return message;
 }

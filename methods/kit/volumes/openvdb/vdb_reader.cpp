@@ -109,8 +109,8 @@ PointDataGrid::Ptr readPointGrid(const std::string& file, double& timeSeconds, b
         if (found) points = found;
     }
     if (!points) throw Refusal{noPoints};
-    if (const auto time = points->getMetadata<openvdb::DoubleMetadata>("time_s")) {
-        timeSeconds = time->value();
+    if (const std::optional<double> time = timeOf(*points)) {
+        timeSeconds = *time;
         hasTime = true;
     }
     return points;
