@@ -17,7 +17,8 @@ std::function<void(const std::string&)> reader(const std::string& name, Number& 
         Number number{};
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
         if (error != std::errc() || end != text.data() + text.size() || !(number >= minimum && number <= maximum)) {
-            const bool unbounded = maximum == std::numeric_limits<Number>::max();
+            const bool isTooLarge = error == std::errc::result_out_of_range && !text.starts_with('-');
+            const bool unbounded = maximum == std::numeric_limits<Number>::max() && !isTooLarge;
             std::ostringstream allowed;
             allowed << (std::is_integral_v<Number> ? "integer " : "number ") << minimum
                     << (unbounded ? " or more" : "..");

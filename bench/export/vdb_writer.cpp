@@ -15,6 +15,7 @@
 #endif
 
 #include "bench/export/whole_file.h"
+#include "methods/contract/errors.h"
 #include "methods/kit/files/machine_error.h"
 
 namespace dustbench::bench {
@@ -52,6 +53,13 @@ typename Grid::Ptr sparse(const float* values, const std::array<int, 3>& cells, 
         box, reinterpret_cast<Value*>(const_cast<float*>(values)));
     const auto grid = Grid::create(Value(0));
     openvdb::tools::copyFromDense(dense, *grid, Value(0));
+    // OpenVDB takes a cell of less than 3e-15 m³ for none.
+    constexpr double smallestSpacing = 1.5e-5;
+    if (spacing < smallestSpacing)
+        throw InputError(
+            fmt::format("vdb: got cells of {:.3g} m, allowed: {:.2g} m or more; choose a lower --resolution, a "
+                        "larger --region or another --format",
+                        spacing, smallestSpacing));
     const auto transform = openvdb::math::Transform::createLinearTransform(spacing);
     transform->postTranslate(openvdb::Vec3d(origin.x, origin.y, origin.z) + openvdb::Vec3d(spacing / 2));
     grid->setTransform(transform);

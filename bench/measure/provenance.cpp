@@ -1,17 +1,24 @@
 #include "bench/measure/provenance.h"
 
 #include <fmt/chrono.h>
+#include <fmt/ranges.h>
 #include <link.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "bench/measure/sha256.h"
 #include "build_facts_values.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/matching_files.h"
+#include "methods/kit/files/printable.h"
 
 namespace dustbench::bench {
 
@@ -62,12 +69,29 @@ BuildFacts buildFacts() {
     return {built::version, built::commit, built::dirty, built::compiler, built::flags, built::buildType, ownBuildId()};
 }
 
+std::string drawingEnvironment(const char* const* variables) {
+    constexpr std::array<std::string_view, 25> beginnings{
+        "MESA_", "LP_",  "GALLIUM_", "GALLIVM_", "LIBGL_",    "DRAW_", "DRI_",   "EGL_",  "GLSL_",
+        "GLX_",  "NIR_", "ST_DEBUG", "ZINK_",    "SOFTPIPE_", "LLVM_", "__EGL_", "__GL_", "__GLX_",
+        "RADV_", "AMD_", "INTEL_",   "NOUVEAU_", "TBB_",      "OMP_",  "VK_"};
+    constexpr std::array<std::string_view, 4> names{"mesa_glthread", "vblank_mode", "force_glsl_version", "LD_PRELOAD"};
+    std::set<std::string> found;
+    for (; variables && *variables; ++variables) {
+        const std::string_view variable(*variables), name = variable.substr(0, variable.find('='));
+        if (std::ranges::any_of(beginnings, [&](std::string_view each) { return name.starts_with(each); }) ||
+            std::ranges::find(names, name) != names.end())
+            found.insert(files::printable(variable.substr(0, 1'000)));
+    }
+    return fmt::format("{}", fmt::join(found, " "));
+}
+
 Provenance startProvenance(std::vector<std::string> argv, bool measuresTimes) {
     Provenance provenance;
     provenance.argv = std::move(argv);
     provenance.build = buildFacts();
     provenance.machine = readMachine();
     provenance.clock = measureClockCost();
+    provenance.environment = drawingEnvironment(environ);
     provenance.startedUtc = fmt::format(
         "{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
     if (measuresTimes) provenance.warnings = disturbances(provenance.machine);
@@ -85,6 +109,19 @@ std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& inpu
     for (const std::filesystem::path& file : inputs) files.try_emplace(nameOfInput(file), file);
     hashes.reserve(files.size());
     for (const auto& [name, file] : files) hashes.push_back({name, sha256OfFile(file)});
+    return hashes;
+}
+
+std::string hashOfFoundNames(const std::filesystem::path& path) {
+    std::string names;
+    for (const std::filesystem::path& file : files::foundFiles(path)) names += file.filename().string() + '\n';
+    return sha256(names);
+}
+
+std::vector<InputHash> hashSearches(const std::vector<std::filesystem::path>& paths) {
+    std::vector<InputHash> hashes;
+    hashes.reserve(paths.size());
+    for (const std::filesystem::path& path : paths) hashes.push_back({path.generic_string(), hashOfFoundNames(path)});
     return hashes;
 }
 

@@ -37,9 +37,15 @@ struct Provenance {
     bool gpuTimersTrusted = false;
     ClockCost clock;
     std::vector<InputHash> inputs;
+    std::vector<InputHash> searches;  ///< what was looked for, with the hash of the names that were found
+    /// Variables of the environment that change drawing or threads, `NAME=value` in order of their names, by blanks.
+    std::string environment;
     std::string startedUtc;  ///< ISO 8601, to the second
     std::vector<std::string> warnings;
 };
+
+/// Of these variables, `NAME=value`, those of Mesa, LLVM, OpenGL's drivers, oneTBB and OpenMP.
+[[nodiscard]] std::string drawingEnvironment(const char* const* variables);
 
 /// Facts known at the start of this process. The caller adds device, timers and inputs. `measuresTimes`: warns of what
 /// disturbs them.
@@ -47,6 +53,11 @@ struct Provenance {
 
 /// Paths inside the data folder are stored relative to it, so that results from two checkouts compare equal.
 [[nodiscard]] std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& files);
+
+/// What these paths stand for now: a pattern for its files, another path for itself if it is there.
+[[nodiscard]] std::vector<InputHash> hashSearches(const std::vector<std::filesystem::path>& paths);
+/// Of one of them.
+[[nodiscard]] std::string hashOfFoundNames(const std::filesystem::path& path);
 
 /// The command line of this process.
 [[nodiscard]] std::vector<std::string> commandLine();

@@ -24,6 +24,16 @@ TEST(Provenance, SaysHowAndWhenAndWhere) {
     EXPECT_TRUE(std::regex_match(provenance.build.buildId, std::regex("([0-9a-f]{8,})?")));
 }
 
+TEST(Provenance, NamesWhatOfTheEnvironmentChangesDrawingOrThreads) {
+    const char* const variables[]{"PATH=/bin",  "TBB_MALLOC_USE_HUGE_PAGES=1", "LP_NUM_THREADS=7",
+                                  "HOME=/root", "mesa_glthread=true",          "LIBGL_ALWAYS_SOFTWARE=1",
+                                  "HELP_=LP_",  "GALLIUM_DRIVER=llvmpipe",     nullptr};
+    EXPECT_EQ(drawingEnvironment(variables),
+              "GALLIUM_DRIVER=llvmpipe LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=7 TBB_MALLOC_USE_HUGE_PAGES=1 "
+              "mesa_glthread=true");
+    EXPECT_EQ(drawingEnvironment(nullptr), "");
+}
+
 TEST(Provenance, WarnsOfAllThatDisturbs) {
     Machine machine;
     machine.cores = 4;

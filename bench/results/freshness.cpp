@@ -4,6 +4,7 @@
 
 #include "bench/measure/sha256.h"
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/matching_files.h"
 
 namespace dustbench::bench {
 
@@ -30,6 +31,13 @@ std::string Freshness::whyOutdated(const StoredRun& run) {
         const std::string& now = hashOf(input.file);
         if (now.empty()) return input.file + " cannot be read any more";
         if (now != input.sha256) return input.file + " has changed since";
+    }
+    for (const InputHash& search : run.searches) {
+        const auto [entry, isNew] = names_.try_emplace(search.file);
+        if (isNew) entry->second = hashOfFoundNames(search.file);
+        if (entry->second == search.sha256) continue;
+        if (files::isPattern(search.file)) return "other files match " + search.file + " now";
+        return search.file + " is there now, and was not";
     }
     return {};
 }

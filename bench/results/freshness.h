@@ -24,6 +24,7 @@ class Freshness {
 
     std::string buildId_;
     std::map<std::string, std::string> hashes_;  ///< by name; empty: unreadable
+    std::map<std::string, std::string> names_;   ///< of the searches, by path
 };
 
 }  // namespace dustbench::bench

@@ -15,12 +15,13 @@ std::vector<std::filesystem::path> dataFilesOf(const ParameterValues& parameters
     return files;
 }
 
-std::vector<std::filesystem::path> inputFilesOf(const World& world, const ParameterValues& ofMethod,
-                                                const files::InputLog& read) {
+void recordInputs(const World& world, const ParameterValues& ofMethod, const files::InputLog& read,
+                  Provenance& provenance) {
     std::vector<std::filesystem::path> all = world.inputFiles();
     for (std::filesystem::path& file : dataFilesOf(ofMethod)) all.push_back(std::move(file));
     for (std::filesystem::path& file : read.files()) all.push_back(std::move(file));
-    return all;
+    provenance.inputs = hashInputs(all);
+    provenance.searches = hashSearches(read.searches());
 }
 
 }  // namespace dustbench::bench

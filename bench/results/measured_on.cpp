@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::array<std::string_view, 7> machine{"cpu",         "cores",       "governor",  "gl_vendor",
                                                   "gl_renderer", "gl_platform", "build_type"};
-constexpr std::array<std::string_view, 7> circumstances{"version", "git_commit", "compiler", "flags",
-                                                        "kernel",  "gl_version", "ram_bytes"};
+constexpr std::array<std::string_view, 9> circumstances{
+    "version", "git_commit", "compiler", "flags", "kernel", "gl_version", "ram_bytes", "quota_cores", "environment"};
 
 }  // namespace
 

@@ -62,6 +62,9 @@ Json parametersObject(const ParameterTexts& parameters) {
 Json provenanceObject(const Provenance& provenance) {
     Json inputs = Json::array();
     for (const InputHash& input : provenance.inputs) inputs.push_back({{"file", input.file}, {"sha256", input.sha256}});
+    Json searches = Json::array();
+    for (const InputHash& search : provenance.searches)
+        searches.push_back({{"path", search.file}, {"names_sha256", search.sha256}});
     const BuildFacts& build = provenance.build;
     const Machine& machine = provenance.machine;
     return {
@@ -83,6 +86,7 @@ Json provenanceObject(const Provenance& provenance) {
         {"virtual_machine", machine.virtualMachine},
         {"stolen_share", machine.stolenShare},
         {"quota_cores", machine.quotaCores},
+        {"environment", provenance.environment},
         {"gl_vendor", provenance.device.vendor},
         {"gl_renderer", provenance.device.renderer},
         {"gl_version", provenance.device.version},
@@ -93,7 +97,8 @@ Json provenanceObject(const Provenance& provenance) {
         {"gpu_timers", provenance.gpuTimersTrusted},
         {"clock_reading_ns", provenance.clock.readingNs},
         {"clock_stage_ns", provenance.clock.stageNs},
-        {"inputs", inputs}};
+        {"inputs", inputs},
+        {"searches", searches}};
 }
 
 Json outputsArray(const std::optional<std::vector<OutputFile>>& outputs) {

@@ -16,6 +16,7 @@
 namespace dustbench::bench {
 namespace {
 
+using simdjson::dom::array;
 using simdjson::dom::element;
 using simdjson::dom::object;
 
@@ -113,6 +114,9 @@ StoredRun readRunFile(const std::filesystem::path& file) {
         readCells(json["provenance"], run.provenance);
         for (const element input : json["provenance"]["inputs"].get_array())
             run.inputs.push_back({textOf(input["file"]), textOf(input["sha256"])});
+        if (array searches; json["provenance"]["searches"].get(searches) == simdjson::SUCCESS)
+            for (const element search : searches)
+                run.searches.push_back({textOf(search["path"]), textOf(search["names_sha256"])});
         run.outputs = readOutputs(json);
         requireSound(run);
         return run;

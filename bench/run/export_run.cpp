@@ -43,7 +43,7 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
     gpu::Device device;
     record.provenance.device = device.info();
     FrameRunner runner(spec, world, device, parameters.method, false);
-    record.provenance.inputs = hashInputs(inputFilesOf(world, parameters.method, read));
+    recordInputs(world, parameters.method, read, record.provenance);
 
     ExportResult result;
     const FrameRange& frames = spec.volumes->frames;

@@ -145,7 +145,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     world.followPath(spec.cameraPath);
     world.useDust(givenDust(spec));
     record.drive = world.driveId();
-    record.provenance.inputs = hashInputs(inputFilesOf(world, parameters.method, read));
+    recordInputs(world, parameters.method, read, record.provenance);
     const int threads = oneapi::tbb::this_task_arena::max_concurrency();
 
     if (const std::string reason = whyNotTaken(info, world.scene()); !reason.empty()) {
@@ -164,7 +164,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
     record.provenance.gpuTimersTrusted = !whole.softwareRenderer && gpu::timerQueriesAreTrue(device);
     std::optional<FrameRunner> timed;
     FrameRunner& runner = timed.emplace(spec, world, device, parameters.method, record.provenance.gpuTimersTrusted);
-    record.provenance.inputs = hashInputs(inputFilesOf(world, parameters.method, read));  // the method's files too
+    recordInputs(world, parameters.method, read, record.provenance);  // the method's files too
     RunVolumes volumes(spec, folder, world, record.provenance.warnings);
     EnergyMeter energy(packageEnergy(), gpuEnergy(device.info().renderer));
     runFrames(spec, world, runner, folder, volumes, energy, progress, whole);

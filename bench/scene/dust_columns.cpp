@@ -25,7 +25,7 @@ const std::vector<Quantity>& quantities() {
                                            {"lifetime", 1, {"lifetime", "Lifetime", "life"}},
                                            {"id", 1, {"serial", "id", "Id", "ID", "particle_id", "ParticleId"}},
                                            {"velocity", 3, {"velocity", "Velocity", "v", "vel", "vx+vy+vz"}},
-                                           {"colour", 3, {"colour", "color", "Cd", "r+g+b", "red+green+blue"}},
+                                           {"colour", 3, {"colour", "color", "Cd", "r+g+b", "R+G+B", "red+green+blue"}},
                                            {"time", 1, {"time_s", "time", "Time"}}};
     return all;
 }
@@ -56,22 +56,45 @@ std::vector<std::vector<std::string>> spellings(const std::string& name) {
     return all;
 }
 
-std::vector<ColumnNumbers::Part> partsOf(const volumes::PointTable& table, const std::string& name, std::size_t parts) {
+/// The column of that name, or three of one number each; of the four numbers of a colour the first three.
+std::vector<ColumnNumbers::Part> partsOf(const volumes::PointTable& table, const std::string& name,
+                                         const Quantity& quantity) {
+    const std::size_t parts = quantity.parts;
     std::vector<ColumnNumbers::Part> found;
-    if (const volumes::PointColumn* column = table.find(name);
-        column && static_cast<std::size_t>(column->components) == parts) {
-        for (std::size_t i = 0; i < parts; ++i) found.push_back({&column->values, parts, i});
-        return found;
+    if (const volumes::PointColumn* column = table.find(name); column) {
+        const auto components = static_cast<std::size_t>(column->components);
+        if (components == parts || (quantity.key == "colour" && components == 4)) {
+            for (std::size_t i = 0; i < parts; ++i)
+                found.push_back({&column->values, components, i, 0, column->isByte});
+            return found;
+        }
     }
     if (parts != 3) return found;
     for (const std::vector<std::string>& three : spellings(name)) {
         for (const std::string& each : three)
             if (const volumes::PointColumn* column = table.find(each); column && column->components == 1)
-                found.push_back({&column->values, 1, 0});
+                found.push_back({&column->values, 1, 0, 0, column->isByte});
         if (found.size() == 3 && three.size() == 3) return found;
         found.clear();
     }
     return found;
+}
+
+/// True for one of three columns that together are a vector by a usual name: `R` of `R`, `G` and `B` is no radius.
+bool isPartOfVector(const volumes::PointTable& table, const std::string& name) {
+    const auto isThere = [&](const std::string& each) {
+        const volumes::PointColumn* const column = table.find(each);
+        return column && column->components == 1;
+    };
+    for (const Quantity& quantity : quantities()) {
+        if (quantity.parts != 3) continue;
+        for (const std::string& vector : quantity.names)
+            for (const std::vector<std::string>& three : spellings(vector))
+                if (three.size() == 3 && std::ranges::find(three, name) != three.end() &&
+                    std::ranges::all_of(three, isThere))
+                    return true;
+    }
+    return false;
 }
 
 bool isNamed(std::string_view column, const std::string& name, std::size_t parts) {
@@ -142,13 +165,15 @@ std::optional<ColumnNumbers> DustColumns::find(const volumes::PointTable& table,
     const Quantity& quantity = quantityOf(key);
     const auto given = given_.find(key);
     if (given == given_.end()) {
-        for (const std::string& name : quantity.names)
-            if (auto parts = partsOf(table, name, quantity.parts); !parts.empty())
+        for (const std::string& name : quantity.names) {
+            if (quantity.parts == 1 && isPartOfVector(table, name)) continue;
+            if (auto parts = partsOf(table, name, quantity); !parts.empty())
                 return ColumnNumbers{name, std::move(parts)};
+        }
         return std::nullopt;
     }
     const std::string& name = given->second;
-    if (auto parts = partsOf(table, name, quantity.parts); !parts.empty()) return ColumnNumbers{name, std::move(parts)};
+    if (auto parts = partsOf(table, name, quantity); !parts.empty()) return ColumnNumbers{name, std::move(parts)};
     const std::vector<std::string> numbers = split(name, '+');
     ColumnNumbers constant{name, {}};
     for (const std::string& text : numbers)

@@ -22,6 +22,7 @@ struct ColumnNumbers {
         const std::vector<double>* values = nullptr;  ///< null: `constant`
         std::size_t stride = 1, first = 0;
         double constant = 0;
+        bool isByte = false;  ///< as PointColumn's
     };
     std::string name;  ///< for messages
     std::vector<Part> parts;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/maths/srgb.h"
 
 namespace dustbench::bench {
 namespace {
@@ -91,6 +92,29 @@ void opacityFromMass(const ColumnNumbers& mass, const Reader& reader, DustMoment
     }
 }
 
+/// Bytes are encoded as sRGB, other numbers are linear light, which may exceed 1.
+void readDustColours(const ColumnNumbers& colour, const Reader& reader, DustMoment& moment) {
+    moment.hasColour = true;
+    std::vector<float>* const channels[]{&moment.red, &moment.green, &moment.blue};
+    bool areWhole = true;
+    float maximum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        reader.read(colour, i, 0, maximumColour, 1, *channels[i]);
+        for (float& each : *channels[i])
+            if (colour.parts[i].isByte) {
+                each = maths::decodeSrgb(each / 255);
+            } else {
+                areWhole = areWhole && each == std::floor(each);
+                maximum = std::max(maximum, each);
+            }
+    }
+    if (areWhole && maximum > 1)
+        throw InputError(
+            fmt::format("{}: {} has whole numbers up to {}, expected linear light, where white is 1 "
+                        "(colours of 0..255 are read from UInt8 in a .vtp)",
+                        moment.file, colour.name, maximum));
+}
+
 }  // namespace
 
 DustMoment dustMoment(const volumes::PointTable& table, const DustColumns& columns, const std::string& file) {
@@ -131,9 +155,7 @@ DustMoment dustMoment(const volumes::PointTable& table, const DustColumns& colum
         reader.read(*lifetime, 0, smallest, maximumAge, 1, moment.lifetime);
     }
     if (const auto colour = reader.find("colour")) {
-        moment.hasColour = true;
-        std::vector<float>* const channels[]{&moment.red, &moment.green, &moment.blue};
-        for (std::size_t i = 0; i < 3; ++i) reader.read(*colour, i, 0, maximumColour, 1, *channels[i]);
+        readDustColours(*colour, reader, moment);
     }
     return moment;
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "methods/kit/maths/srgb.h"
 #include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
@@ -112,6 +113,47 @@ TEST_F(DustSeriesFile, EachFaultIsOneClearLine) {
                 HasSubstr("has 2 particles, expected 1"));
 }
 
+TEST_F(DustSeriesFile, BytesOfColoursAreSrgbAndFloatsLinear) {
+    const auto colourOf = [&](const std::string& type, int components, const std::string& numbers) {
+        const auto array = [](const std::string& kind, const std::string& name, int count, const std::string& text) {
+            return "<DataArray type=\"" + kind + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                   std::to_string(count) + "\" format=\"ascii\">" + text + "</DataArray>";
+        };
+        const DustSeries series = DustSeries::read(
+            folder_.write("a.vtp", "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"1\"><PointData>" +
+                                       array("Float32", "radius", 1, "1") + array("Float32", "opacity", 1, "0.5") +
+                                       array(type, "colour", components, numbers) + "</PointData><Points>" +
+                                       array("Float32", "Points", 3, "0 0 0") +
+                                       "</Points></Piece></PolyData></VTKFile>"),
+            "");
+        const Puffs dust = at(series, 0);
+        return glm::vec3(dust.red[0], dust.green[0], dust.blue[0]);
+    };
+    const auto expectColour = [](const glm::vec3& colour, const glm::vec3& expected) {
+        for (int i = 0; i < 3; ++i) EXPECT_NEAR(colour[i], expected[i], 1e-6f);
+    };
+    const glm::vec3 encoded(maths::decodeSrgb(128 / 255.0f), maths::decodeSrgb(64 / 255.0f), 1);
+    expectColour(colourOf("UInt8", 3, "128 64 255"), encoded);
+    expectColour(colourOf("UInt8", 4, "128 64 255 0"), encoded);
+    expectColour(colourOf("Float32", 3, "0.5 0.25 1"), {0.5f, 0.25f, 1});
+    expectColour(colourOf("Float64", 4, "0.5 2.25 1 1"), {0.5f, 2.25f, 1});
+    for (const char* type : {"UInt16", "Float32"})
+        EXPECT_THAT(inputError([&] { (void)colourOf(type, 3, "128 64 26"); }),
+                    HasSubstr("colour has whole numbers up to 128, expected linear light"));
+    EXPECT_THAT(refusal("x,y,z,radius,opacity,red,green,blue\n1,2,3,1,0.1,255,0,0\n"),
+                HasSubstr("red+green+blue has whole numbers up to 255"));
+}
+
+TEST_F(DustSeriesFile, NamesAreReadTogether) {
+    const Puffs coloured = at(read("x,y,z,R,G,B,pscale,opacity\n1,2,3,0.9,0.5,0.25,2,0.1\n"), 0);
+    EXPECT_EQ(coloured.radius[0], 2);
+    EXPECT_EQ(glm::vec3(coloured.red[0], coloured.green[0], coloured.blue[0]), glm::vec3(0.9f, 0.5f, 0.25f));
+    EXPECT_EQ(at(read("x,y,z,R,pscale,opacity\n1,2,3,0.9,2,0.1\n"), 0).radius[0], 0.9f);  // alone it is the radius
+    EXPECT_EQ(at(read("x,y,z,R,G,pscale,opacity\n1,2,3,0.9,0.5,2,0.1\n"), 0).radius[0], 0.9f);
+    EXPECT_THAT(refusal("x,y,z,R,G,B,opacity\n1,2,3,0.9,0.5,0.25,0.1\n"), HasSubstr("no column for radius"));
+    EXPECT_EQ(at(read("x,y,z,R,G,B,opacity\n1,2,3,0.9,0.5,0.25,0.1\n", "radius=R"), 0).radius[0], 0.9f);
+}
+
 class DustIndex : public DustSeriesFile {
  protected:
     void SetUp() override {
@@ -132,6 +174,18 @@ TEST_F(DustIndex, ReadsCollectionsAndFileSeries) {
                                  "timestep='2' part='0' file='a.csv'/>\n<DataSet timestep='4' file='b.csv'/>\n"
                                  "</Collection></VTKFile>\n");
     EXPECT_DOUBLE_EQ(pvd.seconds(), 2);
+    folder_.write("a & <\xc3\xa4>.csv", "x,y,z,radius,opacity\n1,2,3,1,0.1\n");
+    for (const char* named : {"a &amp; &lt;&#228;&gt;.csv", "a &#x26; &#60;&#xE4;>.csv"})
+        EXPECT_EQ(
+            index("e.pvd", std::string("<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"") +
+                               named + "\"/></Collection></VTKFile>")
+                .files()
+                .back()
+                .filename(),
+            "a & <\xc3\xa4>.csv");
+    EXPECT_THAT(
+        refusalOf("e.pvd", "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"a &nbsp;\"/>"),
+        HasSubstr("the reference '&nbsp;'"));
     EXPECT_EQ(pvd.files().size(), 3u);
     const DustSeries series = index("d.csv.series",
                                     R"({"file-series-version": "1.0", "files": [{"name": "a.csv", "time": 0},

@@ -7,7 +7,6 @@
 #include "methods/contract/errors.h"
 #include "methods/kit/files/limits.h"
 #include "methods/kit/files/toml_reader.h"
-#include "methods/kit/maths/srgb.h"
 #include "methods/kit/pictures/picture_files.h"
 
 namespace dustbench::bench {
@@ -61,6 +60,8 @@ void readDepths(const std::filesystem::path& file, scene::Relief& relief) {
 
 void readColours(const std::filesystem::path& file, scene::Relief& relief) {
     const pictures::StoredPicture colours = readPicture(file);
+    if (const std::string reason = colours.encoding.refusal(); !reason.empty())
+        throw InputError(file.string() + ": " + reason);
     if (colours.width != relief.columns || colours.height != relief.rows)
         throw InputError(file.string() + ": the colours have " + sizeOf(colours) + " texels, expected those of the " +
                          "heights, " + std::to_string(relief.columns) + "x" + std::to_string(relief.rows));
@@ -70,8 +71,7 @@ void readColours(const std::filesystem::path& file, scene::Relief& relief) {
         for (int i = 0; i < 3; ++i)
             if (!(stored[i] >= 0 && stored[i] <= 1))
                 throw InputError(file.string() + ": a colour is " + std::to_string(stored[i]) + ", allowed: 0..1");
-        for (int i = 0; i < 3; ++i)
-            relief.colour[texel][i] = colours.isEncoded ? maths::decodeSrgb(stored[i]) : stored[i];
+        for (int i = 0; i < 3; ++i) relief.colour[texel][i] = colours.encoding.decoded(stored[i]);
     });
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "bench/scene/data_list.h"
 #include "bench/scene/height_image.h"
@@ -197,6 +198,22 @@ TEST(HeightImage, IsCentredAndScaledFromBlackToWhite) {
     EXPECT_FLOAT_EQ(terrain.heightAt(-2, -1), -4);
     EXPECT_FLOAT_EQ(terrain.heightAt(0, -1), 6);
     EXPECT_FLOAT_EQ(terrain.heightAt(-2, 1), 6);
+}
+
+TEST(HeightImage, IsAsStoredWhateverTheFileSaysOfItsColours) {
+    const TestFolder folder;
+    // A PNG of 2x2 pixels, 0 128 255 51, that says by gAMA that it is linear light.
+    constexpr std::string_view linear(
+        "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x02\x00\x00\x00\x02"
+        "\x08\x00\x00\x00\x00\x57\xdd\x52\xf8\x00\x00\x00\x04\x67\x41\x4d\x41\x00\x01\x86\xa0\x31\xe8\x96"
+        "\x5f\x00\x00\x00\x0e\x49\x44\x41\x54\x78\x9c\x63\x60\x68\x60\xf8\x6f\x0c\x00\x04\x37\x01\xb3\x8a"
+        "\x05\x3d\xd9\x00\x00\x00\x00\x49\x45\x4e\x44\xae\x42\x60\x82",
+        87);
+    const scene::Terrain terrain = readHeightImage(folder.write("h.png", linear), 2, 1, 0);
+    EXPECT_FLOAT_EQ(terrain.heightAt(-1, -1), 0);
+    EXPECT_FLOAT_EQ(terrain.heightAt(1, -1), 128 / 255.0f);
+    EXPECT_FLOAT_EQ(terrain.heightAt(-1, 1), 1);
+    EXPECT_FLOAT_EQ(terrain.heightAt(1, 1), 51 / 255.0f);
 }
 
 TEST(HeightImage, IsRefusedByItsHeaderWhereItIsTooLarge) {

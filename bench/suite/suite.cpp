@@ -251,8 +251,18 @@ Suite parseSuite(std::string_view text, const std::string& name, bool quick) {
     return readSuite(files::TomlReader::parseText(text, name), {}, name, quick);
 }
 
+void requireDifferentValues(const MethodInfo& method, const std::string& name, const std::vector<std::string>& values) {
+    std::map<std::string, std::string> given;  // by what the run is told
+    for (const std::string& value : values)
+        if (const auto [first, isNew] = given.emplace(canonicalParameters(method, {{name, value}}).at(name), value);
+            !isNew)
+            throw InputError(fmt::format("parameter {}: {} is given twice{}", name, value,
+                                         value == first->second ? "" : ", also as " + first->second));
+}
+
 std::vector<PlannedRun> expandParameters(const RunSpec& base, const MethodInfo& method, const ParameterLists& lists) {
     requireFewEnough("-P", combinations(lists));
+    for (const auto& [name, values] : lists) requireDifferentValues(method, name, values);
     std::vector<PlannedRun> runs;
     std::vector<std::size_t> choice(lists.size(), 0);
     for (;;) {

@@ -63,7 +63,11 @@ struct Suite {
 
 /// One list of values per parameter, in order.
 using ParameterLists = std::vector<std::pair<std::string, std::vector<std::string>>>;
-/// Throws InputError for more than files::limits::plannedRuns of them.
+/// Throws InputError for a value that is given twice, also in two forms, as 100 and 100.0: it would count as two
+/// independent runs.
+void requireDifferentValues(const MethodInfo& method, const std::string& name, const std::vector<std::string>& values);
+
+/// Throws InputError for more than files::limits::plannedRuns of them, and for values that are given twice.
 /// `base` with every combination of the values set and labelled; the last parameter changes fastest.
 [[nodiscard]] std::vector<PlannedRun> expandParameters(const RunSpec& base, const MethodInfo& method,
                                                        const ParameterLists& lists);

@@ -50,12 +50,12 @@ void readParameters(const SuiteDraft& draft, files::TomlReader& table, const std
                     ParameterLists& lists) {
     for (const std::string& name : table.keys()) {
         const std::vector<std::string> values = readValues(draft, table, name);
-        for (const std::string& id : methodIds)
-            for (const std::string& value : values) try {
-                    (void)resolveParameters(findMethod(id), {{name, value}});
-                } catch (const InputError& error) {
-                    throw at(table.where(name), error);
-                }
+        for (const std::string& id : methodIds) try {
+                for (const std::string& value : values) (void)resolveParameters(findMethod(id), {{name, value}});
+                requireDifferentValues(findMethod(id), name, values);
+            } catch (const InputError& error) {
+                throw at(table.where(name), error);
+            }
         setList(lists, name, values);
     }
 }
@@ -78,6 +78,16 @@ void readSeeds(files::TomlReader& table, std::vector<std::uint64_t>& seeds) {
     if (seeds.empty()) throw InputError(table.where("seed") + "key 'seed': got an empty array, expected integers");
 }
 
+/// Each run counts once: what is given twice would count as two independent ones. `text` writes all forms of a name in
+/// one way.
+template <typename Text>
+void requireOnce(files::TomlReader& table, const std::string& key, const std::vector<std::string>& names,
+                 const Text& text) {
+    for (auto name = names.begin(); name != names.end(); ++name)
+        if (std::any_of(names.begin(), name, [&](const std::string& other) { return text(other) == text(*name); }))
+            throw InputError(fmt::format("{}key '{}': {} is given twice", table.where(key), key, *name));
+}
+
 template <typename Check>
 void readNames(files::TomlReader& table, const std::string& key, std::vector<std::string>& names, const Check& check) {
     if (!table.has(key)) return;
@@ -88,6 +98,7 @@ void readNames(files::TomlReader& table, const std::string& key, std::vector<std
         } catch (const InputError& error) {
             throw at(table.where(key), error);
         }
+    requireOnce(table, key, names, [](const std::string& name) { return name; });
 }
 
 /// Names of data, or paths of files.
@@ -253,6 +264,7 @@ void SuiteDraft::read(files::TomlReader& table) {
     if (table.has("dust")) base.dust = usableDust(*this, table);
     if (table.has("dust_columns")) base.dustColumns = files::fromFile(file, table.text("dust_columns"), ".toml");
     readNames(table, "sizes", sizes, [](const std::string& size) { (void)parseSize(size); });
+    if (table.has("sizes")) requireOnce(table, "sizes", sizes, [](const std::string& size) { return parseSize(size); });
 
     base.frames = table.integer("frames", 1, maximumFrames, base.frames);
     base.warmup = table.integer("warmup", 0, maximumFrames, base.warmup);

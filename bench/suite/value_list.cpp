@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
@@ -63,7 +65,13 @@ std::vector<std::string> range(std::string_view what, std::string_view text) {
 
 std::vector<std::string> expandValues(std::string_view what, std::string_view text) {
     std::vector<std::string> values;
-    for (const std::string_view part : split(text, ',')) {
+    const std::vector<std::string_view> parts = split(text, ',');
+    std::error_code error;
+    if (parts.size() > 1 &&
+        !std::ranges::all_of(parts, [](std::string_view part) { return number(part).has_value(); }) &&
+        std::filesystem::is_regular_file(text, error))
+        return {std::string(text)};  // a file whose name has a comma
+    for (const std::string_view part : parts) {
         if (part.empty())
             throw InputError(std::string(what) + ": got '" + std::string(text) + "', expected " +
                              (text.empty() ? "a value" : "a value on either side of ','"));

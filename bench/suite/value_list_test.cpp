@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/testing/test_folder.h"
 
 namespace dustbench::bench {
 
@@ -24,6 +25,13 @@ TEST(ValueList, ListsKeepTheirOrderAndMayHoldRanges) {
     EXPECT_THAT(expandValues("sort", "radix,none"), ElementsAre("radix", "none"));
     EXPECT_THAT(expandValues("particles", "10,100:300:100"), ElementsAre("10", "100", "200", "300"));
     EXPECT_THAT(expandValues("grid", "128x64x64"), ElementsAre("128x64x64"));
+}
+
+TEST(ValueList, AFileWhoseNameHasACommaIsOneValue) {
+    const TestFolder folder;
+    const std::string file = folder.write("v,ol.vti", "");
+    EXPECT_THAT(expandValues("volume", file), ElementsAre(file));
+    EXPECT_THAT(expandValues("volume", "a.vti," + file), ElementsAre("a.vti", testing::EndsWith("/v"), "ol.vti"));
 }
 
 TEST(ValueList, RefusesWhatIsNoListAndNoRange) {

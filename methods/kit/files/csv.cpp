@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/input_log.h"
@@ -80,10 +81,17 @@ class Records {
 CsvTable CsvTable::parseText(std::string_view text, std::string name) {
     CsvTable table;
     table.name_ = std::move(name);
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+        throw InputError(table.name_ + ": the file is in UTF-16, expected UTF-8");
     Records records(text, table.name_);
     std::size_t line = 0;
     if (!records.next(table.header_, line))
         throw InputError(table.name_ + ":1: the file is empty, expected a header line");
+    if (table.header_.size() == 1)
+        for (const auto& [separator, word] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")})
+            if (table.header_.front().find(separator) != std::string::npos)
+                throw InputError(table.name_ + ":1: its cells are separated by " + word +
+                                 ", expected commas, and points in numbers (not 1,5 but 1.5)");
     std::vector<std::string> cells;
     while (records.next(cells, line)) {
         if (cells.size() != table.header_.size())

@@ -17,6 +17,23 @@ TEST(Csv, ReadsQuotedCellsWithCommasQuotesAndLineEnds) {
     EXPECT_EQ(table.number(1, "b"), 2);
 }
 
+TEST(Csv, OtherSeparatorsAndUtf16AreNamed) {
+    const auto refusal = [](std::string_view text) {
+        try {
+            (void)CsvTable::parseText(text, "t");
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const std::string commas = ", expected commas, and points in numbers (not 1,5 but 1.5)";
+    EXPECT_EQ(refusal("time_s;steer\n0;0\n1,5;0\n"), "t:1: its cells are separated by semicolons" + commas);
+    EXPECT_EQ(refusal("x\ty\n1\t2\n"), "t:1: its cells are separated by tabs" + commas);
+    EXPECT_EQ(refusal(std::string_view("\xFF\xFEx\0,\0y\0", 8)), "t: the file is in UTF-16, expected UTF-8");
+    EXPECT_EQ(refusal(std::string_view("\xFE\xFF\0x\0,\0y", 8)), "t: the file is in UTF-16, expected UTF-8");
+    EXPECT_EQ(refusal("x\n1\n"), "");
+}
+
 TEST(Csv, WrittenCellsReadBackTheSame) {
     for (const std::string text : {"plain", "a,b", "say \"so\"", "two\nlines", "", " spaced "}) {
         const auto table = CsvTable::parseText("h,k\n" + csvCell(text) + ",1\n", "t");

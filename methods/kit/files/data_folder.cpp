@@ -150,6 +150,7 @@ fs::path fileNamedBy(const fs::path& from, std::string_view folder, const std::s
     if (found.empty())
         throw InputError(
             fmt::format("'{}': no such file, tried {}{}", named, fmt::join(tried, ", "), nearestBeside(beside)));
+    for (const std::string& elsewhere : tried) noteSearch(elsewhere);
     noteInput(found);
     return found;
 }

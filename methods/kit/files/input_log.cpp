@@ -3,6 +3,9 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "methods/contract/errors.h"
+#include "methods/kit/files/printable.h"
+
 namespace dustbench::files {
 namespace {
 
@@ -27,7 +30,20 @@ std::vector<std::filesystem::path> InputLog::files() const {
     return {files_.begin(), files_.end()};
 }
 
+std::vector<std::filesystem::path> InputLog::searches() const {
+    const std::scoped_lock lock(guard);
+    return {searches_.begin(), searches_.end()};
+}
+
+void noteSearch(const std::filesystem::path& path) {
+    const std::scoped_lock lock(guard);
+    if (current) current->searches_.insert(std::filesystem::absolute(path).lexically_normal());
+}
+
 void noteInput(const std::filesystem::path& file) {
+    if (!isUtf8(file.native()))
+        throw InputError(printable(file.native()) +
+                         ": the file's name is not UTF-8, in which results name their inputs; rename it");
     const std::scoped_lock lock(guard);
     if (current) current->files_.insert(std::filesystem::absolute(file).lexically_normal());
 }

@@ -1,7 +1,8 @@
 // Notes which files are read as data, those that other files name included: the inputs of a run.
 //
 // Code that reads a data file (TOML, CSV, meshes, voxels, pictures) calls `noteInput`, which costs a branch if there is
-// no log. Threads: `noteInput` is safe from any.
+// no log. Threads: `noteInput` and `noteSearch` are safe
+// from any.
 #pragma once
 
 #include <filesystem>
@@ -20,12 +21,18 @@ class DUSTBENCH_API InputLog {
 
     /// So far, as absolute paths, each once, sorted.
     [[nodiscard]] std::vector<std::filesystem::path> files() const;
+    /// Likewise what was looked for: another set of files may be there tomorrow.
+    [[nodiscard]] std::vector<std::filesystem::path> searches() const;
 
  private:
     friend DUSTBENCH_API void noteInput(const std::filesystem::path& file);
-    std::set<std::filesystem::path> files_;
+    friend DUSTBENCH_API void noteSearch(const std::filesystem::path& path);
+    std::set<std::filesystem::path> files_, searches_;
 };
 
+/// Throws InputError for a name that is not UTF-8.
 DUSTBENCH_API void noteInput(const std::filesystem::path& file);
+/// A pattern whose files were taken, or a file that was not there and was taken from elsewhere.
+DUSTBENCH_API void noteSearch(const std::filesystem::path& path);
 
 }  // namespace dustbench::files

@@ -8,6 +8,7 @@
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/testing/test_folder.h"
+#include "methods/kit/testing/test_input_error.h"
 
 namespace dustbench::files {
 namespace {
@@ -33,6 +34,12 @@ TEST(InputLog, NotesEachFileOnceThatIsReadWhileItLives) {
     }
     (void)TomlReader::parseFile(folder / "a.toml");
     EXPECT_TRUE(InputLog().files().empty());
+}
+
+TEST(InputLog, NamesThatAreNotUtf8AreRefusedAsSuch) {
+    for (const char* name : {"lat\xe9.vti", "a\xff", "cut\xc3"})
+        EXPECT_NE(inputError([&] { noteInput(name); }).find("the file's name is not UTF-8"), std::string::npos);
+    EXPECT_NO_THROW(noteInput("l\xc3\xa4t\xe2\x82\xac.vti"));
 }
 
 }  // namespace

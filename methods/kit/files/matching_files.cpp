@@ -3,6 +3,8 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/data_folder.h"
@@ -10,24 +12,65 @@
 
 namespace dustbench::files {
 namespace fs = std::filesystem;
+namespace {
+
+bool isDigit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+/// Takes the digits from the front of the text, without leading zeros.
+std::string_view takeDigits(std::string_view& text) {
+    const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
+    std::string_view digits = text.substr(0, end);
+    text.remove_prefix(end);
+    digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size()));
+    return digits;
+}
+
+/// By name, runs of digits by their number; names that differ in leading zeros alone, letter by letter.
+bool isBefore(const fs::path& a, const fs::path& b) {
+    const std::string nameA = a.filename().string(), nameB = b.filename().string();
+    std::string_view restA = nameA, restB = nameB;
+    while (!restA.empty() && !restB.empty()) {
+        if (isDigit(restA.front()) && isDigit(restB.front())) {
+            const std::string_view numberA = takeDigits(restA), numberB = takeDigits(restB);
+            if (numberA.size() != numberB.size()) return numberA.size() < numberB.size();
+            if (numberA != numberB) return numberA < numberB;
+        } else {
+            if (restA.front() != restB.front()) return restA.front() < restB.front();
+            restA.remove_prefix(1);
+            restB.remove_prefix(1);
+        }
+    }
+    return restA.size() != restB.size() ? restA.size() < restB.size() : nameA < nameB;
+}
+
+}  // namespace
 
 bool isPattern(const fs::path& path) {
     return path.filename().string().find('*') != std::string::npos;
 }
 
-std::vector<fs::path> matchingFiles(const fs::path& pattern) {
-    const std::string name = pattern.filename().string();
+std::vector<fs::path> foundFiles(const fs::path& path) {
+    const std::string name = path.filename().string();
     std::vector<fs::path> found;
     std::error_code error;
-    if (!isPattern(pattern)) {
-        found.push_back(pattern);
-    } else {
-        for (const auto& entry : fs::directory_iterator(pattern.has_parent_path() ? pattern.parent_path() : ".", error))
-            if (fnmatch(name.c_str(), entry.path().filename().c_str(), FNM_PERIOD) == 0) found.push_back(entry.path());
-        std::ranges::sort(found);
+    if (!isPattern(path)) {
+        if (fs::is_regular_file(path, error)) found.push_back(path);
+        return found;
     }
+    for (const auto& entry : fs::directory_iterator(path.has_parent_path() ? path.parent_path() : ".", error))
+        if (fnmatch(name.c_str(), entry.path().filename().c_str(), FNM_PERIOD) == 0) found.push_back(entry.path());
+    std::ranges::sort(found, isBefore);
+    return found;
+}
+
+std::vector<fs::path> matchingFiles(const fs::path& pattern) {
+    std::vector<fs::path> found = foundFiles(pattern);
+    std::error_code error;
     if (found.empty() || !fs::is_regular_file(found.front(), error))
         throw InputError(pattern.string() + ": no such file" + (isPattern(pattern) ? "" : nearestBeside(pattern)));
+    if (isPattern(pattern)) noteSearch(pattern);
     for (const fs::path& file : found) noteInput(file);
     return found;
 }

@@ -65,4 +65,13 @@ std::string printable(std::string_view text, std::size_t maximumBytes) {
     return line;
 }
 
+bool isUtf8(std::string_view text) {
+    while (!text.empty()) {
+        const Letter letter = decode(text);
+        if (letter.bytes == 0) return false;
+        text.remove_prefix(letter.bytes);
+    }
+    return true;
+}
+
 }  // namespace dustbench::files

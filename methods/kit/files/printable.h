@@ -15,4 +15,7 @@ inline constexpr std::size_t maximumMessageBytes = 950;
 [[nodiscard]] DUSTBENCH_API std::string printable(std::string_view text,
                                                   std::size_t maximumBytes = maximumMessageBytes);
 
+/// Whether all of it is UTF-8, as what is written to JSON must be.
+[[nodiscard]] DUSTBENCH_API bool isUtf8(std::string_view text);
+
 }  // namespace dustbench::files

@@ -1,12 +1,14 @@
 #include "methods/kit/gpu/device.h"
 
 #include <epoxy/gl.h>
+#include <sys/resource.h>
 
 #include <array>
 #include <cstdlib>
 #include <vector>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/machine_error.h"
 #include "methods/kit/gpu/debug_output.h"
 #include "methods/kit/gpu/egl_context.h"
 
@@ -26,12 +28,23 @@ struct Opened {
     std::string why;
 };
 
+/// Drivers do not say that memory ran out. Throws MachineError if the caller left them little of it.
+void requireMemory() {
+    constexpr rlim_t enough = rlim_t{4} << 30;
+    rlimit allowed{};
+    if (getrlimit(RLIMIT_AS, &allowed) == 0 && allowed.rlim_cur != RLIM_INFINITY && allowed.rlim_cur < enough)
+        throw files::MachineError(std::string(files::outOfMemory) + ": OpenGL does not start within the limit of " +
+                                  std::to_string(allowed.rlim_cur >> 20) +
+                                  " MB of address space (ulimit -v); raise it");
+}
+
 Opened openAsked(const std::string& asked) {
     // Only a name requires trying every adapter, because names come from the renderers.
     std::vector<Adapter> adapters = offeredAdapters();
     if (!adapterOfIndex(adapters, asked)) adapters = listAdapters();
     Adapter& adapter = adapters[findAdapter(adapters, asked)];
     auto context = EglContext::open(adapter);
+    if (!context) requireMemory();
     if (!context)
         throw InputError("--adapter " + asked + ": OpenGL 4.5 is needed, and " + problemsOf(std::vector{adapter}));
     return {std::move(context), adapter, "--adapter " + asked};
@@ -45,6 +58,7 @@ Opened openPreferred() {
         context = EglContext::open(adapter);
     });
     if (taken) return {std::move(context), adapters[*taken], whyPreferred(adapters, *taken)};
+    requireMemory();
     throw InputError("OpenGL 4.5 is needed and EGL gives none (" +
                      (adapters.empty() ? "neither a device nor surfaceless is offered" : problemsOf(adapters)) +
                      "); install Mesa's DRI drivers (libgl1-mesa-dri) or a GPU driver");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -69,6 +70,11 @@ Polygons readBinary(std::string_view text, const std::filesystem::path& file) {
     return joined.take();
 }
 
+/// Keywords are also written in capitals.
+bool isKeyword(std::string_view word, std::string_view keyword) {
+    return std::ranges::equal(word, keyword, [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
+}
+
 class AsciiReader {
  public:
     AsciiReader(std::string_view text, const std::filesystem::path& file) : lines_(text, file) {}
@@ -77,11 +83,11 @@ class AsciiReader {
         expect("solid");
         for (bool more = true; more;) {
             const StlWords named = namesOf(words_);
-            while (next() && words_[0] == "facet") readFacet();
-            if (words_[0] != "endsolid" || (words_.size() > 1 && namesOf(words_) != named))
+            while (next() && isKeyword(words_[0], "facet")) readFacet();
+            if (!isKeyword(words_[0], "endsolid") || (words_.size() > 1 && namesOf(words_) != named))
                 lines_.fail("expected 'facet', or 'endsolid' with the solid's name");
             more = lines_.nextWords(words_);
-            if (more && words_[0] != "solid") lines_.fail("text after 'endsolid'");
+            if (more && !isKeyword(words_[0], "solid")) lines_.fail("text after 'endsolid'");
         }
         lines_.requireLineEnd();
         return joined_.take();
@@ -97,14 +103,14 @@ class AsciiReader {
     void expect(std::string_view first, std::string_view second = {}, std::size_t numbers = 0) {
         next();
         const std::size_t keys = second.empty() ? 1 : 2;
-        if (words_[0] != first || (keys == 2 && (words_.size() < 2 || words_[1] != second)))
+        if (!isKeyword(words_[0], first) || (keys == 2 && (words_.size() < 2 || !isKeyword(words_[1], second))))
             lines_.fail(
                 fmt::format("got {}, expected '{}{}{}'", inQuotes(words_[0]), first, keys == 2 ? " " : "", second));
         if (first != "solid" && words_.size() != keys + numbers)
             lines_.fail(fmt::format("got {} words, expected {}", words_.size(), keys + numbers));
     }
     void readFacet() {
-        if (words_.size() != 5 || words_[1] != "normal") lines_.fail("expected 'facet normal X Y Z'");
+        if (words_.size() != 5 || !isKeyword(words_[1], "normal")) lines_.fail("expected 'facet normal X Y Z'");
         for (std::size_t k = 2; k < 5; ++k) (void)lines_.number(words_[k]);
         if (static_cast<std::int64_t>(joined_.triangles()) >= files::limits::meshElements)
             lines_.fail(fmt::format("too many triangles, allowed: {}", files::limits::meshElements));
@@ -127,7 +133,7 @@ class AsciiReader {
 Polygons readStl(std::string_view text, const std::filesystem::path& file) {
     const bool isBinary = text.size() >= headerBytes && binaryBytes(text) == text.size();
     const StlWords first = wordsOf(text.substr(0, text.find('\n')));
-    if (!isBinary && (first.empty() || first[0] != "solid")) {
+    if (!isBinary && (first.empty() || !isKeyword(first[0], "solid"))) {
         if (text.size() < headerBytes)
             throw InputError(fmt::format("{}: not an STL file: it has {} bytes, and does not start with 'solid'",
                                          file.string(), text.size()));

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstring>
 
@@ -35,6 +36,15 @@ std::string binary(std::uint32_t triangles, const std::string& title = "") {
 const std::string ascii =
     "solid a post\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex -0 1 0\nendloop\nendfacet\n"
     "facet normal 0 0 0\nouter loop\nvertex 0 1 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid a post\n";
+
+TEST(StlFile, KeywordsMayBeInCapitals) {
+    std::string capitals = ascii;
+    for (char& letter : capitals) letter = static_cast<char>(std::toupper(letter));
+    const Polygons mesh = readStl(capitals, "m.stl");
+    EXPECT_EQ(mesh.size(), 2u);
+    EXPECT_EQ(mesh.positions, readStl(ascii, "m.stl").positions);
+    EXPECT_THAT(stlRefusal("SOLID MY PART\nFACET\n"), HasSubstr("expected 'facet normal X Y Z'"));
+}
 
 TEST(StlFile, RefusesABinaryFileOfAnotherLength) {
     const std::string whole = binary(32);

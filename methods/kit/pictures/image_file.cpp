@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <span>
 #include <string>
 #include <system_error>
 
@@ -46,12 +47,19 @@ std::string tryToWrite(const Image& image, const fs::path& file, bool png) {
     return writePng(file, image.width, image.height, withAlpha ? 4 : 3, encodedBytes(image, withAlpha));
 }
 
-/// The file's channels as RGBA, straight or premultiplied: grey fills all colours, missing alpha is 1.
-glm::vec4 toRgba(const float* channels, int count, int alphaChannel) {
-    glm::vec4 pixel(channels[0], channels[0], channels[0], 1);
-    const int colours = alphaChannel >= 0 ? count - 1 : count;
-    if (colours >= 3) pixel = {channels[0], channels[1], channels[2], 1};
-    if (alphaChannel >= 0) pixel.a = channels[alphaChannel];
+/// A pixel's channels as RGBA, straight or premultiplied: the channels but alpha are red, green and blue, or else the
+/// first of them is grey; missing alpha is 1, and alpha alone is grey as well.
+glm::vec4 toRgba(std::span<const float> channels, int alphaChannel) {
+    const auto count = static_cast<int>(channels.size());
+    const bool hasAlpha = alphaChannel >= 0 && alphaChannel < count;
+    const bool isGrey = count - (hasAlpha ? 1 : 0) < 3;
+    glm::vec4 pixel(1);
+    for (int colour = 0; colour < 3; ++colour) {
+        const int place = isGrey ? 0 : colour;
+        const int channel = hasAlpha && count > 1 && place >= alphaChannel ? place + 1 : place;
+        pixel[colour] = channels[static_cast<std::size_t>(channel)];
+    }
+    if (hasAlpha) pixel.a = channels[static_cast<std::size_t>(alphaChannel)];
     return pixel;
 }
 
@@ -94,14 +102,16 @@ Image readImage(const fs::path& file) {
     StoredPicture stored;
     if (const std::string reason = readPicture(file, stored); !reason.empty())
         throw InputError("cannot read image '" + file.string() + "': " + reason);
+    if (const std::string reason = stored.encoding.refusal(); !reason.empty())
+        throw InputError("cannot read image '" + file.string() + "': " + reason);
     if (const std::string reason = tooLarge(stored.width, stored.height, 4); !reason.empty())
         throw InputError("cannot read image '" + file.string() + "': " + reason);
     const auto pixels = static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height);
     const auto channels = static_cast<std::size_t>(stored.channels);
     Image image{stored.width, stored.height, std::vector<glm::vec4>(pixels)};
     for (std::size_t i = 0; i < pixels; ++i) {
-        glm::vec4 pixel = toRgba(&stored.values[i * channels], stored.channels, stored.alphaChannel);
-        if (stored.isEncoded) pixel = {decodeSrgb(pixel.r), decodeSrgb(pixel.g), decodeSrgb(pixel.b), pixel.a};
+        glm::vec4 pixel = toRgba({&stored.values[i * channels], channels}, stored.alphaChannel);
+        for (int colour = 0; colour < 3; ++colour) pixel[colour] = stored.encoding.decoded(pixel[colour]);
         if (!stored.isPremultiplied) pixel = {glm::vec3(pixel) * pixel.a, pixel.a};
         image.pixels[i] = pixel;
     }

@@ -137,7 +137,7 @@ TEST_F(ImageFile, PngReadsTheSameByLibpngAsByOpenImageIo) {
         EXPECT_EQ(ours.channels, opaque ? 3 : 4);
         EXPECT_EQ(ours.channels, theirs.channels);
         EXPECT_EQ(ours.alphaChannel, theirs.alphaChannel);
-        EXPECT_EQ(ours.isEncoded, theirs.isEncoded);
+        EXPECT_EQ(ours.encoding.kind, theirs.encoding.kind);
         EXPECT_EQ(ours.isPremultiplied, theirs.isPremultiplied);
         EXPECT_EQ(ours.values, theirs.values);
     }

@@ -12,13 +12,15 @@
 #include <string>
 #include <vector>
 
+#include "methods/kit/pictures/colour_encoding.h"
+
 namespace dustbench::pictures {
 
 /// A 2D picture as stored in its file, values as floats (0..1 for integer formats).
 struct StoredPicture {
     int width = 0, height = 0, channels = 0;
     int alphaChannel = -1;         ///< -1: none
-    bool isEncoded = false;        ///< true: colours are sRGB encoded; false: linear
+    ColourEncoding encoding;       ///< of the colours; the values are as stored
     bool isPremultiplied = false;  ///< by alpha
     std::vector<float> values;     ///< pixel by pixel
 };

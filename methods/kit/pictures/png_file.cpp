@@ -3,6 +3,7 @@
 
 #include <array>
 #include <fstream>
+#include <string_view>
 
 #include "methods/kit/files/whole_text.h"
 #include "methods/kit/pictures/picture_files.h"
@@ -32,6 +33,20 @@ bool isPng(const std::filesystem::path& file) {
     return png_sig_cmp(start.data(), 0, start.size()) == 0;
 }
 
+/// True if the file says which power its samples are encoded by. libpng's simple reader would apply it to them.
+bool hasGamma(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    stream.seekg(8);
+    for (std::array<char, 8> head{}; stream.read(head.data(), head.size());) {
+        const std::string_view type(head.data() + 4, 4);
+        if (type == "gAMA" || type == "IDAT") return type == "gAMA";
+        const png_uint_32 bytes = png_get_uint_32(reinterpret_cast<const png_byte*>(head.data()));
+        if (bytes > PNG_UINT_31_MAX) return false;
+        stream.seekg(std::streamoff{bytes} + 4, std::ios::cur);  // and its checksum
+    }
+    return false;
+}
+
 /// PNG packs at most 1,032 bytes into one, and eight pixels into a byte: a short file cannot hold a large picture.
 bool isTooShort(const std::filesystem::path& file, const png_image& image) {
     std::error_code none;
@@ -44,11 +59,12 @@ bool isTooShort(const std::filesystem::path& file, const png_image& image) {
 std::string readPicture(const std::filesystem::path& file, StoredPicture& picture) {
     if (std::string reason = files::refusalOf(file, files::limits::geometryBytes); !reason.empty()) return reason;
     PngImage image;
-    // OpenImageIO handles everything but plain 8-bit PNG. It lets libpng write to standard error where PNG is damaged.
+    // OpenImageIO handles everything but plain 8-bit PNG in sRGB. It lets libpng write to standard error where PNG is
+    // damaged.
     const bool begun = png_image_begin_read_from_file(image.get(), file.c_str()) != 0;
     if (!begun && isPng(file)) return image.message();
     if (!begun || (image->format & (PNG_FORMAT_FLAG_LINEAR | PNG_FORMAT_FLAG_COLORMAP)) != 0 ||
-        image->warning_or_error != 0)
+        image->warning_or_error != 0 || hasGamma(file))
         return pictureLibrary().read(file, picture);
     const int channels = static_cast<int>(PNG_IMAGE_SAMPLE_CHANNELS(image->format));
     if (std::string reason = tooLarge(image->width, image->height, channels); !reason.empty()) return reason;
@@ -60,7 +76,7 @@ std::string readPicture(const std::filesystem::path& file, StoredPicture& pictur
                static_cast<int>(image->height),
                channels,
                hasAlpha ? channels - 1 : -1,
-               true,
+               ColourEncoding(),
                false,
                std::vector<float>(bytes.begin(), bytes.end())};
     for (float& value : picture.values) value *= 1.0f / 255;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,7 +16,7 @@ namespace dustbench::volumes {
 struct WantedField {
     std::string_view what;  ///< for messages
     int components = 1;
-    std::vector<std::string> names;  ///< the first that is there is taken
+    std::vector<std::string> names;  ///< any of them is it
     bool isRequired = false;
     bool takesOnlyOne = false;  ///< if there is none of these names but just one field of so many components
 };
@@ -61,28 +62,61 @@ struct WantedField {
     return fields;
 }
 
-/// The place of the wanted field among `present`, whose names and components it has; −1 if there is none and it need
-/// not be there. Throws `Refusal` with a clause otherwise.
-template <typename Refusal, typename Present>
-[[nodiscard]] int chosenField(const WantedField& wanted, const Present& present) {
-    std::string others;
-    int count = 0, only = -1;
-    for (int i = 0; i < static_cast<int>(present.size()); ++i) {
-        const auto& [name, components] = present[static_cast<std::size_t>(i)];
-        if (components != wanted.components) continue;
-        others += (others.empty() ? "; it has: " : ", ") + name;
-        ++count;
-        only = i;
+/// A field of a file.
+struct PresentField {
+    std::string name;
+    int components = 1;  ///< 0: its numbers are not read
+    std::string kind;    ///< for messages, what tells it from others: `at points`, `int32`
+};
+
+/// What VTK and VisIt keep for themselves, as ghosts: never a field of the volume.
+[[nodiscard]] inline bool isBookkeeping(std::string_view name) {
+    return name.starts_with("vtk") || name.starts_with("avtGhost");
+}
+
+/// The fields as text, at most ten of them; those of one name with their kinds.
+[[nodiscard]] inline std::string listOf(std::span<const PresentField> fields) {
+    std::string list;
+    for (const PresentField& field : fields.first(std::min<std::size_t>(fields.size(), 10))) {
+        list += (list.empty() ? "" : ", ") + (field.name.empty() ? "(no name)" : field.name);
+        if (std::ranges::count(fields, field.name, &PresentField::name) > 1) list += " (" + field.kind + ")";
     }
-    for (const std::string& name : wanted.names)
-        for (int i = 0; i < static_cast<int>(present.size()); ++i)
-            if (const auto& [is, components] = present[static_cast<std::size_t>(i)];
-                is == name && components == wanted.components)
-                return i;
-    if (wanted.takesOnlyOne && count == 1) return only;
+    return fields.size() > 10 ? list + " and " + std::to_string(fields.size() - 10) + " others" : list;
+}
+
+/// The place of the wanted field among `present`: the only one of these names and components, wherever it lies; −1 if
+/// there is none and it need not be there. Throws `Refusal` with a clause otherwise.
+template <typename Refusal>
+[[nodiscard]] int chosenField(const WantedField& wanted, std::span<const PresentField> present) {
+    std::vector<int> places;
+    std::vector<PresentField> named, fitting, others;
+    int only = -1;
+    for (int i = 0; i < static_cast<int>(present.size()); ++i) {
+        const PresentField& field = present[static_cast<std::size_t>(i)];
+        if (isBookkeeping(field.name)) continue;
+        const bool isNamed = std::ranges::find(wanted.names, field.name) != wanted.names.end();
+        if (field.components != wanted.components) {
+            if (isNamed) others.push_back(field);
+            continue;
+        }
+        fitting.push_back(field);
+        only = i;
+        if (!isNamed) continue;
+        named.push_back(field);
+        places.push_back(i);
+    }
+    if (named.size() == 1) return places.front();
+    const std::string what(wanted.what), numbers = wanted.components == 3 ? "vectors" : "numbers";
+    if (named.size() > 1)
+        throw Refusal{"it has more than one field of " + numbers + " for its " + what + ": " + listOf(named) +
+                      "; expected one, or the name of one in a .toml"};
+    if (wanted.takesOnlyOne && fitting.size() == 1) return only;
     if (!wanted.isRequired) return -1;
-    throw Refusal{"it has no field of " + std::string(wanted.components == 3 ? "vectors" : "numbers") + " '" +
-                  wanted.names.front() + "'" + others};
+    const std::string reason = "it has no field of " + numbers + " '" + wanted.names.front() + "'";
+    if (!others.empty())
+        throw Refusal{reason + "; '" + others[0].name + "' (" + others[0].kind + ") does not hold " +
+                      (wanted.components == 3 ? "vectors of floats" : "one floating-point number a cell")};
+    throw Refusal{reason + (fitting.empty() ? "" : "; it has: " + listOf(fitting))};
 }
 
 }  // namespace dustbench::volumes

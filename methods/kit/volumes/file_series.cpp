@@ -41,7 +41,7 @@ std::vector<SeriesEntry> readPvd(const fs::path& file) {
             if (path.empty()) isCollection = tag->name == "VTKFile" && (*tag)["type"] == "Collection";
             if (!isCollection) throw VolumeFault{"it is no collection"};
             if (tag->name == "DataSet")
-                entries.push_back(entryOf(file, std::string((*tag)["file"]), files::numberOf((*tag)["timestep"])));
+                entries.push_back(entryOf(file, tag->text("file"), files::numberOf((*tag)["timestep"])));
             if (tag->kind == Tag::Kind::open) path.push_back(tag->name);
         }
         if (!path.empty() || !isCollection) throw VolumeFault{"it ends within its XML"};

@@ -17,6 +17,7 @@ struct PointColumn {
     std::string name;
     int components = 1;
     std::vector<double> values;  ///< point by point; empty if the column was not asked for
+    bool isByte = false;         ///< the file holds 8 bits without a sign
 };
 
 struct PointTable {

@@ -2,46 +2,29 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/printable.h"
 #include "methods/kit/files/whole_text.h"
 #include "methods/kit/volumes/vdb_process.h"
-#include "methods/kit/volumes/vti_file.h"
+#include "methods/kit/volumes/vti_fields.h"
 
 namespace dustbench::volumes {
 namespace {
-
-constexpr double vectorsWithin = 1e-5;
 
 InputError refusedVectors(const std::filesystem::path& file, const std::string& reason) {
     return InputError(fmt::format("{}: {}", file.string(), files::printable(reason)));
 }
 
-const VtiArray& vectorsIn(const VtiFile& vti, const std::filesystem::path& file, const std::string& field) {
-    std::string others;
-    for (const VtiArray& array : vti.cellArrays()) {
-        if (array.components != 3) continue;
-        if (array.name == field) return array;
-        others += (others.empty() ? "; it has: " : ", ") + array.name;
-    }
-    throw refusedVectors(file, "it has no field of vectors '" + field + "'" + others);
-}
-
 VectorGrid readVtiVectors(const std::filesystem::path& file, const std::string& field) {
     const VtiFile vti(file);
-    const VtiArray& vectors = vectorsIn(vti, file, field);
+    const std::array<WantedField, 1> wanted{{{"velocity", 3, {field}, true, false}}};
+    const VtiFields fields(vti, wanted, file);
     VectorGrid grid;
-    grid.cells = vti.cells();
-    grid.origin = vti.origin();
-    grid.spacing = vti.spacing().x;
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(vti.spacing()[axis] > 0) || std::abs(vti.spacing()[axis] / grid.spacing - 1) > vectorsWithin)
-            throw refusedVectors(file, "its cells are no cubes");
-    grid.timeSeconds = vti.fieldNumber("TimeValue");
-    const std::vector<float> numbers = vti.numbersOf(vectors);
+    static_cast<GridPlace&>(grid) = fields.place();
+    const std::vector<float> numbers = fields.numbersOf(fields.chosen().front());
     grid.values.reserve(numbers.size() / 3);
     for (std::size_t i = 0; i < numbers.size(); i += 3)
         grid.values.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);

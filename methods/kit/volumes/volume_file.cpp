@@ -11,12 +11,11 @@
 #include "methods/kit/files/whole_text.h"
 #include "methods/kit/volumes/field_request.h"
 #include "methods/kit/volumes/vdb_process.h"
-#include "methods/kit/volumes/vti_file.h"
+#include "methods/kit/volumes/vti_fields.h"
 
 namespace dustbench::volumes {
 namespace {
 
-constexpr double cubeWithin = 1e-5;
 /// Of the maximum: what a density may lie below zero and counts as zero, for schemes of simulations overshoot.
 constexpr float belowZero = 1e-3f;
 constexpr double farthest = 1e9;
@@ -25,83 +24,31 @@ InputError refused(const std::filesystem::path& file, const std::string& reason)
     return InputError(fmt::format("{}: {}", file.string(), files::printable(reason)));
 }
 
-struct Clause {
-    std::string reason;
-};
-
-struct Named {
-    std::string name;
-    int components = 1;
-};
-
-/// Where the cells of a `.vti` lie, and the arrays that hold their numbers.
-struct VtiPlace {
-    GridPlace place;
-    const std::vector<VtiArray>* arrays;
-};
-
-VtiPlace placeOf(const VtiFile& vti, const std::filesystem::path& file) {
-    GridPlace place;
-    place.cells = vti.cells();
-    place.origin = vti.origin();
-    place.spacing = vti.spacing().x;
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(vti.spacing()[axis] > 0) || std::abs(vti.spacing()[axis] / place.spacing - 1) > cubeWithin)
-            throw refused(file, fmt::format("its cells are no cubes: {} x {} x {}", vti.spacing().x, vti.spacing().y,
-                                            vti.spacing().z));
-    const bool atPoints = vti.cellArrays().empty();
-    if (atPoints) {
-        place.cells += 1;
-        place.origin -= place.spacing / 2;
-    }
-    place.timeSeconds = vti.fieldNumber("TimeValue");
-    return {place, atPoints ? &vti.pointArrays() : &vti.cellArrays()};
-}
-
-/// Calls take(what, array) for each field that is wanted and there.
-template <typename Take>
-void forEachField(const std::vector<VtiArray>& arrays, const VolumeFields& fields, const std::filesystem::path& file,
-                  const Take& take) {
-    std::vector<Named> present;
-    present.reserve(arrays.size());
-    for (const VtiArray& array : arrays) present.push_back({array.name, array.components});
-    std::vector<std::pair<std::string_view, const VtiArray*>> chosen;
-    try {
-        for (const WantedField& wanted : wantedFields(fields))
-            if (const int at = chosenField<Clause>(wanted, present); at >= 0)
-                chosen.emplace_back(wanted.what, &arrays[static_cast<std::size_t>(at)]);
-    } catch (const Clause& clause) {
-        throw refused(file, clause.reason);
-    }
-    for (const auto& [what, array] : chosen) take(what, *array);
-}
-
 VolumeGrid readVti(const std::filesystem::path& file, const VolumeFields& fields) {
     const VtiFile vti(file);
-    const auto [place, arrays] = placeOf(vti, file);
+    const VtiFields chosen(vti, wantedFields(fields), file);
     VolumeGrid grid;
-    static_cast<GridPlace&>(grid) = place;
-    forEachField(*arrays, fields, file, [&](std::string_view what, const VtiArray& array) {
-        std::vector<float> numbers = vti.numbersOf(array);
-        if (what != "velocity") {
-            (what == "density" ? grid.density : grid.temperature) = std::move(numbers);
-            return;
+    static_cast<GridPlace&>(grid) = chosen.place();
+    for (const VtiFields::Chosen& field : chosen.chosen()) {
+        std::vector<float> numbers = chosen.numbersOf(field);
+        if (field.what != "velocity") {
+            (field.what == "density" ? grid.density : grid.temperature) = std::move(numbers);
+            continue;
         }
         grid.velocity.reserve(numbers.size() / 3);
         for (std::size_t i = 0; i < numbers.size(); i += 3)
             grid.velocity.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
-    });
+    }
     return grid;
 }
 
 void streamVti(const std::filesystem::path& file, const VolumeFields& fields, VolumeSink& sink) {
     const VtiFile vti(file);
-    const auto [place, arrays] = placeOf(vti, file);
-    sink.begin(place);
-    forEachField(*arrays, fields, file, [&](std::string_view what, const VtiArray& array) {
-        if (sink.beginField(what))
-            vti.streamNumbers(array, [&](std::span<const float> numbers) { sink.take(numbers); });
-    });
+    const VtiFields chosen(vti, wantedFields(fields), file);
+    sink.begin(chosen.place());
+    for (const VtiFields::Chosen& field : chosen.chosen())
+        if (sink.beginField(field.what))
+            chosen.streamNumbers(field, [&](std::span<const float> numbers) { sink.take(numbers); });
 }
 
 void requireFile(const std::filesystem::path& file) {

@@ -9,10 +9,10 @@
 
 namespace dustbench::volumes {
 
-/// `.vti`: data of its cells or, if it has none, of its points, which then are the middles of cells; time from the
-/// field data `TimeValue`. `.vdb`: grids of numbers, time from the metadata `time_s`; a level set becomes fog. `.nvdb`:
-/// the same without time. A density between 0 and −1e-3 of the maximum counts as 0. Throws InputError with the file
-/// and what is wrong, in one line.
+/// `.vti`: data of its cells or of its points, wherever the density is; points are the middles of cells (vti_fields.h);
+/// time from the field data `TimeValue`. `.vdb`: grids of numbers, time from the metadata `time_s`; a level set becomes
+/// fog. `.nvdb`: the same without time. A density between 0 and −1e-3 of the maximum counts as 0. Throws InputError
+/// with the file and what is wrong, in one line.
 [[nodiscard]] DUSTBENCH_API VolumeGrid readVolume(const std::filesystem::path& file, const VolumeFields& fields);
 
 /// The same number by number, to a sink that checks them itself. Also throws what the sink throws.

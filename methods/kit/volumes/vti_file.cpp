@@ -66,6 +66,14 @@ glm::dvec3 vectorOf(const Tag& tag, std::string_view attribute, const glm::dvec3
     return {list[0], list[1], list[2]};
 }
 
+/// The unit matrix, but for rounding.
+bool isUpright(const std::vector<double>& direction) {
+    if (direction.size() != 9) return false;
+    for (std::size_t i = 0; i < 9; ++i)
+        if (!(std::abs(direction[i] - (i % 4 == 0 ? 1 : 0)) <= 1e-5)) return false;
+    return true;
+}
+
 glm::ivec3 cellsOf(const Extent& extent, std::size_t fileBytes) {
     glm::ivec3 cells{};
     double count = 1;
@@ -158,8 +166,7 @@ class VtiParser {
     void openImage(const Tag& tag) {
         extent_ = extentOf(tag, "WholeExtent");
         file_.cells_ = cellsOf(*extent_, text_.size());
-        if (tag.has("Direction") &&
-            numbersIn<double>(tag["Direction"]) != std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1})
+        if (tag.has("Direction") && !isUpright(numbersIn<double>(tag["Direction"])))
             throw VolumeFault{"its grid is turned, expected one along the axes"};
         file_.spacing_ = vectorOf(tag, "Spacing", glm::dvec3(1));
         file_.origin_ = vectorOf(tag, "Origin", glm::dvec3(0));
@@ -176,7 +183,7 @@ class VtiParser {
     /// Text that is no number, as units are, and bits are passed over.
     void openArray(const Tag& tag) {
         array_.emplace();
-        array_->name = tag["Name"];
+        array_->name = tag.text("Name");
         array_->components = static_cast<int>(countOf(tag, "NumberOfComponents", maximumComponents));
         array_->stored.type = findNumberType(tag["type"]);
         const bool isPassedOver = tag["type"] == "String" || tag["type"] == "Bit";

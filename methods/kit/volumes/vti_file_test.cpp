@@ -308,7 +308,11 @@ TEST(VtiFile, RefusesExtentsThatDoNotFit) {
         EXPECT_THAT(faultOf(with("Spacing=\"1 1 1\"", fmt::format("Spacing=\"{}\"", three))),
                     HasSubstr("three numbers"));
     EXPECT_THAT(faultOf(with("Spacing=", "Direction=\"0 1 0 1 0 0 0 0 1\" Spacing=")), HasSubstr("turned"));
-    EXPECT_EQ(faultOf(with("Spacing=", "Direction=\"1 0 0 0 1 0 0 0 1\" Spacing=")), "");
+    EXPECT_THAT(faultOf(with("Spacing=", "Direction=\"1 0.0001 0 0 1 0 0 0 1\" Spacing=")), HasSubstr("turned"));
+    EXPECT_THAT(faultOf(with("Spacing=", "Direction=\"1 0 0 0 1 0 0 0 nan\" Spacing=")), HasSubstr("turned"));
+    for (const char* upright : {"1 0 0 0 1 0 0 0 1", "0.9999999999999999 0 0 0 1 0 0 0 1",
+                                "1 -1.2246e-16 0 1.2246e-16 1.0000000000000002 0 0 0 1"})
+        EXPECT_EQ(faultOf(with("Spacing=", std::string("Direction=\"") + upright + "\" Spacing=")), "") << upright;
 }
 
 /// The element between its tags.

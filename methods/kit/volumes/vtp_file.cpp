@@ -68,6 +68,7 @@ class VtpParser {
         table.points = points_;
         for (const StoredArray& array : pointArrays_) {
             PointColumn& column = table.columns.emplace_back(PointColumn{array.name, array.components, {}});
+            column.isByte = array.stored.type->name == "UInt8";
             if (wants(column.name)) column.values = numbersOf(array);
         }
         for (const StoredArray& array : fieldArrays_)
@@ -128,7 +129,7 @@ class VtpParser {
     /// Arrays of cells are not looked at; text that is no number, as units are, and bits are passed over.
     void openArray(const Tag& tag) {
         array_.emplace();
-        array_->name = inside() == "Points" ? pointsColumn : tag["Name"];
+        array_->name = inside() == "Points" ? std::string(pointsColumn) : tag.text("Name");
         array_->components = static_cast<int>(wholeNumberOf(tag, "NumberOfComponents", 1, maximumComponents, 1));
         if (inside() == "Points" && array_->components != 3) throw VolumeFault{"its points have not three coordinates"};
         array_->stored.type = findNumberType(tag["type"]);

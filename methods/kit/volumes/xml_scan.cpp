@@ -4,13 +4,60 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <utility>
 
 namespace dustbench::volumes {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
 
+/// The code point as UTF-8; empty if it is none that XML allows.
+std::string encodedUtf8(std::uint32_t code) {
+    if (code == 0 || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff)) return "";
+    if (code < 0x80) return {static_cast<char>(code)};
+    const auto byte = [&](std::uint32_t mark, int shift) { return static_cast<char>(mark | (code >> shift & 0x3f)); };
+    if (code < 0x800) return {byte(0xc0, 6), byte(0x80, 0)};
+    if (code < 0x10000) return {byte(0xe0, 12), byte(0x80, 6), byte(0x80, 0)};
+    return {byte(0xf0, 18), byte(0x80, 12), byte(0x80, 6), byte(0x80, 0)};
+}
+
+/// What stands between `&` and `;`.
+std::string decodedReference(std::string_view name) {
+    constexpr std::array<std::pair<std::string_view, char>, 5> named{
+        {{"amp", '&'}, {"lt", '<'}, {"gt", '>'}, {"quot", '"'}, {"apos", '\''}}};
+    for (const auto& [each, character] : named)
+        if (name == each) return {character};
+    std::string character;
+    if (name.starts_with('#')) {
+        const bool isHexadecimal = name.starts_with("#x");
+        const std::string_view digits = name.substr(isHexadecimal ? 2 : 1);
+        std::uint32_t code = 0;
+        const auto [end, error] =
+            std::from_chars(digits.data(), digits.data() + digits.size(), code, isHexadecimal ? 16 : 10);
+        if (error == std::errc() && end == digits.data() + digits.size()) character = encodedUtf8(code);
+    }
+    if (character.empty()) throw VolumeFault{fmt::format("it has the reference '&{};', which XML has not", name)};
+    return character;
+}
+
 }  // namespace
+
+std::string Tag::text(std::string_view attribute) const {
+    std::string decoded;
+    std::string_view rest = (*this)[attribute];
+    for (std::size_t at = 0; (at = rest.find('&')) != std::string_view::npos;) {
+        decoded += rest.substr(0, at);
+        rest.remove_prefix(at + 1);
+        constexpr std::size_t longest = 10;
+        const std::size_t end = std::min(rest.substr(0, longest).find(';'), rest.size());
+        decoded += decodedReference(rest.substr(0, std::min(end, longest)));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return decoded += rest;
+}
 
 std::string_view trimmed(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));

@@ -1,5 +1,5 @@
-// Reads XML tag by tag, as far as VTK's files use it: elements, attributes, comments. Document types, CDATA and
-// entities are refused or left as they are; nothing nests on the stack.
+// Reads XML tag by tag, as far as VTK's files use it: elements, attributes, comments. Document types and CDATA
+// are refused; references are decoded where a name is asked for (`Tag::text`); nothing nests on the stack.
 #pragma once
 
 #include <cstddef>
@@ -27,6 +27,8 @@ struct Tag {
         const auto found = attributes.find(attribute);
         return found == attributes.end() ? std::string_view() : found->second;
     }
+    /// The same with its references decoded, as `&amp;` or `&#228;`. Throws VolumeFault for one that is none.
+    [[nodiscard]] std::string text(std::string_view attribute) const;
 };
 
 /// Without blanks at its ends.

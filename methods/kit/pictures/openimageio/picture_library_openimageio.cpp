@@ -6,6 +6,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <initializer_list>
+#include <set>
+#include <string_view>
+#include <utility>
 
 #include "methods/kit/pictures/picture_library.h"
 #include "methods/kit/pictures/picture_limits.h"
@@ -20,6 +24,86 @@ std::string oneLine(std::string message) {
     while (!message.empty() && std::isspace(static_cast<unsigned char>(message.back())) != 0) message.pop_back();
     std::replace(message.begin(), message.end(), '\n', ' ');
     return message.empty() ? "no reason given" : message;
+}
+
+/// The channel that is alpha; -1: none. Of a GIF OpenImageIO 2.4 names the channel after the last one.
+int alphaChannelOf(const OIIO::ImageSpec& spec) {
+    if (spec.alpha_channel >= 0 && spec.alpha_channel < spec.nchannels) return spec.alpha_channel;
+    for (int channel = 0; channel < std::min(spec.nchannels, static_cast<int>(spec.channelnames.size())); ++channel)
+        if (spec.channelnames[static_cast<std::size_t>(channel)] == "A") return channel;
+    return -1;
+}
+
+/// What the file says of its colours; if nothing, integers are encoded and floats are linear.
+ColourEncoding encodingOf(const OIIO::ImageSpec& spec, std::string_view format) {
+    using Kind = ColourEncoding::Kind;
+    const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+    // Of PNM the library says Rec709 whatever the file is, as also of the floats of a .pfm.
+    if (space.empty() || format == "pnm") return {spec.format.is_floating_point() ? Kind::linear : Kind::srgb};
+    const auto isOne = [&](std::initializer_list<const char*> names) {
+        return std::ranges::any_of(names, [&](const char* name) { return OIIO::Strutil::iequals(space, name); });
+    };
+    if (isOne({"linear", "scene_linear", "lin_srgb"})) return {Kind::linear};
+    if (isOne({"sRGB", "Rec709"})) return {Kind::srgb};
+    const float exponent = spec.get_float_attribute("oiio:Gamma");
+    if (exponent > 0 && OIIO::Strutil::istarts_with(space, "gamma")) return ColourEncoding::ofPower(exponent);
+    return {Kind::unknown, 1, space};
+}
+
+/// The pixels that a file shows, which may be more or fewer than it holds.
+struct Window {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// The display window of an EXR, and of any other file that has one of another size than its pixels. The offset alone
+/// of a PNG or TIFF is its place on a page.
+Window shownBy(const OIIO::ImageSpec& spec, std::string_view format) {
+    const bool isWindow = format == "openexr" || spec.full_width != spec.width || spec.full_height != spec.height;
+    if (isWindow && spec.full_width > 0 && spec.full_height > 0)
+        return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
+    return {spec.x, spec.y, spec.width, spec.height};
+}
+
+/// What of the pixels lies in the window; the rest of it is black, and clear if there is alpha.
+std::vector<float> filled(const Window& window, const OIIO::ImageSpec& spec, const std::vector<float>& pixels) {
+    const auto channels = static_cast<std::ptrdiff_t>(spec.nchannels);
+    std::vector<float> values(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height) *
+                              static_cast<std::size_t>(spec.nchannels));
+    const int left = std::max(window.x, spec.x), right = std::min(window.x + window.width, spec.x + spec.width);
+    for (int y = std::max(window.y, spec.y); y < std::min(window.y + window.height, spec.y + spec.height); ++y) {
+        if (left >= right) break;
+        const auto from = (std::ptrdiff_t{y - spec.y} * spec.width + (left - spec.x)) * channels;
+        const auto to = (std::ptrdiff_t{y - window.y} * window.width + (left - window.x)) * channels;
+        std::copy_n(pixels.begin() + from, (right - left) * channels, values.begin() + to);
+    }
+    return values;
+}
+
+/// Empty if the file has one picture, else a reason with the names of its parts. A .psd has the whole before its
+/// layers.
+std::string severalParts(const std::filesystem::path& file) {
+    constexpr int mostNames = 10;
+    const auto input = OIIO::ImageInput::open(file.string());  // of its own: a GIF forgets where it was
+    if (!input || std::string_view(input->format_name()) == "psd" || !input->seek_subimage(1, 0)) return "";
+    std::string names;
+    for (int part = 0; part < mostNames && input->seek_subimage(part, 0); ++part)
+        if (const std::string name = input->spec().get_string_attribute("oiio:subimagename"); !name.empty())
+            names += (names.empty() ? ": " : ", ") + name;
+    return "it has several parts, expected one" + names;
+}
+
+/// Empty unless all channels belong to layers, and to more than one: then a reason with their names.
+std::string severalLayers(const OIIO::ImageSpec& spec) {
+    std::set<std::string> layers;
+    for (const std::string& channel : spec.channelnames) {
+        const std::size_t end = channel.rfind('.');
+        if (end == std::string::npos) return "";
+        layers.insert(channel.substr(0, end));
+    }
+    if (layers.size() < 2) return "";
+    std::string names;
+    for (const std::string& layer : layers) names += (names.empty() ? "" : ", ") + layer;
+    return "it has several layers, expected one or channels without a layer: " + names;
 }
 
 class OpenImageIo final : public PictureLibrary {
@@ -38,29 +122,36 @@ class OpenImageIo final : public PictureLibrary {
         wanted.attribute("oiio:UnassociatedAlpha", 1);
         const auto input = OIIO::ImageInput::open(file.string(), &wanted);
         if (!input) return oneLine(OIIO::geterror());
+        if (std::string reason = severalParts(file); !reason.empty()) return reason;
         const OIIO::ImageSpec& spec = input->spec();
         const int channels = spec.nchannels;
-        if (channels < 1 || spec.width < 1 || spec.height < 1 || spec.depth > 1) return "it is not a flat picture";
-        if (std::string reason = tooLarge(spec.width, spec.height, channels); !reason.empty()) return reason;
-        const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+        if (channels < 1 || spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep)
+            return "it is not a flat picture";
+        const Window window = shownBy(spec, input->format_name());
+        for (const auto& [width, height] : {std::pair(spec.width, spec.height), std::pair(window.width, window.height)})
+            if (std::string reason = tooLarge(width, height, channels); !reason.empty()) return reason;
+        if (std::string reason = severalLayers(spec); !reason.empty()) return reason;
         const bool integers = !spec.format.is_floating_point();
-        picture = {spec.width,
-                   spec.height,
+        picture = {window.width,
+                   window.height,
                    channels,
-                   spec.alpha_channel,
-                   space.empty() ? integers : OIIO::Strutil::iequals(space, "sRGB"),
+                   alphaChannelOf(spec),
+                   encodingOf(spec, input->format_name()),
                    !integers && spec.get_int_attribute("oiio:UnassociatedAlpha") == 0,
                    std::vector<float>(spec.image_pixels() * static_cast<std::size_t>(channels))};
         if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, picture.values.data()))
             return oneLine(input->geterror());
+        if (window.x != spec.x || window.y != spec.y || window.width != spec.width || window.height != spec.height)
+            picture.values = filled(window, spec, picture.values);
         return "";
     }
 
     std::string readSize(const std::filesystem::path& file, StoredPicture& picture) const override {
         const auto input = OIIO::ImageInput::open(file.string());
         if (!input) return oneLine(OIIO::geterror());
-        picture.width = input->spec().width;
-        picture.height = input->spec().height;
+        const Window window = shownBy(input->spec(), input->format_name());
+        picture.width = window.width;
+        picture.height = window.height;
         return "";
     }
 

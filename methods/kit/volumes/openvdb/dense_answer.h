@@ -5,6 +5,9 @@
 #include <openvdb/tools/Dense.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
 
 #include "methods/kit/volumes/openvdb/answer.h"
 
@@ -18,6 +21,13 @@ namespace dustbench::volumes {
     return cells;
 }
 
+/// The metadata `time_s`, a float or a double.
+[[nodiscard]] inline std::optional<double> timeOf(const openvdb::GridBase& grid) {
+    if (const auto time = grid.getMetadata<openvdb::DoubleMetadata>("time_s")) return time->value();
+    if (const auto time = grid.getMetadata<openvdb::FloatMetadata>("time_s")) return static_cast<double>(time->value());
+    return std::nullopt;
+}
+
 /// Where the cells of the box lie, and when.
 [[nodiscard]] inline VdbMessage messageOf(const openvdb::GridBase& grid, const openvdb::CoordBBox& box) {
     VdbMessage message;
@@ -27,9 +37,9 @@ namespace dustbench::volumes {
         message.cells[axis] = box.max()[axis] - box.min()[axis] + 1;
         message.origin[axis] = first[axis] - message.spacing / 2;
     }
-    if (const auto time = grid.getMetadata<openvdb::DoubleMetadata>("time_s")) {
+    if (const std::optional<double> time = timeOf(grid)) {
         message.hasTime = 1;
-        message.timeSeconds = time->value();
+        message.timeSeconds = *time;
     }
     return message;
 }
@@ -44,6 +54,38 @@ void putDense(const Grid& grid, const openvdb::CoordBBox& box) {
         openvdb::tools::copyToDense(grid, slab);
         put(slab.data(), slab.valueCount() * sizeof(Value));
     }
+}
+
+/// What is switched off counts as the background, whatever value was left there.
+template <typename Grid>
+void forgetInactive(Grid& grid) {
+    const auto background = grid.background();
+    for (auto value = grid.beginValueOff(); value; ++value) value.setValue(background);
+}
+
+/// Vectors at the middles of cells. Those of class `staggered` lie on the lower faces: half of both faces, or the
+/// lower one alone if there is no upper one.
+inline void putVectors(const openvdb::Vec3SGrid& grid, const openvdb::CoordBBox& box) {
+    if (grid.getGridClass() != openvdb::GRID_STAGGERED) return putDense<openvdb::Vec3s>(grid, box);
+    const auto faces = grid.getConstAccessor();
+    std::vector<openvdb::Vec3s> row(static_cast<std::size_t>(box.dim().x()));
+    const openvdb::Coord dim = box.dim();
+    for (int z = 0; z < dim.z(); ++z)
+        for (int y = 0; y < dim.y(); ++y) {
+            for (int x = 0; x < dim.x(); ++x) {
+                const openvdb::Coord cell = box.min() + openvdb::Coord(x, y, z);
+                openvdb::Vec3s& middle = row[static_cast<std::size_t>(x)];
+                middle = faces.getValue(cell);
+                for (int axis = 0; axis < 3; ++axis) {
+                    openvdb::Coord upper = cell;
+                    if (upper[axis] == std::numeric_limits<int>::max()) continue;
+                    upper[axis] += 1;
+                    openvdb::Vec3s above;
+                    if (faces.probeValue(upper, above)) middle[axis] = (middle[axis] + above[axis]) / 2;
+                }
+            }
+            put(row.data(), row.size() * sizeof row[0]);
+        }
 }
 
 }  // namespace dustbench::volumes

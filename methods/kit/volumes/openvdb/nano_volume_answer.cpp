@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -20,11 +21,6 @@ namespace dustbench::volumes {
 namespace {
 
 using Handle = nanovdb::GridHandle<nanovdb::HostBuffer>;
-
-struct NanoName {
-    std::string name;
-    int components = 1;
-};
 
 struct NanoChoice {
     const WantedField* wanted;
@@ -81,7 +77,10 @@ struct Lattice {
     nanovdb::Vec3d origin{0};
     nanovdb::CoordBBox box;
 
-    bool operator==(const Lattice& other) const { return spacing == other.spacing && origin == other.origin; }
+    /// But for rounding.
+    bool operator==(const Lattice& other) const {
+        return std::abs(other.spacing / spacing - 1) <= 1e-5 && (other.origin - origin).length() <= 1e-5 * spacing;
+    }
 };
 
 /// Cells are cubes along the axes of the world.
@@ -105,16 +104,30 @@ double countOf(const nanovdb::CoordBBox& box) {
     return cells;
 }
 
-// Fog is 0 where it is not active, whatever the background: NanoVDB's own spheres of fog have another.
-
 /// A level set as OpenVDB's sdfToFogVolume makes fog of it: 0 at the surface, 1 from the half width of its band on.
 float fogOf(float distance, float halfWidth) {
     return distance < 0 ? std::min(-distance / halfWidth, 1.0f) : 0.0f;
 }
 
-/// Where there is no leaf, eight cells along x have one value.
+/// Vectors on the lower faces of cells, at their middles: half of both faces, or the lower one alone if there is no
+/// upper one.
+template <typename Values>
+nanovdb::Vec3f middleOf(const Values& faces, const nanovdb::Coord& cell) {
+    nanovdb::Vec3f middle = faces.getValue(cell);
+    for (int axis = 0; axis < 3; ++axis) {
+        nanovdb::Coord upper = cell;
+        if (upper[axis] == std::numeric_limits<int>::max()) continue;
+        upper[axis] += 1;
+        nanovdb::Vec3f above(0.0f);
+        if (faces.probeValue(upper, above)) middle[axis] = (middle[axis] + above[axis]) / 2;
+    }
+    return middle;
+}
+
+/// What is switched off counts as the background, of a density as 0: NanoVDB's own spheres of fog have another
+/// background. Where there is no leaf, eight cells along x have one value, unless they take part of their neighbours'.
 template <typename Grid>
-void putValues(const Grid& grid, const nanovdb::CoordBBox& box) {
+void putValues(const Grid& grid, const nanovdb::CoordBBox& box, bool isDensity) {
     using Value = typename Grid::ValueType;
     using Shown = std::conditional_t<std::is_same_v<Value, nanovdb::Vec3f>, nanovdb::Vec3f, float>;
     const auto values = grid.getAccessor();
@@ -124,9 +137,10 @@ void putValues(const Grid& grid, const nanovdb::CoordBBox& box) {
         if constexpr (std::is_same_v<Shown, float>) {
             const auto number = static_cast<float>(value);
             if (grid.isLevelSet()) return fogOf(number, static_cast<float>(grid.tree().background()));
-            return isActive || !grid.isFogVolume() ? number : 0.0f;
+            return isActive ? number : isDensity ? 0.0f : static_cast<float>(grid.tree().background());
         } else {
-            return value;
+            if (!isActive) return grid.tree().background();
+            return grid.isStaggered() ? middleOf(values, cell) : value;
         }
     };
     std::array<Shown, 8> run;
@@ -139,7 +153,7 @@ void putValues(const Grid& grid, const nanovdb::CoordBBox& box) {
                     return nanovdb::Coord(static_cast<int>(x + static_cast<std::int64_t>(i)), y, z);
                 };
                 run[0] = shownAt(cellAt(0));
-                const bool isSame = values.probeLeaf(cellAt(0)) == nullptr;
+                const bool isSame = !grid.isStaggered() && values.probeLeaf(cellAt(0)) == nullptr;
                 for (std::size_t i = 1; i < count; ++i) run[i] = isSame ? run[0] : shownAt(cellAt(i));
                 put(run.data(), count * sizeof(Shown));
                 x = end;
@@ -147,9 +161,10 @@ void putValues(const Grid& grid, const nanovdb::CoordBBox& box) {
 }
 
 std::vector<NanoChoice> choose(const std::string& file, const std::array<WantedField, 3>& wanted) {
-    std::vector<NanoName> present;
+    std::vector<PresentField> present;
     for (const auto& each : nanovdb::io::readGridMetaData(file))
-        present.push_back({each.gridName, componentsOf(each.gridType)});
+        present.push_back({each.gridName, componentsOf(each.gridType),
+                           "grid " + std::to_string(present.size() + 1) + " of " + nanovdb::toStr(each.gridType)});
     if (present.empty()) throw Refusal{notWholeOf(file)};
     std::vector<NanoChoice> chosen;
     for (const WantedField& each : wanted)
@@ -192,7 +207,7 @@ void answerNanoVolume(const std::string& file, const VolumeFields& fields) {
     put(message);
     for (const NanoChoice& each : chosen) {
         put(columnOf(*each.wanted));
-        visit(each.handle, [&](const auto& grid) { putValues(grid, lattice.box); });
+        visit(each.handle, [&](const auto& grid) { putValues(grid, lattice.box, each.wanted->what == "density"); });
     }
     finish();
 }

@@ -32,16 +32,13 @@ openvdb::Vec3SGrid::Ptr readGrid(const std::string& file, const std::string& fie
     std::ifstream stream(file, std::ios::binary);
     stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
     openvdb::io::Stream stored(stream, /*delayLoad=*/false);
-    openvdb::Vec3SGrid::Ptr vectors;
-    std::string others;
-    for (const openvdb::GridBase::Ptr& each : *stored.getGrids()) {
-        const auto found = openvdb::gridPtrCast<openvdb::Vec3SGrid>(each);
-        if (!found) continue;
-        if (found->getName() == field) vectors = found;
-        others += (others.empty() ? "; it has: " : ", ") + found->getName();
-    }
-    if (!vectors) throw Refusal{"it has no field of vectors '" + field + "'" + others};
-    return vectors;
+    const openvdb::GridPtrVecPtr grids = stored.getGrids();
+    std::vector<PresentField> present;
+    for (const openvdb::GridBase::Ptr& each : *grids)
+        present.push_back({each->getName(), each->isType<openvdb::Vec3SGrid>() ? 3 : 0,
+                           "grid " + std::to_string(present.size() + 1) + " of " + each->valueType()});
+    const int at = chosenField<Refusal>(WantedField{"velocity", 3, {field}, true, false}, present);
+    return openvdb::gridPtrCast<openvdb::Vec3SGrid>((*grids)[static_cast<std::size_t>(at)]);
 }
 
 openvdb::CoordBBox boxOfVectors(const openvdb::Vec3SGrid& grid) {
@@ -112,8 +109,8 @@ PointDataGrid::Ptr readPointGrid(const std::string& file, double& timeSeconds, b
         if (found) points = found;
     }
     if (!points) throw Refusal{noPoints};
-    if (const auto time = points->getMetadata<openvdb::DoubleMetadata>("time_s")) {
-        timeSeconds = time->value();
+    if (const std::optional<double> time = timeOf(*points)) {
+        timeSeconds = *time;
         hasTime = true;
     }
     return points;
@@ -154,7 +151,8 @@ std::vector<Column> columnsOf(const PointDataGrid& grid) {
     const openvdb::Vec3SGrid::Ptr grid = readGrid(file, field);
     const openvdb::CoordBBox box = boxOfVectors(*grid);
     put(messageOf(*grid, box));
-    putDense<openvdb::Vec3s>(*grid, box);
+    forgetInactive(*grid);
+    putVectors(*grid, box);
     finish();
 }
 

@@ -16,11 +16,6 @@ namespace {
 
 using openvdb::DoubleGrid, openvdb::FloatGrid, openvdb::Vec3SGrid;
 
-struct Named {
-    std::string name;
-    int components = 1;
-};
-
 struct Chosen {
     const WantedField* wanted;
     openvdb::GridBase::Ptr grid;
@@ -31,10 +26,13 @@ openvdb::GridPtrVec readGrids(const std::string& file) {
     std::ifstream stream(file, std::ios::binary);
     stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
     openvdb::io::Stream stored(stream, /*delayLoad=*/false);
-    openvdb::GridPtrVec grids;
-    for (const openvdb::GridBase::Ptr& each : *stored.getGrids())
-        if (each->isType<FloatGrid>() || each->isType<DoubleGrid>() || each->isType<Vec3SGrid>()) grids.push_back(each);
-    return grids;
+    return *stored.getGrids();
+}
+
+/// 0: it is none that is read.
+int numbersInCellOf(const openvdb::GridBase& grid) {
+    if (grid.isType<Vec3SGrid>()) return 3;
+    return grid.isType<FloatGrid>() || grid.isType<DoubleGrid>() ? 1 : 0;
 }
 
 FloatGrid::Ptr inFloats(const openvdb::GridBase::Ptr& grid) {
@@ -70,24 +68,34 @@ openvdb::CoordBBox boxOf(const FloatGrid& density, const VolumeFields& fields) {
 
 void putField(const WantedField& field, const openvdb::GridBase::Ptr& grid, const openvdb::CoordBBox& box) {
     put(columnOf(field));
-    if (const auto vectors = openvdb::gridPtrCast<Vec3SGrid>(grid))
-        putDense<openvdb::Vec3s>(*vectors, box);
-    else
-        putDense<float>(*inFloats(grid), box);
+    if (const auto vectors = openvdb::gridPtrCast<Vec3SGrid>(grid)) {
+        forgetInactive(*vectors);
+        putVectors(*vectors, box);
+    } else {
+        const FloatGrid::Ptr numbers = inFloats(grid);
+        forgetInactive(*numbers);
+        putDense<float>(*numbers, box);
+    }
 }
 
 }  // namespace
 
 void answerVolume(const std::string& file, const VolumeFields& fields) {
     const openvdb::GridPtrVec grids = readGrids(file);
-    std::vector<Named> present;
+    std::vector<PresentField> all;
     for (const openvdb::GridBase::Ptr& grid : grids)
-        present.push_back({grid->getName(), grid->isType<Vec3SGrid>() ? 3 : 1});
+        all.push_back({grid->getName(), numbersInCellOf(*grid),
+                       "grid " + std::to_string(all.size() + 1) + " of " + grid->valueType()});
     const auto wanted = wantedFields(fields);
     std::vector<Chosen> chosen;
-    for (const WantedField& each : wanted)
+    for (const WantedField& each : wanted) {
+        std::vector<PresentField> present = all;
+        if (!chosen.empty() && !each.isRequired)  // another lattice is as good as another file
+            for (std::size_t i = 0; i < grids.size(); ++i)
+                if (grids[i]->transform() != chosen[0].grid->transform()) present[i].components = 0;
         if (const int at = chosenField<Refusal>(each, present); at >= 0)
             chosen.push_back({&each, grids[static_cast<std::size_t>(at)]});
+    }
 
     const FloatGrid::Ptr density = inFloats(chosen[0].grid);
     requireUpright(*density);
@@ -97,12 +105,9 @@ void answerVolume(const std::string& file, const VolumeFields& fields) {
         throw Refusal{"its density goes on beyond its grid: the background is " +
                       std::to_string(density->background()) + ", expected 0"};
     chosen[0].grid = density;
-    std::erase_if(chosen, [&](const Chosen& each) {
-        if (each.grid->transform() == density->transform()) return false;
-        if (each.wanted->isRequired)
+    for (const Chosen& each : chosen)
+        if (each.grid->transform() != density->transform())
             throw Refusal{"its field '" + each.grid->getName() + "' lies on another grid than its density"};
-        return true;
-    });
     const openvdb::CoordBBox box = boxOf(*density, fields);
     VdbMessage message = messageOf(*density, box);
     message.columns = static_cast<std::int32_t>(chosen.size());
