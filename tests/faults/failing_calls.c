@@ -6,7 +6,7 @@
 //
 // With N = 0 nothing fails and the calls are counted. `unsynced` is a rename of a file, or of a folder with one, that was not put on
 // disk (fsync) by the same process since it was last written: after a loss of power it could be empty.
-#define _GNU_SOURCE
+#define _GNU_SOURCE  // NOLINT(bugprone-reserved-identifier): the name is glibc's
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -67,7 +67,7 @@ static int handleIsBelow(int handle) {
     return isBelow(path);
 }
 
-#define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
+#define REAL(name) ((__typeof__(&(name)))dlsym(RTLD_NEXT, #name))
 
 // The files on disk, by inode. A process of a small suite has a few hundred.
 static ino_t synced[4096];
@@ -156,7 +156,7 @@ void* dlopen(const char* path, int flags) {
     return library;
 }
 
-extern void* __libc_malloc(size_t);
+extern void* __libc_malloc(size_t);  // NOLINT(bugprone-reserved-identifier): glibc's own
 
 // Small ones are the business of every library.
 void* malloc(size_t bytes) {

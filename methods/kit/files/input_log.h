@@ -1,8 +1,7 @@
 // Notes which files are read as data, those that other files name included: the inputs of a run.
 //
 // Code that reads a data file (TOML, CSV, meshes, voxels, pictures) calls `noteInput`, which costs a branch if there is
-// no log. Threads: `noteInput` and `noteSearch` are safe
-// from any.
+// no log. Threads: `noteInput` and `noteSearch` are safe from any.
 #pragma once
 
 #include <filesystem>

@@ -13,6 +13,7 @@ using testing::ElementsAre;
 
 std::vector<std::string> namesOf(const std::vector<std::filesystem::path>& found) {
     std::vector<std::string> names;
+    names.reserve(found.size());
     for (const auto& file : found) names.push_back(file.filename().string());
     return names;
 }
