@@ -11,7 +11,7 @@ EVERYTHING = "ALL"
 
 
 class BadTable(Exception):
-    """The table has no place for a file, or names what is not there."""
+    """A line of the table cannot be read, or a file has no place in it."""
 
 
 @dataclasses.dataclass
