@@ -95,6 +95,7 @@ Claim readClaim(files::TomlReader& table) {
     claim.where = table.where();
     claim.id = table.text("id");
     claim.text = table.text("text");
+    if (table.has("device")) claim.device = table.boolean("device", false);
     claim.rule.quantity = table.choice("quantity", quantityWords);
     if (claim.rule.quantity == Quantity::none) {
         claim.missing = table.text("missing");

@@ -94,8 +94,9 @@ struct ControlRule {
 };
 
 struct Claim {
-    std::string id;    ///< `R5a`
-    std::string text;  ///< what the paper says, in our words
+    std::string id;       ///< `R5a`
+    std::string text;     ///< what the paper says, in our words
+    bool device = false;  ///< its sense is that of the device: the verdict is told of the device measured
     Rule rule;
     std::string reason;  ///< of the range; not taken from results
     std::vector<ControlRule> controls;

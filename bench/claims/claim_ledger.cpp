@@ -51,6 +51,12 @@ int repetitionIn(const files::CsvTable& summary, std::size_t row) {
 
 }  // namespace
 
+std::string verdictText(const JudgedClaim& judged) {
+    const ClaimVerdict verdict = judged.result.verdict;
+    const bool isJudged = verdict != ClaimVerdict::untestable && verdict != ClaimVerdict::notTested;
+    return std::string(verdictName(verdict)) + (judged.claim.device && isJudged ? " on this device" : "");
+}
+
 std::set<std::string> runIdsOf(const std::string& suiteId, const files::CsvTable& summary) {
     int repetitions = 1;
     for (std::size_t row = 0; row < summary.rows(); ++row)
@@ -84,14 +90,16 @@ std::vector<JudgedClaim> judgeClaims(const std::string& paper, const files::CsvT
 std::string claimsCsv(const std::vector<JudgedClaim>& claims) {
     std::string text =
         "id,paper,claim,verdict,control,measured,expected,interval,condition,cells,quantity,reason,controls,runs,"
-        "note\n";
-    for (const auto& [paper, claim, result] : claims) {
+        "note,verdict_text\n";
+    for (const JudgedClaim& judged : claims) {
+        const auto& [paper, claim, result] = judged;
         std::string row;
         for (const std::string& cell :
              {claim.id, paper, claim.text, std::string(verdictName(result.verdict)),
               std::string(controlName(result.control)), files::csvNumber(result.measured), claim.rule.expected(),
               interval(result.low, result.high), result.condition, cellsText(result.cells), claim.rule.inWords(),
-              claim.reason, result.controlNote, fmt::format("{}", fmt::join(result.runs, " ")), result.note})
+              claim.reason, result.controlNote, fmt::format("{}", fmt::join(result.runs, " ")), result.note,
+              verdictText(judged)})
             row.append(row.empty() ? "" : ",").append(files::csvCell(cell));
         text.append(row).append(1, '\n');
     }
@@ -100,16 +108,16 @@ std::string claimsCsv(const std::vector<JudgedClaim>& claims) {
 
 TextRows tabulate(const std::vector<JudgedClaim>& claims) {
     TextRows table{{"claim", "verdict", "control", "measured", "interval", "expected", "what the paper says"}, {}};
-    for (const auto& [paper, claim, result] : claims) {
+    for (const JudgedClaim& judged : claims) {
+        const auto& [paper, claim, result] = judged;
         std::string text = claim.text;
         for (const std::string& more : {result.condition, result.note})
             if (!more.empty()) text += " (" + more + ")";
         const Rule& rule = claim.rule;
         const std::string range =
             std::isfinite(result.low) ? fmt::format("[{}, {}]", rule.textOf(result.low), rule.textOf(result.high)) : "";
-        table.rows.push_back({claim.id, std::string(verdictName(result.verdict)),
-                              std::string(controlName(result.control)), rule.textOf(result.measured), range,
-                              rule.expected(), text});
+        table.rows.push_back({claim.id, verdictText(judged), std::string(controlName(result.control)),
+                              rule.textOf(result.measured), range, rule.expected(), text});
     }
     return table;
 }

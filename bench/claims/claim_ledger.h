@@ -17,6 +17,9 @@ struct JudgedClaim {
     ClaimResult result;
 };
 
+/// `confirmed`, or `confirmed on this device` if the claim is about the device.
+[[nodiscard]] std::string verdictText(const JudgedClaim& judged);
+
 /// Run ids of the suite, in its whole and its quick form, for every repetition number in the table.
 [[nodiscard]] std::set<std::string> runIdsOf(const std::string& suite, const files::CsvTable& summary);
 

@@ -116,7 +116,7 @@ std::string claimsText(const MachineComparison& comparison) {
     for (const bench::SharedClaim& claim : comparison.claims) {
         rows.push_back({claim.any().paper, claim.any().claim.id});
         for (const bench::JudgedClaim* judged : claim.folders)
-            rows.back().push_back(judged ? std::string(verdictName(judged->result.verdict)) : "–");
+            rows.back().push_back(judged ? verdictText(*judged) : "–");
         rows.back().emplace_back(agreementText(claim.agreement));
         rows.back().push_back(shortened(claim.any().claim.text));
     }

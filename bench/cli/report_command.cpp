@@ -31,7 +31,7 @@ struct ReportOptions {
 
 /// Throws if an option was given that applies only to one folder, or only to several.
 void refuseOtherOptions(const ReportOptions& options) {
-    static const std::set<std::string> ofOne{"--chart", "--format", "--pictures"}, ofSeveral{"--out", "--label"};
+    static const std::set<std::string> ofOne{"--chart", "--format", "--pictures"}, ofSeveral{"--label"};
     const bool several = options.folders.size() > 1;
     for (const std::string& name : options.given)
         if ((several ? ofOne : ofSeveral).contains(name))
@@ -113,10 +113,13 @@ int report(const ReportOptions& options) {
     if (options.text) {
         printTables(data);
     } else if (!options.chart.empty()) {
-        const std::string format = options.format.empty() ? "svg" : options.format;
-        std::cout << bench::writeChart(folder, data, options.chart, format).string() << "\n";
+        for (const auto& file : bench::writeCharts(data, options.chart, {folder, options.out, options.format}))
+            std::cout << file.string() << "\n";
     } else {
-        std::cout << bench::writePage(folder, data).string() << "\n";
+        std::cout << (options.out.empty() ? bench::writePage(folder, data)
+                                          : bench::writePageTo(options.out, folder, data))
+                         .string()
+                  << "\n";
     }
     return exitOk;
 }
@@ -127,7 +130,7 @@ Command reportCommand() {
     auto options = std::make_shared<ReportOptions>();
     return {"report", "Write the report of a result folder, or of several machines' side by side",
             "The report is DIR/index.html, one file; a chart is DIR/charts/ID.svg. Without a run in DIR nothing is "
-            "written.\n"
+            "written. A summary.csv alone is enough, with a machine.csv for the captions.\n"
             "Several folders: one page of ratios within each machine, hardware, claims, and what cannot be compared.\n"
             "Exit code 6: no cell is the same on two machines; nothing is written.",
             [options](Arguments& arguments) {
@@ -137,8 +140,8 @@ Command reportCommand() {
                                         options->folders);
                 arguments.flag("--text", "print the tables instead of writing the report", options->text);
                 arguments.text("--out", "FILE|DIR",
-                               "of several folders' page: a file that ends in .html, or a folder for index.html; "
-                               "default: out/machines",
+                               "a file that ends in .html (of a chart: .svg, .png or .pdf), or a folder; default: DIR, "
+                               "DIR/charts; of several folders: out/machines",
                                options->out);
                 arguments.texts("--label", "NAME",
                                 "of several folders: a name for each, in their order; default: the "
@@ -146,7 +149,7 @@ Command reportCommand() {
                                 options->labels);
                 arguments.text("--chart", "ID",
                                "one chart alone: a suite's id or its end (fig7), -stages or -quality "
-                               "behind it, or frames",
+                               "behind it, or frames; all: the chart of each suite",
                                options->chart);
                 arguments.text("--format", "svg|png|pdf", "of the chart; default: svg", options->format);
                 arguments.number("--pictures", "megabytes of pictures in the report; further ones are linked",

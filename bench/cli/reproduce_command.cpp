@@ -20,6 +20,7 @@
 #include "bench/report/page.h"
 #include "bench/report/page_template.h"
 #include "bench/report/papers_page.h"
+#include "bench/report/published_points.h"
 #include "bench/report/report_reader.h"
 #include "bench/run/progress.h"
 #include "bench/suite/paper.h"
@@ -33,7 +34,7 @@ namespace {
 
 struct ReproduceOptions {
     std::string paper, out;
-    bool quick = false, full = false, controls = false;
+    bool quick = false, full = false, controls = false, dryRun = false;
 };
 
 struct SuiteWork {
@@ -46,7 +47,8 @@ struct PaperWork {
     bench::Paper paper;
     std::unique_ptr<bench::ResultsFolder> results;
     std::vector<SuiteWork> suites;
-    bool quick = false;  ///< short forms, of experiments too
+    std::size_t published = 0;  ///< numbers of the paper on its charts
+    bool quick = false;         ///< short forms, of experiments too
 };
 
 /// Several papers of one call get folders side by side in this one.
@@ -62,6 +64,7 @@ std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
         paper.paper = bench::loadPaper(id);
         paper.quick = options.quick;
         (void)bench::loadClaims(id);
+        for (const auto& [suite, points] : bench::readPublished(id)) paper.published += points.size();
         std::vector<std::string> suites = paper.paper.suites;
         if (options.controls) std::ranges::copy(paper.paper.controls, std::back_inserter(suites));
         for (const std::string& suite : suites) {
@@ -74,7 +77,10 @@ std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
             each.options.cooldownSeconds = each.suite.cooldownSeconds;
         }
     }
-    requireOpenGl();
+    return work;
+}
+
+void openFolders(const ReproduceOptions& options, std::vector<PaperWork>& work) {
     if (options.paper.empty()) bench::requireOwnPage(folderOfAll(options));
     for (PaperWork& paper : work) {
         std::filesystem::path out = options.out;
@@ -82,7 +88,20 @@ std::vector<PaperWork> gatherWork(const ReproduceOptions& options) {
         bench::requireOwnPage(out);
         paper.results = std::make_unique<bench::ResultsFolder>(out);
     }
-    return work;
+}
+
+/// What would be measured, and how many published numbers stand beside it.
+void printWork(const std::vector<PaperWork>& work) {
+    const auto counted = [](std::size_t count, const std::string& one) {
+        return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+    };
+    for (const PaperWork& paper : work) {
+        std::cout << fmt::format(
+            "{}: {}, {}, {} on its charts\n", paper.paper.id, counted(paper.suites.size(), "suite"),
+            counted(paper.paper.experiments.size(), "experiment"), counted(paper.published, "published number"));
+        for (const SuiteWork& each : paper.suites)
+            std::cout << fmt::format("    {}: {}\n", each.suite.id, counted(each.plan.size(), "run"));
+    }
 }
 
 /// Prints how long the remaining runs will take; false if interrupted.
@@ -162,6 +181,12 @@ int reproducePaper(const PaperWork& work, std::vector<bench::PaperLine>& index) 
 int reproduce(const ReproduceOptions& options) {
     if (options.quick && options.full) throw InputError("--quick and --full: got both, allowed: one of them");
     std::vector<PaperWork> work = gatherWork(options);
+    if (options.dryRun) {
+        printWork(work);
+        return exitOk;
+    }
+    requireOpenGl();
+    openFolders(options, work);
     if (!options.quick && !sayHowLong(work)) {
         std::cerr << "aborted before the first run" << std::endl;
         return exitAborted;
@@ -195,6 +220,10 @@ Command reproduceCommand() {
                                "also run what only the claims' controls need: data with a known verdict, by which a "
                                "rule that cannot fail is noticed",
                                options->controls);
+                arguments.flag("--dry-run",
+                               "check all files of the papers and print the suites with their numbers of runs; measure "
+                               "nothing",
+                               options->dryRun);
                 arguments.text("--out", "DIR", "folder for the results; default: reports/out/<paper>", options->out);
             },
             [options] { return reproduce(*options); }};

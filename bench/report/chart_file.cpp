@@ -55,19 +55,32 @@ std::size_t countWithoutSeeds(const RunGroup& group) {
     return cells.size();
 }
 
+bool hasColumn(const RunGroup& group, std::string_view column) {
+    return std::ranges::any_of(group.cells, [column](const ReportCell& cell) { return cell.values.contains(column); });
+}
+
+/// Suites that only the controls of claims need.
+bool isOfControls(const ReportData& data, const RunGroup& group) {
+    return std::ranges::any_of(data.papers, [&group](const Paper& paper) {
+        return std::ranges::find(paper.controls, group.suite) != paper.controls.end() &&
+               std::ranges::find(paper.suites, group.suite) == paper.suites.end();
+    });
+}
+
+/// As charts.js lists them: costs and metrics by columns.json, facts of methods.
+bool hasCostChart(const RunGroup& group) {
+    const auto isDrawn = [](const ReportCell& cell) { return !cell.values.empty(); };
+    return std::ranges::any_of(group.cells, isDrawn) && countWithoutSeeds(group) > 1;
+}
+
 }  // namespace
 
 std::vector<std::string> chartIds(const ReportData& data) {
     std::vector<std::string> ids;
     for (const RunGroup& group : data.groups) {
-        const auto has = [&group](std::string_view column) {
-            return std::ranges::any_of(group.cells,
-                                       [column](const ReportCell& cell) { return cell.values.contains(column); });
-        };
-        if (!has("frame_ms_median")) continue;
-        if (countWithoutSeeds(group) > 1) ids.push_back(group.id);
-        ids.push_back(group.id + "-stages");
-        if (has("flip")) ids.push_back(group.id + "-quality");
+        if (hasCostChart(group)) ids.push_back(group.id);
+        if (hasColumn(group, "frame_ms_median")) ids.push_back(group.id + "-stages");
+        if (hasColumn(group, "flip")) ids.push_back(group.id + "-quality");
     }
     if (!data.frameTimes.empty()) ids.emplace_back("frames");
     return ids;
@@ -96,14 +109,34 @@ void drawChart(const ReportData& data, const std::string& id, const fs::path& fi
     drawn.publish();
 }
 
-fs::path writeChart(const fs::path& folder, const ReportData& data, const std::string& id, const std::string& format) {
+std::vector<fs::path> writeCharts(const ReportData& data, const std::string& id, const ChartTarget& target) {
+    const std::string ending = target.out.extension().string();
+    const bool isFile = !ending.empty() && std::ranges::find(formats, ending.substr(1)) != formats.end();
+    std::string format = target.format;
+    if (format.empty()) format = isFile ? ending.substr(1) : "svg";
     if (std::ranges::find(formats, format) == formats.end())
         throw InputError(fmt::format("--format: got '{}', allowed: {}", format, fmt::join(formats, ", ")));
-    const std::string chart = resolved(data, id);
-    fs::path place = folder / "charts" / fmt::format("{}.{}", chart, format);
-    removeUnfinished(place.parent_path());
-    drawChart(data, chart, place, "--chart");
-    return place;
+    if (isFile && ending.substr(1) != format)
+        throw InputError(
+            fmt::format("--out: got '{}' with the format {}, allowed: a file that ends in .{}, or a folder",
+                        target.out.string(), format, format));
+    std::vector<std::string> ids;
+    if (id != "all")
+        ids = {resolved(data, id)};
+    else
+        for (const RunGroup& group : data.groups)
+            if (!group.suite.empty() && !isOfControls(data, group) && hasCostChart(group)) ids.push_back(group.id);
+    if (isFile && ids.size() != 1)
+        throw InputError(
+            fmt::format("--out: got the file '{}' for {} charts, allowed: a folder", target.out.string(), ids.size()));
+    const fs::path folder = target.out.empty() ? target.folder / "charts" : target.out;
+    if (!isFile) removeUnfinished(folder);
+    std::vector<fs::path> files;
+    for (const std::string& each : ids) {
+        files.push_back(isFile ? target.out : folder / fmt::format("{}.{}", each, format));
+        drawChart(data, each, files.back(), "--out");
+    }
+    return files;
 }
 
 }  // namespace dustbench::bench

@@ -70,6 +70,7 @@ json claimJson(const JudgedClaim& judged) {
                      : rule.over == Chance::none ? ""
                                                  : "repetitions"},
             {"verdict", verdictName(result.verdict)},
+            {"verdictText", verdictText(judged)},
             {"control", controlName(result.control)},
             {"controls", controlsJson(claim, result)},
             {"measured", claimNumber(result.measured)},

@@ -6,6 +6,7 @@
 #include "bench/report/page_template.h"
 #include "bench/report/report_files.h"
 #include "bench/report/report_json.h"
+#include "methods/kit/files/machine_error.h"
 
 namespace dustbench::bench {
 
@@ -32,7 +33,24 @@ std::filesystem::path writePage(const std::filesystem::path& folder, const Repor
     requireOwnPage(folder);
     const std::filesystem::path file = folder / "index.html";
     writeWhole(file, pageOf(data));
-    if (!data.claims.empty()) writeWhole(folder / "claims.csv", claimsCsv(data.claims));
+    // Of tables alone, which are kept as they were measured, the verdicts too.
+    if (!data.claims.empty() && !(data.tablesOnly && std::filesystem::exists(folder / "claims.csv")))
+        writeWhole(folder / "claims.csv", claimsCsv(data.claims));
+    return file;
+}
+
+std::filesystem::path writePageTo(const std::filesystem::path& out, const std::filesystem::path& folder,
+                                  ReportData data) {
+    namespace fs = std::filesystem;
+    const fs::path file = out.extension() == ".html" ? out : out / "index.html";
+    const fs::path place = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    std::error_code error;
+    fs::create_directories(place, error);
+    if (error) files::failWriting(place.string(), error.value());
+    requireOwnPage(place, file.filename().string());
+    const std::string root = fs::relative(folder, place).generic_string();
+    data.root = root == "." ? "" : root + "/";
+    writeWhole(file, pageOf(data));
     return file;
 }
 

@@ -17,4 +17,9 @@ namespace dustbench::bench {
 /// there is already a page not written by this program.
 std::filesystem::path writePage(const std::filesystem::path& folder, const ReportData& data);
 
+/// Writes the page alone to `out`, a file that ends in `.html`, or index.html in a folder, which is made; its links
+/// lead to `folder`. Returns its path.
+std::filesystem::path writePageTo(const std::filesystem::path& out, const std::filesystem::path& folder,
+                                  ReportData data);
+
 }  // namespace dustbench::bench

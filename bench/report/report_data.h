@@ -47,11 +47,16 @@ struct ReportFit {
 
 /// A number given in a paper's text.
 struct PublishedPoint {
-    std::string axis;  ///< with x; empty: applies to the whole chart
+    Selection of;      ///< the series it belongs to
+    std::string axis;  ///< with x; empty: the paper states no load
     double x = 0;
     std::string column;
     double minimum = 0, maximum = 0;
-    std::string what;  ///< what was measured, and on which machine
+    std::string hardware;  ///< and its year
+    std::string what;      ///< what was measured
+    /// Its series within a group of runs: the method, and the values of axes that `of` names.
+    std::string method{};
+    std::map<std::string, std::string, std::less<>> settings{};
 };
 
 struct RunGroup {
@@ -111,8 +116,10 @@ struct RunWarnings {
 
 /// Move, do not copy: experiments point into `runs`.
 struct ReportData {
-    std::string folder;      ///< its name, for the title
-    std::string writtenUtc;  ///< ISO 8601
+    std::string folder;       ///< its name, for the title
+    std::string root;         ///< of links, relative to the page: empty, or ending in '/'
+    bool tablesOnly = false;  ///< there are no runs beside the tables
+    std::string writtenUtc;   ///< ISO 8601
     StoredRuns runs;
     std::vector<std::string> problems;  ///< missing or doubtful data, one sentence each
     /// Those of the problems that say that machines or builds of the runs differ.

@@ -69,8 +69,9 @@ json fitJson(const ReportFit& entry) {
 }
 
 json publishedJson(const PublishedPoint& point) {
-    return {{"axis", point.axis},           {"x", number(point.x)},         {"column", point.column},
-            {"min", number(point.minimum)}, {"max", number(point.maximum)}, {"what", point.what}};
+    return {{"method", point.method},       {"settings", point.settings}, {"axis", point.axis},
+            {"x", number(point.x)},         {"column", point.column},     {"min", number(point.minimum)},
+            {"max", number(point.maximum)}, {"hardware", point.hardware}, {"what", point.what}};
 }
 
 json verdictJson(const CellVerdict& cell) {
@@ -123,7 +124,7 @@ json frameTimesJson(const FrameTimes& times, const RunIndex& index) {
             {"trace", std::move(trace)}};
 }
 
-json pictureSetJson(const PictureSet& set) {
+json pictureSetJson(const PictureSet& set, const std::string& root) {
     json pictures = json::array();
     for (const ReportPicture& picture : set.pictures) {
         json numbers = json::object();
@@ -131,7 +132,7 @@ json pictureSetJson(const PictureSet& set) {
         pictures.push_back({{"label", picture.label},
                             {"method", picture.method},
                             {"difference", picture.difference},
-                            {"source", picture.source},
+                            {"source", picture.source.starts_with("data:") ? picture.source : root + picture.source},
                             {"numbers", std::move(numbers)}});
     }
     return {{"experiment", set.group}, {"world", set.world},   {"frame", set.frame},
@@ -160,6 +161,8 @@ std::string reportJson(const ReportData& data) {
         runs.push_back(id);
     }
     json root{{"folder", data.folder},
+              {"root", data.root},
+              {"tablesOnly", data.tablesOnly},
               {"written", data.writtenUtc},
               {"version", buildFacts().version},
               {"problems", data.problems},
@@ -188,7 +191,7 @@ std::string reportJson(const ReportData& data) {
         return claim;
     });
     root["frames"] = each(data.frameTimes, [&](const FrameTimes& item) { return frameTimesJson(item, index); });
-    root["pictures"] = each(data.pictureSets, pictureSetJson);
+    root["pictures"] = each(data.pictureSets, [&](const PictureSet& set) { return pictureSetJson(set, data.root); });
     root["notDone"] = each(data.notDone, [](const NotDone& item) {
         return json{{"run", item.runId}, {"status", item.status}, {"reason", item.reason}};
     });

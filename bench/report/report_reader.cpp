@@ -16,6 +16,7 @@
 #include "bench/results/results_folder.h"
 #include "bench/results/stored_folder.h"
 #include "bench/results/summary.h"
+#include "bench/results/summary_runs.h"
 #include "methods/contract/errors.h"
 #include "methods/kit/files/csv.h"
 
@@ -27,6 +28,12 @@ namespace fs = std::filesystem;
 /// As readStoredRuns, but damaged runs are reported and skipped.
 void readRuns(const fs::path& folder, ReportData& data) {
     std::error_code error;
+    if (data.tablesOnly) {
+        data.runs = readSummaryRuns(folder, data.problems);
+        data.problems.push_back(
+            "the folder holds tables alone: frame times, pictures and warnings of its runs are not shown");
+        return;
+    }
     fs::directory_iterator entry(folder / "runs", error);
     if (error) {
         data.problems.push_back("there is no folder 'runs': nothing was measured here, or this is not a result folder");
@@ -169,6 +176,18 @@ void listFiles(const fs::path& folder, ReportData& data) {
             data.files.emplace_back(name);
 }
 
+/// A row without a place is told, and takes nothing else with it.
+void placePublished(const std::string& paper, ReportData& data) {
+    try {
+        const auto published = readPublished(paper);
+        for (RunGroup& group : data.groups)
+            if (const auto found = published.find(group.suite); found != published.end())
+                group.published = publishedIn(group, found->second);
+    } catch (const InputError& fault) {
+        data.problems.push_back(fmt::format("paper {}: no published number is shown: {}", paper, fault.what()));
+    }
+}
+
 void readPapers(const fs::path& folder, ReportData& data) {
     const std::set<std::string> ids = papersOf(data.groups);
     if (ids.empty()) return;
@@ -178,10 +197,7 @@ void readPapers(const fs::path& folder, ReportData& data) {
         try {
             data.papers.push_back(loadPaper(id));
             inOrderOf(data.papers.back(), data.groups);
-            const auto published = readPublished(id);
-            for (RunGroup& group : data.groups)
-                if (const auto found = published.find(group.suite); found != published.end())
-                    group.published = found->second;
+            placePublished(id, data);
             for (JudgedClaim& claim : judgeClaims(id, summary, readFindings(folder)))
                 data.claims.push_back(std::move(claim));
         } catch (const InputError& fault) {
@@ -213,6 +229,7 @@ ReportData readReport(const fs::path& folder, std::int64_t maximumPictureBytes) 
     const fs::path whole = fs::absolute(folder).lexically_normal();
     data.folder = (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();
     data.writtenUtc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
+    data.tablesOnly = holdsTablesAlone(folder);
     readRuns(folder, data);
     const MachineOfRun machineOf = findMachines(data);
     noteBuilds(data);
@@ -220,8 +237,9 @@ ReportData readReport(const fs::path& folder, std::int64_t maximumPictureBytes) 
     noteUnknownColumns(data);
     data.groups = sortIntoGroups(data.runs, machineOf, data.problems);
     readPapers(folder, data);
-    readFrameTimes(folder, data);
     listFiles(folder, data);
+    if (data.tablesOnly) return data;
+    readFrameTimes(folder, data);
     collectPictures(folder, maximumPictureBytes, data);
     return data;
 }

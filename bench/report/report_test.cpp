@@ -16,7 +16,6 @@
 #include "bench/report/page.h"
 #include "bench/report/papers_page.h"
 #include "bench/report/picture_sets.h"
-#include "bench/report/published_points.h"
 #include "bench/report/report_json.h"
 #include "bench/report/report_reader.h"
 #include "bench/report/run_groups.h"
@@ -360,22 +359,6 @@ TEST(Report, APaperWhoseRunsAreAnothersControlsIsNotJudged) {
     EXPECT_EQ(papersOf({own, lent, other}), (std::set<std::string>{"juckel2007", "senger2009"}));
     EXPECT_EQ(papersOf({lent}), (std::set<std::string>{"senger2009"}));
     EXPECT_EQ(papersOf({lent, exchanged}), (std::set<std::string>{"juckel2007", "senger2009"}));
-}
-
-TEST(Published, ReadsBandsAndRefusesThoseUpsideDown) {
-    const Folder folder;
-    folder.write("papers/dust/published.csv",
-                 "suite,axis,x,column,min,max,what\nfig,,,fps_avg,10,15,a laptop\nfig,particles,40,fps_avg,3,3,it\n");
-    folder.write("papers/mud/published.csv", "suite,axis,x,column,min,max,what\nfig,,,fps_avg,15,10,it\n");
-    const char* before = std::getenv("DUSTBENCH_DATA");
-    const std::string old = before ? before : "";
-    setenv("DUSTBENCH_DATA", folder.path().c_str(), 1);
-    const auto points = readPublished("dust");
-    EXPECT_THROW((void)readPublished("mud"), InputError);
-    EXPECT_TRUE(readPublished("air").empty());
-    before ? setenv("DUSTBENCH_DATA", old.c_str(), 1) : unsetenv("DUSTBENCH_DATA");
-    ASSERT_EQ(points.at("fig").size(), 2u);
-    EXPECT_EQ(points.at("fig")[1].x, 40);
 }
 
 }  // namespace dustbench::bench

@@ -47,19 +47,6 @@ bool isNumeric(std::string_view column) {
     return names.contains(column);
 }
 
-/// What readers of these cells rely on: numbers are numbers, and repetitions can be counted through.
-void requireSound(const StoredRun& run) {
-    for (const auto& [column, text] : run.cells)
-        if (isNumeric(column) && !text.empty() && !files::numberOf(text))
-            throw InputError(fmt::format("summary.{}: got '{}', expected a number", column, text.substr(0, 40)));
-    const auto repetition = run.cells.find("repetition");
-    if (repetition == run.cells.end() || repetition->second.empty()) return;
-    const double number = *files::numberOf(repetition->second);
-    if (number != std::floor(number) || number < 1 || number > files::limits::repetitions)
-        throw InputError(fmt::format("summary.repetition: got '{}', allowed: 1..{} (limit of repetitions)",
-                                     repetition->second.substr(0, 40), files::limits::repetitions));
-}
-
 /// A warning is a sentence; what is longer comes from a damaged file.
 std::string shortened(std::string text) {
     constexpr std::size_t maximum = 1000;
@@ -118,7 +105,7 @@ StoredRun readRunFile(const std::filesystem::path& file) {
             for (const element search : searches)
                 run.searches.push_back({textOf(search["path"]), textOf(search["names_sha256"])});
         run.outputs = readOutputs(json);
-        requireSound(run);
+        requireSoundCells(run);
         return run;
     } catch (const std::bad_alloc&) {
         throw;
@@ -127,6 +114,18 @@ StoredRun readRunFile(const std::filesystem::path& file) {
         if (ofReader && ofReader->error() == simdjson::MEMALLOC) throw std::bad_alloc();
         throw InputError(file.string() + ": is no run.json of dustbench: " + error.what());
     }
+}
+
+void requireSoundCells(const StoredRun& run) {
+    for (const auto& [column, text] : run.cells)
+        if (isNumeric(column) && !text.empty() && !files::numberOf(text))
+            throw InputError(fmt::format("summary.{}: got '{}', expected a number", column, text.substr(0, 40)));
+    const auto repetition = run.cells.find("repetition");
+    if (repetition == run.cells.end() || repetition->second.empty()) return;
+    const double number = *files::numberOf(repetition->second);
+    if (number != std::floor(number) || number < 1 || number > files::limits::repetitions)
+        throw InputError(fmt::format("summary.repetition: got '{}', allowed: 1..{} (limit of repetitions)",
+                                     repetition->second.substr(0, 40), files::limits::repetitions));
 }
 
 }  // namespace dustbench::bench

@@ -36,4 +36,8 @@ using StoredRuns = std::map<std::string, StoredRun>;
 /// else; repetitions are 1..files::limits::repetitions. Reasons and warnings end after 1,000 bytes.
 [[nodiscard]] StoredRun readRunFile(const std::filesystem::path& file);
 
+/// What readers of a run's cells rely on: numbers are numbers, and repetitions can be counted through. Throws
+/// InputError.
+void requireSoundCells(const StoredRun& run);
+
 }  // namespace dustbench::bench

@@ -5,8 +5,8 @@
 // {x, column, metric, against, part, world, run, xLog, yLog, hidden, width, theme} set over it. `table` is
 // {columns: [[name, unit]…], rows}.
 const chartKit = (() => {
-    const { configOf, baseline, digits, withUnit } = chartStyle;
-    const { columnOf, valueOf, variantOf, worldOf, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf } = chartData;
+    const { configOf, baseline, digits, themes, withUnit } = chartStyle;
+    const { columnOf, valueOf, variantOf, worldOf, distinct, overSeeds, loadsOf, costsOf, metricsOf, quantitiesOf } = chartData;
     const { methodColour, fresh, setSignals, setData, setScale, domainOf, missing } = chartParts;
 
     /// The cells of an experiment that charts and tables show: seeds are draws of the same, not settings.
@@ -65,9 +65,38 @@ const chartKit = (() => {
     };
 
     const builders = { cost: costChart.build, stages: stageChart.build, quality: qualityChart.build, frames: buildFrames };
+    /// `AMD EPYC, 2 cores, llvmpipe`, of each machine.
+    const devicesOf = (report, experiment) => {
+        const machines = report.data.machines || [];
+        const used = experiment ? distinct(experiment.cells.map(cell => cell.machine)) : machines.map((machine, index) => index);
+        return used.filter(index => machines[index]).map(index => {
+            const { cpu, cores, gl_renderer: renderer } = machines[index];
+            const said = [cpu, cores && `${cores} cores`, renderer].filter(Boolean).join(', ') || 'an unknown device';
+            return machines.length > 1 ? `machine ${index + 1}, ${said}` : said;
+        });
+    };
+    /// Sentences in lines of this width.
+    const wrapped = (text, letters) => text.split(' ').reduce((lines, word) => {
+        const last = lines[lines.length - 1];
+        if (last !== undefined && last.length + 1 + word.length <= letters) lines[lines.length - 1] = `${last} ${word}`;
+        else lines.push(word);
+        return lines;
+    }, []);
+    /// Below the chart, so that it is part of every picture of it: what its marks mean, and the device of the numbers.
+    const withCaption = (report, asked, built) => {
+        if (!built.spec) return built;
+        const devices = devicesOf(report, asked.experiment);
+        const lines = [...(built.key || []), ...(devices.length ? [`Measured on ${devices.join('; ')}.`] : [])];
+        if (lines.length)
+            built.spec.title = {
+                text: lines.flatMap(line => wrapped(line, Math.max(Math.floor(asked.width / 6.1), 30))), orient: 'bottom', anchor: 'start', frame: 'bounds',
+                offset: 12, fontSize: 11, fontWeight: 400, lineHeight: 15, color: themes[asked.theme].muted, limit: asked.width,
+            };
+        return { ...built, caption: lines };
+    };
     const build = (report, chart) => {
         const asked = { width: 900, theme: 'light', hidden: new Set(), ...chart };
-        return { config: configOf(asked.theme), ...builders[asked.kind](report, asked) };
+        return { config: configOf(asked.theme), ...withCaption(report, asked, builders[asked.kind](report, asked)) };
     };
     return { list, build, shownOf, loadsOf, costsOf, metricsOf, quantitiesOf, methodColour, digits, withUnit, columnOf, variantOf, worldOf };
 })();

@@ -80,16 +80,15 @@ const costChart = (() => {
         });
         const xs = distinct(points.map(point => point.x)).sort((a, b) => a - b);
         const xLog = chart.xLog ?? spans(xs, 15);
-        const yLog = chart.yLog ?? spans(points.map(point => point.y), 60);
+        const published = publishedMarks.along(report, experiment, column, load, cells, points, theSeries, thePanel);
+        const isSolid = published.marks.length > 0;
+        const bands = publishedMarks.bands(report, experiment, column, cells, item => methodColour(report, item.method, theme));
+        const beside = [...published.marks, ...published.scaled].map(row => row.y).concat(bands.flatMap(band => [band.min, band.max]));
+        const yLog = chart.yLog ?? spans(points.map(point => point.y).concat(beside), beside.length ? 10 : 60);
         const seen = points.filter(point => (!xLog || point.x > 0) && (!yLog || point.low > 0));
         if (!seen.length) return { empty: 'No value is above 0; a logarithmic scale cannot show it.' };
         const curves = xs.length > 1 ? fitCurves(experiment, load.name, column, theSeries, thePanel, xs[0], xs[xs.length - 1])
             .filter(row => seen.some(point => point.series === row.series && point.panel === row.panel)) : [];
-        const published = experiment.published.filter(item => item.column === column && (!item.axis || item.axis === load.name))
-            .map(item => ({
-                x: item.axis ? item.x : null, min: item.min, max: item.max,
-                tip: { title: 'published', [info.name]: `${digits(shown(item.min, info.unit), 6, true)} to ${withUnit(item.max, info.unit, 6, true)}`, of: item.what },
-            }));
         const series = distinct(seen.map(point => point.series))
             .map(name => ({ name, method: cells.find(cell => theSeries(cell) === name).method }));
         // Side by side, so that intervals of equal loads do not hide each other.
@@ -104,7 +103,7 @@ const costChart = (() => {
         const labelRoom = labelled ? Math.ceil(longest * 6.6 + 12) : 0;
         const panelWidth = Math.max(each - labelRoom, 120);
         const panelHeight = single ? 320 : Math.max(170, Math.min(240, Math.round(panelWidth * 0.75)));
-        const yDomain = domainOf(seen.flatMap(point => [point.y, point.low, point.high]).concat(published.flatMap(item => [item.min, item.max])), yLog, true);
+        const yDomain = domainOf(seen.flatMap(point => [point.y, point.low, point.high]).concat(beside, published.marks.flatMap(mark => [mark.low, mark.high])), yLog, true);
         // Room for the points that are drawn apart from their load.
         const edge = Math.max(0.04, (gap * (series.length - 1) / 2 + 8) / panelWidth);
         const xRoom = (xs[xs.length - 1] - xs[0]) * edge || 1, xFactor = (xs[xs.length - 1] / xs[0]) ** edge;
@@ -118,7 +117,10 @@ const costChart = (() => {
         setData(spec, 'panels', shownPanels.map(panel => ({ panel })));
         setData(spec, 'points', seen);
         setData(spec, 'curves', curves.filter(row => row.y >= yDomain[0] && row.y <= yDomain[1]));
-        setData(spec, 'published', published);
+        setData(spec, 'bands', bands);
+        setData(spec, 'published', published.marks.map(mark => ({ ...mark, shift: seen.find(point => point.series === mark.series)?.shift || 0 })));
+        setData(spec, 'scaled', published.scaled);
+        setData(spec, 'factors', published.factors);
         setData(spec, 'labels', labelled ? endLabels(seen, series, yDomain, yLog, panelHeight) : []);
         const names = series.map(({ name }) => name);
         setScale(spec, 'x', xLog ? { type: 'log', domain: [xs[0] / Math.max(1.12, xFactor), xs[xs.length - 1] * Math.max(1.08, xFactor)] } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
@@ -126,15 +128,15 @@ const costChart = (() => {
         setScale(spec, 'colour', { domain: names, range: styles.map(style => style.colour) });
         setScale(spec, 'legendText', { domain: names, range: legendLines(names, chart.width) });
         setScale(spec, 'shape', { domain: names, range: styles.map(style => style.shape) });
-        setScale(spec, 'dash', { domain: names, range: styles.map(style => style.dash) });
+        setScale(spec, 'dash', { domain: names, range: styles.map(style => (isSolid ? [1, 0] : style.dash)) });
         if (yLog) setTicks(spec.marks[0].axes[0], logTicks(yDomain));
         if (labelled || series.length === 1) spec.legends = [];
         if (xs.length <= 10) setTicks(spec.marks[0].axes[1], xs);
         const notes = [];
         if (series.length === 1 && names[0]) notes.push(`${alone ? 'World' : 'Method'}: ${names[0]}.`);
-        if (published.length) notes.push(`Grey: numbers given in the paper's text. ${distinct(published.map(item => item.tip.of)).join('; ')}.`);
         if (curves.length) notes.push(`Wide pale lines: the fitted cost a + b·N^k${column === 'fps_avg' ? ' of the frame time, as a rate' : ''}.`);
-        return { spec, notes, table: tableOf(report, experiment, cells, [column]), state: { x: load.name, column, xLog, yLog } };
+        const key = publishedMarks.keyOf(published, bands);
+        return { spec, notes, key, table: tableOf(report, experiment, cells, [column]), state: { x: load.name, column, xLog, yLog } };
     };
 
     const buildBars = (report, chart, column) => {
@@ -151,7 +153,8 @@ const costChart = (() => {
             row.colour = methodColour(report, row.cell.method, theme);
             row.tip = pointTip(report, row.cell, row.text, column);
         }
-        const values = rows.filter(row => !row.header).flatMap(row => [row.low, row.high]);
+        const bands = publishedMarks.bands(report, experiment, column, cells, item => methodColour(report, item.method, theme));
+        const values = rows.filter(row => !row.header).flatMap(row => [row.low, row.high]).concat(bands.map(band => band.max));
         const [least, most] = [Math.min(0, ...values), Math.max(0, ...values)];
         const spec = fresh(report.specifications.bars);
         spec.width = chart.width - 24;
@@ -159,8 +162,10 @@ const costChart = (() => {
         setSignals(spec, { xTitle: axisTitle(info.name, info.unit), xStep: isWhole(info.unit) ? 1 : 0, ink: themes[theme].ink, min: least, max: most + room });
         spec.height = rows.length * spec.signals.find(signal => signal.name === 'rowHeight').value;
         setData(spec, 'rows', rows.map(({ cell, ...row }) => row));
+        setData(spec, 'bands', bands);
         const here = rows.filter(row => row.cell).map(row => row.cell);
-        return { spec, notes: [], table: tableOf(report, experiment, here, [column]), state: { x: bars, column, worlds, world } };
+        const key = publishedMarks.keyOf({ marks: [], scaled: [] }, bands);
+        return { spec, notes: [], key, table: tableOf(report, experiment, here, [column]), state: { x: bars, column, worlds, world } };
     };
 
     const build = (report, chart) => {

@@ -13,8 +13,9 @@
     const section = name => document.getElementById(name);
     const runLinks = (indices, text) => {
         const most = 200;
+        if (data.tablesOnly) return element('span', { className: 'muted', textContent: `${text}, not kept` });
         const list = element('ul', { className: 'runs' }, indices.slice(0, most).map(index => element('li', {}, [element('a', {
-            href: `runs/${encodeURIComponent(data.runs[index])}/run.json`, textContent: data.runs[index],
+            href: `${data.root}runs/${encodeURIComponent(data.runs[index])}/run.json`, textContent: data.runs[index],
         })])));
         if (indices.length > most) put(list, element('li', { textContent: `and ${indices.length - most} more` }));
         return element('details', {}, [element('summary', { textContent: text }), list]);
@@ -188,8 +189,8 @@
             paragraph('A frame consists of input, vehicle, simulation, building, sorting, upload, the opaque scene and drawing, without vertical sync. Each run is a separate process. ' +
                 'Before it is timed, its picture is compared with that of a checked run, and unrecorded frames warm up. Stages are timed one by one and add up ' +
                 'to the frame. Pictures and metrics are made outside the timed frames.'),
-            element('p', {}, ['Everything on this page comes from ', ...[...data.files, 'runs/'].flatMap((file, index) => [index ? ', ' : '', element('a', { href: file, textContent: file })]),
-                ' in the same folder; ', element('code', { textContent: 'dustbench report --text' }), ' prints the tables.']),
+            element('p', {}, ['Everything on this page comes from ', ...[...data.files, ...(data.tablesOnly ? [] : ['runs/'])].flatMap((file, index) => [index ? ', ' : '', element('a', { href: data.root + file, textContent: file })]),
+                `${data.root ? '' : ' in the same folder'}; `, element('code', { textContent: 'dustbench report --text' }), ' prints the tables.']),
             element('details', {}, [element('summary', { textContent: 'Licence of the chart library' }), section('licence').content.cloneNode(true)]),
         ]));
         if (data.warnings.length)

@@ -3,6 +3,7 @@
     make_sample.py PROGRAM [PAPER …]    measures (half an hour), writes this folder and README.md; `make sample` calls it
     make_sample.py --full PROGRAM PAPER …       measures the papers' full forms (up to two hours each), writes PAPER/full;
                                                 `make full PAPER=…` calls it
+    make_sample.py --charts PROGRAM [PAPER …]   draws the charts of the full forms from their tables, PAPER/SUITE.svg
     make_sample.py --write      README.md again from this folder
     make_sample.py --check      exit code 1 where README.md and this folder disagree, or PAPER/full/README.md leaves out a
                                 claim whose verdict differs from the quick form's
@@ -80,8 +81,16 @@ def measure_full(program, paper):
         print(f"make_sample.py: goes on with {out.relative_to(ROOT)}; remove it for a measurement in one sitting", flush=True)
     seconds = seconds_of([program, "reproduce", "--paper", paper, "--full", "--controls", "--out", out])
     keep(out, HERE / paper / "full", TABLES, {"full_seconds": "" if goes_on else seconds})
+    draw_full(program, paper)
     for claim in differing(paper):
         print(f"{paper}: {claim} differs from the quick form: say why in reports/sample/{paper}/full/README.md")
+
+
+def draw_full(program, paper):
+    """The chart of each suite in its full form, from the tables alone."""
+    for old in (HERE / paper).glob("*.svg"):
+        old.unlink()
+    subprocess.run([program, "report", HERE / paper / "full", "--chart", "all", "--out", HERE / paper], check=True)
 
 
 def verdicts(folder):
@@ -123,7 +132,10 @@ def block():
         f"Dust behind the car at 320×240 pixels, medians of {repetitions} runs on {machine['cores']} cores of an",
         f"{machine['cpu'].replace('(R)', '')} with {machine['gl_renderer']}.",
         "*Build* is the time to build the octree, *draw* the time to draw the dust; the rest is mostly the scene.", ""]
-        + table() + ["", f"![Frame rate of the three methods against the number of particles, with intervals](reports/sample/{PAPER}/{SUITE}.png)",
+        + table() + ["", f"![Frame rate of the three methods against the number of particles, with intervals](reports/sample/{PAPER}/{SUITE}.png)", "",
+                     "The paper's Figures 5 and 7 at all its loads and speeds, 640×480 pixels (its text gives no numbers: compare the shapes):", "",
+                     f"![Frame rate of the billboard model against the number of particles, a curve for each speed](reports/sample/{PAPER}/{PAPER}-fig5.svg)", "",
+                     f"![Frame rate of both octree models against the number of particles, a panel for each speed](reports/sample/{PAPER}/{PAPER}-fig7.svg)",
                      "", END.rstrip("\n"), ""])
 
 
@@ -159,16 +171,16 @@ def main(arguments):
         check()
         return
     if arguments[0] != "--write":
-        full = arguments[0] == "--full"
+        full, charts = arguments[0] == "--full", arguments[0] == "--charts"
         if full and len(arguments) < 3:
             sys.exit(f"make_sample.py: --full needs a paper: {', '.join(PAPERS)}")
-        program, *papers = arguments[1:] if full else arguments
+        program, *papers = arguments[1:] if full or charts else arguments
         papers = papers or PAPERS
         for paper in papers:
             if paper not in PAPERS:
                 sys.exit(f"make_sample.py: no paper '{paper}'; papers: {', '.join(PAPERS)}")
         for paper in papers:
-            (measure_full if full else measure)(program, paper)
+            (draw_full if charts else measure_full if full else measure)(program, paper)
     write()
 
 

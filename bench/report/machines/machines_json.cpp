@@ -67,7 +67,7 @@ json claimsJson(const SharedClaim& shared) {
         if (!judged) return json(nullptr);
         json own = claimJson(*judged);
         json kept = json::object();
-        for (const char* name : {"verdict", "measured", "low", "high", "control", "condition", "note"})
+        for (const char* name : {"verdict", "verdictText", "measured", "low", "high", "control", "condition", "note"})
             kept[name] = std::move(own[name]);
         return kept;
     });

@@ -107,7 +107,7 @@ const chartKit = (() => {
         });
         setData(spec, 'panels', panels.map(panel => ({ panel })));
         setData(spec, 'points', points);
-        setData(spec, 'published', bands.map(item => ({ x: null, ...item })));
+        setData(spec, 'bands', bands.map(item => ({ x: null, ...item })));
         setScale(spec, 'x', xLog ? { type: 'log', domain: [xs[0] / 1.12, xs[xs.length - 1] * 1.08] } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
         setScale(spec, 'y', { type: yLog ? 'log' : 'linear', domain: yDomain });
         const names = machines.map(machine => labels[machine]), styles = machines.map(machine => styleOf(report, machine, chart.theme));

@@ -54,7 +54,7 @@ const machineTables = (() => {
     const claimCell = (claim, unit, limits) => {
         if (!claim) return element('span', { className: 'muted', textContent: 'not in this folder' });
         return element('span', {}, [
-            element('span', { className: `verdict ${claim.verdict}`, textContent: `${verdictMarks[claim.verdict]} ${claim.verdict}` }),
+            element('span', { className: `verdict ${claim.verdict}`, textContent: `${verdictMarks[claim.verdict]} ${claim.verdictText}` }),
             element('span', { className: 'said', textContent: claim.measured === null ? '' : words.measuredText(claim, unit, limits) }),
             claim.condition ? element('span', { className: 'said', textContent: claim.condition }) : '',
         ]);
