@@ -95,13 +95,13 @@ Claim readClaim(files::TomlReader& table) {
     claim.where = table.where();
     claim.id = table.text("id");
     claim.text = table.text("text");
-    if (table.has("device")) claim.device = table.boolean("device", false);
     claim.rule.quantity = table.choice("quantity", quantityWords);
     if (claim.rule.quantity == Quantity::none) {
         claim.missing = table.text("missing");
         table.finish();
         return claim;
     }
+    if (table.has("device")) claim.device = table.boolean("device", false);
     readData(table, claim.rule);
     if (claim.rule.quantity != Quantity::finding && table.has("over")) claim.rule.over = table.choice("over", chances);
     readRange(table, claim.rule);

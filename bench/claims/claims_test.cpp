@@ -133,6 +133,24 @@ TEST(Claims, ReadTheRunsOfTheirSuiteAndNoOthers) {
         }
 }
 
+TEST(Claims, OfTheDeviceSaySo) {
+    const std::string head = "[[claim]]\nid = \"X\"\ntext = \"t\"\nquantity = \"none\"\nmissing = \"m\"\n";
+    EXPECT_THROW((void)parseClaims(head + "device = true\n", "claims.toml"), InputError) << "it has no verdict";
+    JudgedClaim judged;
+    judged.result.verdict = ClaimVerdict::refuted;
+    EXPECT_EQ(verdictText(judged), "refuted");
+    judged.claim = claimOf(
+        "device = true\nquantity = \"value\"\ncolumn = \"fps_avg\"\nof = \"haze\"\nmin = 1\n"
+        "[[claim.control]]\nwhy = \"w\"\ngives = \"refuted\"\nof = \"fog\"\n");
+    EXPECT_EQ(verdictText(judged), "refuted on this device");
+    EXPECT_EQ(tabulate({judged}).rows.at(0).at(1), "refuted on this device");
+    const auto csv = files::CsvTable::parseText(claimsCsv({judged}), "claims.csv");
+    EXPECT_EQ(csv.cell(0, "verdict"), "refuted");
+    EXPECT_EQ(csv.cell(0, "verdict_text"), "refuted on this device");
+    judged.result.verdict = ClaimVerdict::untestable;
+    EXPECT_EQ(verdictText(judged), "untestable");
+}
+
 TEST(Claims, EveryColumnOfTheCsvIsDescribed) {
     std::ifstream file(std::string(DUSTBENCH_SOURCE_DIR) + "/reports/SCHEMA.md");
     const std::string text(std::istreambuf_iterator<char>(file), {});

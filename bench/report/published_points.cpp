@@ -35,7 +35,7 @@ struct ChartOfSuite {
 class PublishedReader {
  public:
     PublishedReader(const std::string& paper, const CsvTable& table)
-        : paper_(paper), table_(table), suites_(loadPaper(paper).suites) {
+        : table_(table), suites_(loadPaper(paper).suites) {
         if (const std::filesystem::path numbers = paperFile(paper, "numbers.csv"); !numbers.empty())
             numbers_ = CsvTable::parseFile(numbers);
     }
@@ -196,7 +196,6 @@ class PublishedReader {
         }
     }
 
-    std::string paper_;
     const CsvTable& table_;
     std::size_t row_ = 0;
     std::vector<std::string> suites_;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "bench/report/frame_times.h"
+#include "bench/report/older_rows.h"
 #include "bench/report/picture_sets.h"
 #include "bench/report/published_points.h"
 #include "bench/report/run_groups.h"
@@ -30,6 +31,7 @@ void readRuns(const fs::path& folder, ReportData& data) {
     std::error_code error;
     if (data.tablesOnly) {
         data.runs = readSummaryRuns(folder, data.problems);
+        adoptOlderRows(data.runs, data.problems);
         data.problems.push_back(
             "the folder holds tables alone: frame times, pictures and warnings of its runs are not shown");
         return;

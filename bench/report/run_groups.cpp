@@ -38,9 +38,10 @@ const std::string& cellOf(const StoredRun& run, std::string_view column) {
 /// Everything that can distinguish two cells, except method and machine.
 Settings settingsOf(const StoredRun& run) {
     Settings settings(run.parameters.begin(), run.parameters.end());
-    // A run that failed early has no frames; it still belongs to the same cell.
+    // A run that failed early has no frames, one that was skipped no drive; it still belongs to the same cell.
     for (const std::string_view column : worldCells)
-        if (column != "frames" || run.status == RunStatus::done) settings.emplace(column, cellOf(run, column));
+        if (run.status == RunStatus::done || (column != "frames" && !cellOf(run, column).empty()))
+            settings.emplace(column, cellOf(run, column));
     if (!cellOf(run, "width").empty()) settings["size"] = cellOf(run, "width") + "x" + cellOf(run, "height");
     return settings;
 }

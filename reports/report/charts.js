@@ -89,8 +89,8 @@ const chartKit = (() => {
         const lines = [...(built.key || []), ...(devices.length ? [`Measured on ${devices.join('; ')}.`] : [])];
         if (lines.length)
             built.spec.title = {
-                text: lines.flatMap(line => wrapped(line, Math.max(Math.floor(asked.width / 6.1), 30))), orient: 'bottom', anchor: 'start', frame: 'bounds',
-                offset: 12, fontSize: 11, fontWeight: 400, lineHeight: 15, color: themes[asked.theme].muted, limit: asked.width,
+                text: lines.flatMap(line => wrapped(line, Math.max(Math.floor(asked.width / 6.6), 30))), orient: 'bottom', anchor: 'start', frame: 'bounds',
+                offset: 12, fontSize: 11, fontWeight: 400, lineHeight: 15, color: themes[asked.theme].muted,
             };
         return { ...built, caption: lines };
     };

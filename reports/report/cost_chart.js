@@ -22,13 +22,10 @@ const costChart = (() => {
         return rows;
     };
 
-    /// Texts at the right ends of the lines, pushed apart where they would overlap.
-    const endLabels = (points, series, domain, log, height) => {
+    /// Labels with their heights in pixels, pushed apart where they would overlap.
+    const pushedApart = (unsorted, domain, log, height) => {
         const share = value => (log ? Math.log(value / domain[0]) / Math.log(domain[1] / domain[0]) : (value - domain[0]) / (domain[1] - domain[0]));
-        const labels = series.map(({ name }) => {
-            const last = points.filter(point => point.series === name).sort((a, b) => b.x - a.x)[0];
-            return { series: name, text: name, panel: '', pixel: height * (1 - share(last.y)) };
-        }).sort((a, b) => a.pixel - b.pixel);
+        const labels = unsorted.map(label => ({ ...label, pixel: height * (1 - share(label.y)) })).sort((a, b) => a.pixel - b.pixel);
         const gap = 14;
         for (let round = 0; round < 60; ++round)
             for (let index = 1; index < labels.length; ++index) {
@@ -39,6 +36,11 @@ const costChart = (() => {
             }
         return labels;
     };
+    /// Texts at the right ends of the lines.
+    const endLabels = (points, series, domain, log, height) => pushedApart(series.map(({ name }) => {
+        const last = points.filter(point => point.series === name).sort((a, b) => b.x - a.x)[0];
+        return { series: name, text: name, panel: '', y: last.y };
+    }), domain, log, height);
 
     /// What the chart shows: asked for, else what its suite opens on, else the frame rate over the first load.
     const choose = (report, chart) => {
@@ -118,9 +120,10 @@ const costChart = (() => {
         setData(spec, 'points', seen);
         setData(spec, 'curves', curves.filter(row => row.y >= yDomain[0] && row.y <= yDomain[1]));
         setData(spec, 'bands', bands);
-        setData(spec, 'published', published.marks.map(mark => ({ ...mark, shift: seen.find(point => point.series === mark.series)?.shift || 0 })));
-        setData(spec, 'scaled', published.scaled);
-        setData(spec, 'factors', published.factors);
+        const shifted = row => ({ ...row, shift: seen.find(point => point.series === row.series)?.shift || 0 });
+        setData(spec, 'published', published.marks.map(shifted));
+        setData(spec, 'scaled', published.scaled.map(shifted));
+        setData(spec, 'factors', shownPanels.flatMap(panel => pushedApart(published.factors.filter(row => row.panel === panel), yDomain, yLog, panelHeight)));
         setData(spec, 'labels', labelled ? endLabels(seen, series, yDomain, yLog, panelHeight) : []);
         const names = series.map(({ name }) => name);
         setScale(spec, 'x', xLog ? { type: 'log', domain: [xs[0] / Math.max(1.12, xFactor), xs[xs.length - 1] * Math.max(1.08, xFactor)] } : { type: 'linear', domain: [xs[0] - xRoom, xs[xs.length - 1] + xRoom] });
@@ -131,12 +134,13 @@ const costChart = (() => {
         setScale(spec, 'dash', { domain: names, range: styles.map(style => (isSolid ? [1, 0] : style.dash)) });
         if (yLog) setTicks(spec.marks[0].axes[0], logTicks(yDomain));
         if (labelled || series.length === 1) spec.legends = [];
-        if (xs.length <= 10) setTicks(spec.marks[0].axes[1], xs);
-        const notes = [];
-        if (series.length === 1 && names[0]) notes.push(`${alone ? 'World' : 'Method'}: ${names[0]}.`);
-        if (curves.length) notes.push(`Wide pale lines: the fitted cost a + b·N^k${column === 'fps_avg' ? ' of the frame time, as a rate' : ''}.`);
-        const key = publishedMarks.keyOf(published, bands);
-        return { spec, notes, key, table: tableOf(report, experiment, cells, [column]), state: { x: load.name, column, xLog, yLog } };
+        const ticks = distinct([...xs, ...published.marks.map(mark => mark.x)]).sort((a, b) => a - b);
+        if (xs.length <= 10) setTicks(spec.marks[0].axes[1], ticks);
+        const key = [];
+        if (alone || series.length === 1) key.push(`Method: ${variantOf(report, experiment, cells[0], load.name)}.`);
+        if (curves.length) key.push(`Wide pale lines: the fitted cost a + b·N^k${column === 'fps_avg' ? ' of the frame time, as a rate' : ''}.`);
+        key.push(...publishedMarks.keyOf(published, bands));
+        return { spec, notes: [], key, table: tableOf(report, experiment, cells, [column]), state: { x: load.name, column, xLog, yLog } };
     };
 
     const buildBars = (report, chart, column) => {
@@ -164,7 +168,7 @@ const costChart = (() => {
         setData(spec, 'rows', rows.map(({ cell, ...row }) => row));
         setData(spec, 'bands', bands);
         const here = rows.filter(row => row.cell).map(row => row.cell);
-        const key = publishedMarks.keyOf({ marks: [], scaled: [] }, bands);
+        const key = publishedMarks.keyOf({ marks: [], factors: [] }, bands);
         return { spec, notes: [], key, table: tableOf(report, experiment, here, [column]), state: { x: bars, column, worlds, world } };
     };
 

@@ -126,7 +126,7 @@ const pageHead = (() => {
             plural(done, 'run'), plural(data.experiments.length, 'experiment'), `written ${date} UTC by dustbench ${data.version}`,
         ];
         const line = element('p', { className: 'lead' }, [lead.filter(Boolean).join('; ') + '. ']);
-        if (data.files.length) put(line, 'Tables: ', ...data.files.flatMap((file, index) => [index ? ', ' : '', element('a', { href: file, textContent: file })]), '.');
+        if (data.files.length) put(line, 'Tables: ', ...data.files.flatMap((file, index) => [index ? ', ' : '', element('a', { href: data.root + file, textContent: file })]), '.');
         put(here, line);
     };
     return { build, isQuick, citationOf, isSoftware, answersOf, trustOf };

@@ -13,7 +13,7 @@
     const section = name => document.getElementById(name);
     const runLinks = (indices, text) => {
         const most = 200;
-        if (data.tablesOnly) return element('span', { className: 'muted', textContent: `${text}, not kept` });
+        if (data.tablesOnly) return element('span', { className: 'muted control-state', textContent: `${text}, not kept` });
         const list = element('ul', { className: 'runs' }, indices.slice(0, most).map(index => element('li', {}, [element('a', {
             href: `${data.root}runs/${encodeURIComponent(data.runs[index])}/run.json`, textContent: data.runs[index],
         })])));

@@ -66,8 +66,7 @@ const publishedMarks = (() => {
             const curve = scaledCurve(points.filter(isHere).sort((a, b) => a.x - b.x), marks.filter(isHere));
             if (!curve) continue;
             scaled.push(...curve.points.map(point => ({ ...point, panel, series, line: `line ${series}` })));
-            const middle = curve.points[Math.floor((curve.points.length - 1) / 2)], next = curve.points[Math.floor((curve.points.length - 1) / 2) + 1];
-            factors.push({ panel, series, x: Math.sqrt(middle.x * next.x) || (middle.x + next.x) / 2, y: Math.sqrt(middle.y * next.y), text: factorText(curve.factor) });
+            factors.push({ panel, series, ...curve.points[curve.points.length - 1], text: factorText(curve.factor) });
         }
         return { marks, scaled, factors };
     };
@@ -78,13 +77,25 @@ const publishedMarks = (() => {
         .map(item => {
             const range = rangeIn(item, column), unit = columnOf(report, column).unit;
             const [min, max] = range.map(value => shown(value, unit));
-            return { x: null, min, max, colour: colourOf(item), hardware: item.hardware, text: `published: ${rangeText(range, unit)}`, tip: tipOf(report, item, column, range) };
+            return { x: null, min, max, colour: colourOf(item), hardware: item.hardware, text: `published: ${rangeText(range, unit)}${item.column === column ? '' : ` (${rangeText([item.min, item.max], columnOf(report, item.column).unit)})`}`, tip: tipOf(report, item, column, range) };
         });
 
+    /// Names without the words that all begin with.
+    const shortNames = names => {
+        const split = names.map(name => name.split(' '));
+        let common = 0;
+        while (names.length > 1 && split.every(words => words.length > common + 1 && words[common] === split[0][common])) ++common;
+        return split.map(words => words.slice(common).join(' '));
+    };
+    /// `points 0.42×, sprites 0.47×`
+    const factorList = factors => {
+        const names = shortNames(factors.map(({ series, panel }) => [panel, series].filter(Boolean).join(', ')));
+        return factors.map(({ text }, index) => (factors.length > 1 ? `${names[index]} ${text}` : text)).join('; ');
+    };
     /// What stands below the chart.
-    const keyOf = ({ marks, scaled }, bandList) => {
+    const keyOf = ({ marks, factors }, bandList) => {
         const lines = distinct(marks.map(mark => mark.hardware)).map(hardware => `Hollow marks: published, ${hardware}.`);
-        if (scaled.length) lines.push('Dashed: the measured curve, scaled to the paper\'s first number; the factor stands at the curve.');
+        if (factors.length) lines.push(`Dashed: the measured curve, scaled to the paper's first number: ${factorList(factors)}.`);
         lines.push(...distinct(bandList.map(band => band.hardware)).map(hardware => `Band: published without a load, ${hardware}.`));
         return lines;
     };

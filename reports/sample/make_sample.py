@@ -87,9 +87,11 @@ def measure_full(program, paper):
 
 
 def draw_full(program, paper):
-    """The chart of each suite in its full form, from the tables alone."""
+    """The chart of each suite in its full form, from the tables alone. A suite that has changed since keeps its last one."""
+    suites = {file.stem for file in (ROOT / "data" / "papers" / paper / "suites").glob("*.toml")}
     for old in (HERE / paper).glob("*.svg"):
-        old.unlink()
+        if old.stem not in suites:
+            old.unlink()
     subprocess.run([program, "report", HERE / paper / "full", "--chart", "all", "--out", HERE / paper], check=True)
 
 
@@ -133,7 +135,7 @@ def block():
         f"{machine['cpu'].replace('(R)', '')} with {machine['gl_renderer']}.",
         "*Build* is the time to build the octree, *draw* the time to draw the dust; the rest is mostly the scene.", ""]
         + table() + ["", f"![Frame rate of the three methods against the number of particles, with intervals](reports/sample/{PAPER}/{SUITE}.png)", "",
-                     "The paper's Figures 5 and 7 at all its loads and speeds, 640×480 pixels (its text gives no numbers: compare the shapes):", "",
+                     "Figures 5 and 7 of the paper, with all loads and speeds of their suites, at 640×480 pixels. The paper's text gives no\nnumbers for them: compare the shapes.", "",
                      f"![Frame rate of the billboard model against the number of particles, a curve for each speed](reports/sample/{PAPER}/{PAPER}-fig5.svg)", "",
                      f"![Frame rate of both octree models against the number of particles, a panel for each speed](reports/sample/{PAPER}/{PAPER}-fig7.svg)",
                      "", END.rstrip("\n"), ""])

@@ -150,7 +150,9 @@ class ReportPublished(page_case.PageCase):
     def test_a_number_without_a_load_is_a_band(self):
         [band] = self.built("mud-bars")["data"]["bands"]["values"]
         self.assertEqual((band["min"], band["max"]), (10, 15))
-        self.assertIn("10.0 to 15.0", band["text"].replace("\u00a0", " ").replace("10 to 15", "10.0 to 15.0"))
+        self.assertEqual(band["text"].replace("\u00a0", " "), "published: 10 to 15 frames/s")
+        [band] = self.built("mud-bars", "{column: 'frame_ms_median'}")["data"]["bands"]["values"]
+        self.assertEqual(band["text"].replace("\u00a0", " "), "published: 66.7 to 100 ms (10 to 15 frames/s)")
 
     def test_the_picture_itself_says_hardware_year_and_device(self):
         self.assertIn("Hollow marks: published, A PC of 1999.", self.built("mud-loads")["caption"])
@@ -159,15 +161,23 @@ class ReportPublished(page_case.PageCase):
         self.assertIn("A PC of 1999", self.browser.evaluate("document.getElementById('chart-mud-loads').textContent"))
         with open(self.report("--chart", "mud-loads").strip(), encoding="utf-8") as stream:
             svg = stream.read()
-        for part in ("A PC of 1999", "2 cores, llvmpipe (made up)", "Dashed"):
+        for part in ("A PC of 1999", "2 cores, llvmpipe (made up)", "Dashed", "publishedPoint", "factor"):
             self.assertIn(part, svg)
         with open(self.report("--chart", "mud-loads-stages").strip(), encoding="utf-8") as stream:
             self.assertIn("2 cores, llvmpipe (made up)", stream.read())
 
+    def test_paper_has_marks_and_caption_too(self):
+        self.touch()
+        self.browser.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+        self.settled()
+        self.assertIn("A PC of 1999", self.browser.evaluate("document.getElementById('chart-mud-loads').textContent"))
+        self.assertEqual(self.browser.evaluate("document.querySelectorAll('#chart-mud-loads .publishedPoint path').length"), 3)
+        self.browser.evaluate("window.dispatchEvent(new Event('afterprint'))")
+
     def test_a_narrow_chart_wraps_its_caption(self):
         lines = self.built("mud-loads", "{width: 320}")["title"]
-        self.assertGreater(len(lines), 3)
-        self.assertTrue(all(len(line) <= 52 or " " not in line for line in lines), lines)
+        self.assertGreater(len(lines), 4)
+        self.assertTrue(all(len(line) <= 320 / 6.6 or " " not in line for line in lines), lines)
 
     def test_a_claim_about_the_device_says_so(self):
         said = self.browser.evaluate("document.querySelector('.claim[data-claim=M1] .claim-mark').innerText")

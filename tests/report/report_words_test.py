@@ -55,7 +55,7 @@ class ReportWords(page_case.PageCase):
                 ticks = self.said(f"claimList.ticksOf({low}, {high}, {log})")
                 self.assertGreaterEqual(len(set(ticks)), 2, (low, high, log))
                 self.assertTrue(all(low <= tick <= high * (1 + 1e-6) for tick in ticks), ticks)
-        drawn = self.said("""[...claimList.entry(%s, { paper: 'x', id: 'X', text: 'x', reason: '', verdict: 'confirmed', measured: 0.124, low: 0.1, high: 0.145, min: 0.02, max: null, cells: [],
+        drawn = self.said("""[...claimList.entry(%s, { paper: 'x', id: 'X', text: 'x', reason: '', verdict: 'confirmed', verdictText: 'confirmed', measured: 0.124, low: 0.1, high: 0.145, min: 0.02, max: null, cells: [],
             runs: [], controls: [], control: '', note: '', condition: '', over: 'seeds', rule: { quantity: 'value', column: 'gaps', of: 'billboard' } }, () => '').querySelectorAll('.claim-range text')]
             .map(text => text.textContent)""" % REPORT)
         self.assertTrue(len(drawn) > 1 and all(text.endswith("%") for text in drawn), drawn)

@@ -1,0 +1,124 @@
+#include "bench/report/older_rows.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "bench/results/run_spec.h"
+#include "bench/suite/baselines.h"
+#include "bench/suite/suite.h"
+#include "methods/contract/errors.h"
+#include "methods/contract/registry.h"
+#include "methods/kit/files/csv.h"
+
+namespace dustbench::bench {
+namespace {
+
+/// Runs that suites plan, by what a row and a plan both say in the same words.
+using PlannedByKey = std::map<std::string, std::map<std::string, RunSpec>>;
+
+std::string keyOfSpec(const RunSpec& spec) {
+    return fmt::format("{}\n{}\n{}\n{}\n{}\n{}", spec.method, spec.scene, spec.size.width, spec.size.height, spec.seed,
+                       spec.repetition);
+}
+
+std::string cellIn(const StoredRun& run, std::string_view column) {
+    const auto found = run.cells.find(column);
+    return found == run.cells.end() ? std::string() : found->second;
+}
+
+std::string keyOfRow(const StoredRun& run) {
+    return fmt::format("{}\n{}\n{}\n{}\n{}\n{}", cellIn(run, "method"), cellIn(run, "scene"), cellIn(run, "width"),
+                       cellIn(run, "height"), cellIn(run, "seed"), cellIn(run, "repetition"));
+}
+
+bool isEqual(const std::string& a, const std::string& b) {
+    const std::optional<double> x = files::numberOf(a), y = files::numberOf(b);
+    return a == b || (x && y && *x == *y);
+}
+
+/// Everything that the suites of this build plan with as many repetitions as the rows have.
+PlannedByKey plannedRuns(const StoredRuns& runs) {
+    int repetitions = 1;
+    for (const auto& [id, run] : runs)
+        repetitions = std::max(repetitions, static_cast<int>(files::numberOf(cellIn(run, "repetition")).value_or(1)));
+    PlannedByKey planned;
+    for (const SuiteFile& file : listSuites())
+        for (const bool quick : {false, true}) {
+            try {
+                for (const PlannedRun& cell : withBaselines(loadSuite(file.id, quick)).cells)
+                    for (int repetition = 1; repetition <= repetitions; ++repetition) {
+                        RunSpec spec = inRepetition(cell.spec, repetition);
+                        planned[keyOfSpec(spec)].try_emplace(runId(spec), spec);
+                    }
+            } catch (const InputError&) {  // which sortIntoGroups reports
+            }
+        }
+    return planned;
+}
+
+/// The parameters that the row lacks; empty if the row is another run than the planned one.
+std::optional<std::set<std::string>> missingIn(const StoredRun& run, const RunSpec& spec) {
+    const auto differs = [&run](std::string_view column, const std::string& wanted) {
+        const std::string said = cellIn(run, column);
+        return !wanted.empty() && !said.empty() && !isEqual(said, wanted);
+    };
+    if (differs("drive", spec.drive) || differs("sync", std::string(syncs.wordOf(spec.sync))) ||
+        differs("frames", std::to_string(spec.frames)))
+        return std::nullopt;
+    for (const auto& [name, value] : run.parameters)
+        if (const auto found = spec.parameters.find(name);
+            found == spec.parameters.end() || !isEqual(found->second, value))
+            return std::nullopt;
+    std::set<std::string> missing;
+    for (const auto& [name, value] : spec.parameters)
+        if (!value.empty() && !run.parameters.contains(name)) missing.insert(name);
+    if (missing.empty()) return missing;
+    const ParameterTexts defaults = canonicalParameters(findMethod(spec.method), {});
+    const bool isDefault = std::ranges::all_of(
+        missing, [&](const std::string& name) { return defaults.at(name) == spec.parameters.at(name); });
+    return isDefault ? std::optional(missing) : std::nullopt;
+}
+
+}  // namespace
+
+void adoptOlderRows(StoredRuns& runs, std::vector<std::string>& problems) {
+    const PlannedByKey planned = plannedRuns(runs);
+    std::set<std::string> added, taken;
+    std::vector<std::pair<std::string, std::string>> renamed;
+    for (const auto& [id, run] : runs) {
+        const auto found = planned.find(keyOfRow(run));
+        if (found == planned.end() || found->second.contains(id)) continue;
+        std::set<std::string> fitting, missing;
+        for (const auto& [plannedId, spec] : found->second)
+            if (const auto lacks = missingIn(run, spec)) {
+                fitting.insert(plannedId);
+                missing = *lacks;
+            }
+        // Two runs that differ in what a row does not say: which of them it was cannot be told.
+        if (fitting.size() != 1 || missing.empty() || runs.contains(*fitting.begin()) ||
+            !taken.insert(*fitting.begin()).second)
+            continue;
+        renamed.emplace_back(id, *fitting.begin());
+        added.merge(missing);
+    }
+    for (const auto& [from, to] : renamed) {
+        auto node = runs.extract(from);
+        node.key() = to;
+        node.mapped().runId = to;
+        runs.insert(std::move(node));
+    }
+    if (!renamed.empty())
+        problems.push_back(
+            fmt::format("{} of {} runs are of an older build, without the parameters {}: they stand where suites have "
+                        "these at their "
+                        "defaults",
+                        renamed.size(), runs.size(), fmt::join(added, ", ")));
+}
+
+}  // namespace dustbench::bench

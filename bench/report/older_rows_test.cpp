@@ -1,0 +1,75 @@
+#include "bench/report/older_rows.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bench/suite/suite.h"
+
+namespace dustbench::bench {
+namespace {
+
+/// The row that a planned run leaves in summary.csv, under an id of another build.
+StoredRun rowOf(const RunSpec& spec) {
+    StoredRun run;
+    run.runId = "of-an-older-build";
+    run.cells = {{"method", spec.method},
+                 {"scene", spec.scene},
+                 {"width", std::to_string(spec.size.width)},
+                 {"height", std::to_string(spec.size.height)},
+                 {"seed", std::to_string(spec.seed)},
+                 {"repetition", std::to_string(spec.repetition)},
+                 {"frames", std::to_string(spec.frames)},
+                 {"sync", "frame"}};
+    for (const auto& [name, value] : spec.parameters)
+        if (!value.empty()) run.parameters[name] = value;
+    return run;
+}
+
+/// The id that it gets.
+std::string adopted(const StoredRun& row) {
+    StoredRuns runs{{row.runId, row}};
+    std::vector<std::string> problems;
+    adoptOlderRows(runs, problems);
+    EXPECT_EQ(runs.size(), 1u);
+    EXPECT_EQ(runs.begin()->first, runs.begin()->second.runId);
+    EXPECT_EQ(problems.empty(), runs.begin()->first == row.runId);
+    return runs.begin()->first;
+}
+
+TEST(OlderRows, AParameterThatWasAddedSinceIsAtItsDefault) {
+    const RunSpec spec = inRepetition(loadSuite("carr2006-depth", true).cells.front().spec, 1);
+    StoredRun row = rowOf(spec);
+    ASSERT_EQ(spec.parameters.at("layout"), "faithful");
+    EXPECT_EQ(adopted(row), row.runId) << "it lacks nothing: what differs is not said";
+    row.parameters.erase("crossfade");
+    EXPECT_EQ(adopted(row), runId(spec));
+
+    StoredRun other = row;
+    other.parameters["depth"] = "9";
+    EXPECT_EQ(adopted(other), row.runId) << "no suite has it";
+    other = row;
+    other.parameters.erase("layout");
+    EXPECT_EQ(adopted(other), row.runId) << "the suite has another layout than the default";
+    other = row;
+    other.parameters["gone"] = "1";
+    EXPECT_EQ(adopted(other), row.runId) << "a parameter that no longer exists";
+    other = row;
+    other.cells["frames"] = "7";
+    EXPECT_EQ(adopted(other), row.runId);
+}
+
+TEST(OlderRows, ARunThatIsThereKeepsItsPlace) {
+    const RunSpec spec = inRepetition(loadSuite("carr2006-depth", true).cells.front().spec, 1);
+    StoredRun older = rowOf(spec), own = older;
+    older.parameters.erase("crossfade");
+    own.runId = runId(spec);
+    StoredRuns runs{{older.runId, older}, {own.runId, own}};
+    std::vector<std::string> problems;
+    adoptOlderRows(runs, problems);
+    EXPECT_TRUE(problems.empty());
+    EXPECT_TRUE(runs.contains(older.runId));
+    EXPECT_TRUE(runs.at(own.runId).parameters.contains("crossfade"));
+}
+
+}  // namespace
+}  // namespace dustbench::bench
