@@ -107,17 +107,17 @@ TEST(Claims, SuitesOfControlsAreThePapers) {
 TEST(Claims, ReadTheRunsOfTheirSuiteAndNoOthers) {
     // Both octrees of the suite's quick form, by their real names; the recursive one takes half the time.
     const Suite suite = loadSuite("carr2006-depth", true);
-    std::string text = "run_id,status,method,repetition,p.particles,p.layout,p.depth,build_ms_median\n";
+    std::string text = "run_id,status,method,repetition,p.particles,p.mode,p.depth,build_ms_median\n";
     for (const bool isSuites : {true, false})
         for (const PlannedRun& cell : suite.cells)
             for (int repetition = 1; repetition <= repetitions; ++repetition) {
-                if (!cell.spec.parameters.contains("layout")) continue;
+                if (!cell.spec.parameters.contains("mode")) continue;
                 const double share = (cell.spec.method == "octree_recursive") == isSuites ? 1 : 2;
                 const double ms = share * std::stod(cell.spec.parameters.at("particles"));
                 text +=
                     fmt::format("{}{},done,{},{},{},{},{},{}\n", runId(inRepetition(cell.spec, repetition)),
                                 isSuites ? "" : "x", cell.spec.method, repetition, cell.spec.parameters.at("particles"),
-                                cell.spec.parameters.at("layout"), cell.spec.parameters.at("depth"), ms);
+                                cell.spec.parameters.at("mode"), cell.spec.parameters.at("depth"), ms);
             }
     for (const JudgedClaim& judged : judgeClaims("carr2006", files::CsvTable::parseText(text, "summary.csv")))
         if (judged.claim.id == "R2a") {
