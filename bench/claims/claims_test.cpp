@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <set>
 
 #include "bench/claims/claim_control.h"
@@ -91,6 +92,32 @@ TEST(Claims, AllThatThePapersClaimStandInTheLedger) {
             if (claim.id[0] == 'R') numbers.insert(std::atoi(claim.id.c_str() + 1));
         }
     for (int number = 1; number <= 34; ++number) EXPECT_TRUE(numbers.contains(number)) << "R" << number;
+}
+
+/// The entries that a text names: `R5a`, `R12`.
+std::set<std::string> entriesIn(const std::string& text) {
+    std::set<std::string> found;
+    const std::regex entry("\\bR[0-9]+[a-z]*\\b");
+    for (std::sregex_iterator each(text.begin(), text.end(), entry), end; each != end; ++each)
+        found.insert(each->str());
+    return found;
+}
+
+TEST(Claims, StandBesideTheSentencesOfTheirPaper) {
+    std::ifstream file(paperFile("carr2006", "README.md"));
+    const std::set<std::string> named = entriesIn({std::istreambuf_iterator<char>(file), {}});
+    std::set<std::string> ids, numbers;
+    for (const Claim& claim : loadClaims("carr2006")) {
+        ids.insert(claim.id);
+        numbers.insert(claim.id.substr(0, claim.id.find_first_not_of("0123456789", 1)));
+        const bool isOurs = claim.id.ends_with("f");
+        EXPECT_TRUE(isOurs || named.contains(claim.id)) << claim.id << " stands beside no sentence of the paper";
+        if (isOurs) {
+            EXPECT_TRUE(ids.contains(claim.id.substr(0, claim.id.size() - 1)))
+                << claim.id << " has no entry as printed";
+        }
+    }
+    for (const std::string& name : named) EXPECT_TRUE(ids.contains(name) || numbers.contains(name)) << name;
 }
 
 TEST(Claims, SuitesOfControlsAreThePapers) {
