@@ -33,6 +33,10 @@ std::string readColumn(files::TomlReader& table, const std::string& key) {
     return name;
 }
 
+std::string columnOf(const std::string& name) {
+    return name == "scene" || name == "drive" ? name : "p." + name;
+}
+
 bool needsAgainst(Quantity quantity) {
     return quantity == Quantity::matched || quantity == Quantity::growth || quantity == Quantity::trend ||
            quantity == Quantity::slopes || quantity == Quantity::exponent;
@@ -104,6 +108,7 @@ Claim readClaim(files::TomlReader& table) {
     if (table.has("device")) claim.device = table.boolean("device", false);
     readData(table, claim.rule);
     if (claim.rule.quantity != Quantity::finding && table.has("over")) claim.rule.over = table.choice("over", chances);
+    if (table.has("along")) claim.rule.along = readColumn(table, "along");
     readRange(table, claim.rule);
     requireRange(claim);
     claim.reason = table.text("reason");
@@ -143,7 +148,7 @@ Selection parseSelection(const std::string& text, const std::string& what) {
         else if (equals == std::string::npos || equals == 0)
             throw InputError(what + ": got '" + word + "', expected name=value");
         else
-            selection.emplace_back("p." + word.substr(0, equals), word.substr(equals + 1));
+            selection.emplace_back(columnOf(word.substr(0, equals)), word.substr(equals + 1));
     }
     if (selection.empty()) throw InputError(what + ": got nothing, expected METHOD …");
     return selection;

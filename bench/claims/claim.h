@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -48,8 +49,8 @@ enum class ControlOutcome { refuted, confirmed };
 /// The rows with these cells: `method` → `billboard`, `p.soft` → `true`.
 using Selection = std::vector<std::pair<std::string, std::string>>;
 
-/// Parses `billboard soft=true`: a method, then cells of parameters; or cells alone. Messages begin with `what`.
-/// Throws InputError.
+/// Parses `billboard soft=true`: a method, then cells of parameters; or cells alone. `scene` and `drive` are columns,
+/// any other name is a parameter's. Messages begin with `what`. Throws InputError.
 [[nodiscard]] Selection parseSelection(const std::string& text, const std::string& what);
 /// The same as text.
 [[nodiscard]] std::string textOf(const Selection& selection);
@@ -57,6 +58,8 @@ using Selection = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] std::vector<std::string> alternativesIn(const std::string& text);
 /// `particles` for the column `p.particles`.
 [[nodiscard]] std::string nameOf(const std::string& column);
+/// Edge of the finest voxels, world_edge / 2^depth: a condition may be told along it in place of the depth.
+inline constexpr std::string_view voxelEdgeColumn = "p.voxel_edge";
 /// Throws InputError if summary.csv has no such column. Parameters, `p.…`, may have any name.
 void requireColumn(const std::string& where, const std::string& name);
 
@@ -73,6 +76,7 @@ struct Rule {
     Selection of, with;              ///< both for a ratio, otherwise only `of`
     std::string against;             ///< the load, for all that follows a curve
     Chance over = Chance::repetitions;
+    std::string along;  ///< the column along which a condition is told; empty: whichever tells it best
     std::optional<double> minimum, maximum;  ///< the range in which the claim is true
 
     [[nodiscard]] bool isTrueAt(double value) const {

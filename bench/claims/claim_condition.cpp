@@ -3,6 +3,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -86,9 +88,72 @@ std::string listed(const std::vector<ClaimCell>& cells) {
     return text;
 }
 
+/// `2 to 8`: values of an axis that follow each other there; `0.5, 2 to 8`.
+std::string rangesText(const std::vector<double>& values, const std::vector<double>& axis) {
+    std::vector<std::string> texts;
+    for (auto value = values.begin(); value != values.end();) {
+        auto place = std::ranges::find(axis, *value);
+        const double first = *value;
+        double last = first;
+        while (++value != values.end() && ++place != axis.end() && *place == *value) last = *value;
+        texts.push_back(first == last ? fmt::format("{:g}", first) : fmt::format("{:g} to {:g}", first, last));
+    }
+    return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// `true for 2 to 8, false for 0.5, open for 1`.
+std::string rowText(const std::map<double, ClaimVerdict>& row, const std::vector<double>& axis) {
+    constexpr std::array kinds{std::pair("true", ClaimVerdict::confirmed), std::pair("false", ClaimVerdict::refuted),
+                               std::pair("open", ClaimVerdict::unresolved)};
+    std::vector<std::string> texts;
+    for (const auto& [word, verdict] : kinds) {
+        std::vector<double> values;
+        for (const auto& [value, found] : row)
+            if (found == verdict) values.push_back(value);
+        if (!values.empty()) texts.push_back(fmt::format("{} for {}", word, rangesText(values, axis)));
+    }
+    return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// The map of verdicts: along `column` by what else varies; rows that are alike share a line. Empty if a cell has no
+/// number there.
+std::string mapAlong(const std::vector<ClaimCell>& cells, const std::string& column) {
+    std::map<std::string, std::map<double, ClaimVerdict>> rows;
+    std::vector<std::string> order;  // of the rows
+    std::set<double> values;
+    for (const ClaimCell& cell : cells) {
+        Selection others = cell.cell;
+        const auto place = std::ranges::find(others, column, &Selection::value_type::first);
+        if (place == others.end()) return "";
+        const std::optional<double> value = numberOf(place->second);
+        if (!value) return "";
+        others.erase(place);
+        const std::string where = textOf(others);
+        if (!rows.contains(where)) order.push_back(where);
+        rows[where][*value] = cell.verdict;
+        values.insert(*value);
+    }
+    const std::vector<double> axis(values.begin(), values.end());
+    std::vector<std::pair<std::string, std::vector<std::string>>> lines;  // what is true, and where
+    for (const std::string& where : order) {
+        const std::string text = rowText(rows[where], axis);
+        const auto alike = std::ranges::find(lines, text, &decltype(lines)::value_type::first);
+        if (alike == lines.end())
+            lines.push_back({text, {where}});
+        else
+            alike->second.push_back(where);
+    }
+    std::vector<std::string> texts;
+    for (const auto& [text, places] : lines)
+        texts.push_back(places.front().empty() ? text : fmt::format("{} ({})", text, fmt::join(places, ", ")));
+    return fmt::format("by {}: {}", nameOf(column), fmt::join(texts, "; "));
+}
+
 }  // namespace
 
-std::string conditionOf(const std::vector<ClaimCell>& cells) {
+std::string conditionOf(const std::vector<ClaimCell>& cells, const std::string& along) {
+    if (!along.empty())
+        if (std::string text = mapAlong(cells, along); !text.empty()) return text;
     for (const std::string& column : columnsOf(cells))
         if (std::string text = separationBy(column, sidesOf(cells, column)); !text.empty()) return text;
     return listed(cells);

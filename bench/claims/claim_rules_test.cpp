@@ -330,6 +330,104 @@ TEST(ClaimRules, EachVariantOfARatioIsACellOfItsOwn) {
     EXPECT_EQ(result.condition, "true with layout old, false with new");
 }
 
+TEST(ClaimRules, WhatBothSidesNameAlikeIsPaired) {
+    const std::string paired =
+        "quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze particles=100|800\"\n"
+        "with = \"mist particles=100|800\"\nmax = 1\n";
+    const ClaimResult result = judged(paired, ratioOf(0.9));
+    EXPECT_EQ(result.verdict, ClaimVerdict::confirmed);
+    ASSERT_EQ(result.cells.size(), 2u);
+    EXPECT_EQ(textOf(result.cells[0].cell), "particles=100");
+    // Named differently, they are crossed by intention.
+    const std::string crossed =
+        "quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze particles=100|800\"\n"
+        "with = \"mist particles=100\"\nmax = 1\n";
+    EXPECT_EQ(judged(crossed, ratioOf(0.9)).verdict, ClaimVerdict::depends);
+}
+
+TEST(ClaimRules, ASceneCanBeNamed) {
+    EXPECT_EQ(parseSelection("haze scene=plain speed=5", "of"),
+              (Selection{{"method", "haze"}, {"scene", "plain"}, {"p.speed", "5"}}));
+    EXPECT_EQ(textOf(parseSelection("haze scene=plain", "of")), "haze scene=plain");
+    EXPECT_EQ(judged(faster, ratioOf(0.9)).verdict,
+              judged("quantity = \"ratio\"\ncolumn = \"frame_ms_median\"\nof = \"haze scene=plain\"\n"
+                     "with = \"mist scene=plain\"\nmax = 1\n",
+                     ratioOf(0.9))
+                  .verdict);
+}
+
+/// Like `ratioOf`, where the ratio follows from the number of particles.
+ValueOf ratioBy(const std::function<double(int)>& ratio, double noise = 0) {
+    return [=](const std::string& method, int particles, int repetition) {
+        const double sign = repetition % 2 == 0 ? 1 : -1;
+        const bool noisy = method == "haze" && noise > 0 && particles >= 400;
+        return (method == "haze" ? ratio(particles) : 1) * (5 + 0.01 * particles) * (noisy ? 1 + sign * noise : 1) *
+               scatter(particles, repetition, method == "haze" ? 1 : 2);
+    };
+}
+
+TEST(ClaimRules, CounterexamplesRefuteAlthoughACellIsOpen) {
+    // Slower in three of four cells; one cell scatters by so much that nothing can be said there.
+    const auto slower = [](double noise) { return ratioBy([](int) { return 1.4; }, noise); };
+    const auto openAtMost = [&](double noise, int from) {
+        return [=](const std::string& method, int particles, int repetition) {
+            return slower(particles >= from ? noise : 0)(method, particles, repetition);
+        };
+    };
+    const ClaimResult result = judged(faster, openAtMost(0.7, 800));
+    EXPECT_EQ(result.verdict, ClaimVerdict::refuted);
+    EXPECT_EQ(result.note, "of 4 cells, 0 confirmed, 3 refuted");
+    EXPECT_TRUE(result.condition.empty());
+    // Half of the cells do not suffice, and no number of open cells ever confirms.
+    EXPECT_EQ(judged(faster, openAtMost(0.7, 400)).verdict, ClaimVerdict::unresolved);
+    const auto quicker = ratioBy([](int) { return 0.7; }, 0);
+    EXPECT_EQ(judged(faster,
+                     [&](const std::string& method, int particles, int repetition) {
+                         const double ms = quicker(method, particles, repetition);
+                         const bool noisy = method == "haze" && particles == 800;
+                         return noisy ? ms * (repetition % 2 == 0 ? 1.9 : 0.5) : ms;
+                     })
+                  .verdict,
+              ClaimVerdict::unresolved);
+    // A cell that is true for certain makes it depend.
+    EXPECT_EQ(judged(faster, ratioBy([](int particles) { return particles == 100 ? 0.7 : 1.4; })).verdict,
+              ClaimVerdict::depends);
+}
+
+/// Rows of one method over voxel edges and speeds; `value(depth, speed)`.
+ClaimResult judgedOverEdges(const std::function<double(int, int)>& value) {
+    std::string text = "run_id,status,method,scene,seed,repetition,p.depth,p.speed,p.world_edge,gaps\n";
+    int id = 0;
+    for (const int depth : {4, 5, 6, 7, 8})
+        for (const int speed : {5, 10, 40})
+            for (int seed = 1; seed <= 5; ++seed)
+                text += fmt::format("run{},done,haze,plain,{},1,{},{},128,{}\n", id++, seed, depth, speed,
+                                    value(depth, speed) * (1 + 0.001 * seed));
+    const files::CsvTable rows = files::CsvTable::parseText(text, "summary.csv");
+    return judgeRule(ruledClaim("quantity = \"value\"\ncolumn = \"gaps\"\nof = \"haze\"\nover = \"seeds\"\n"
+                                "max = 1\nalong = \"p.voxel_edge\"\n")
+                         .rule,
+                     ResultRows(rows, nullptr));
+}
+
+TEST(ClaimRules, AConditionCanBeToldAlongAnAxis) {
+    // Edges 8, 4, 2, 1, 0.5 m: true from 2 m on at 5 and 10 m/s, at 1 m and 8 m alone at 40 m/s.
+    const ClaimResult result = judgedOverEdges([](int depth, int speed) {
+        const double edge = 128.0 / (1 << depth);
+        return (speed < 40 ? edge >= 2 : edge == 1 || edge == 8) ? 0.5 : 2;
+    });
+    EXPECT_EQ(result.verdict, ClaimVerdict::depends);
+    EXPECT_EQ(result.condition,
+              "by voxel_edge: true for 2 to 8, false for 0.5 to 1 (speed=10, speed=5); true for 1, 8, false for 0.5, 2 "
+              "to 4 (speed=40)");
+    EXPECT_EQ(judgedOverEdges([](int, int) { return 0.5; }).condition, "");
+    // Where a value is as large as its limit nothing is known.
+    EXPECT_EQ(judgedOverEdges([](int depth, int) { return depth == 4   ? 0.5
+                                                          : depth == 5 ? 0.997
+                                                                       : 2; }).condition,
+              "by voxel_edge: true for 8, false for 0.5 to 2, open for 4 (speed=10, speed=40, speed=5)");
+}
+
 TEST(ClaimRules, AMatchedRatioIsTakenWhereTheOtherColumnIsTheSame) {
     // Gaps halve when the number of quads doubles; haze needs a quarter of the quads of mist for the same gaps.
     std::string text = "run_id,status,method,scene,seed,repetition,p.particles,primitives_median,gaps\n";

@@ -24,6 +24,14 @@ std::set<std::string> columnsWithin(const Rule& rule) {
     return columns;
 }
 
+/// Puts the edge of the finest voxels in place of the depth.
+void tellEdge(Selection& cell, const std::string& worldEdge) {
+    const auto depth = std::ranges::find(cell, "p.depth", &Selection::value_type::first);
+    if (depth == cell.end()) return;
+    const auto world = files::numberOf(worldEdge), levels = files::numberOf(depth->second);
+    if (world && levels) *depth = {std::string(voxelEdgeColumn), fmt::format("{:g}", *world / std::exp2(*levels))};
+}
+
 /// Collects values under keys, and gives the keys as cells in the end.
 class SampleTable {
  public:
@@ -46,6 +54,7 @@ class SampleTable {
         for (const auto& [key, turns] : values_) keys.push_back(key);
         for (const auto& [key, turns] : values_) {
             samples.cells.push_back(rows_.cellValues(key, keys));
+            if (rule_.along == voxelEdgeColumn) tellEdge(samples.cells.back(), rows_.valueIn(key, "p.world_edge"));
             for (const auto& [turn, list] : turns) {
                 const bool once = rule_.over != Chance::repetitions;
                 samples.list.push_back(meanOf(once ? std::span(list).first(1) : std::span(list)));
@@ -101,11 +110,14 @@ std::vector<std::size_t> rowsWith(const Rule& rule, const Selection& selection, 
     return chosen;
 }
 
-/// Columns in which the two sides of a ratio differ by intention.
+/// Columns in which the two sides of a ratio differ by intention: those that a side names. What both name alike, as
+/// `speed=5|10`, is no difference: 5 is paired with 5.
 std::set<std::string> namedColumns(const Rule& rule) {
     std::set<std::string> named;
     for (const Selection* side : {&rule.of, &rule.with})
         for (const auto& [column, value] : *side) named.insert(column);
+    for (const auto& each : rule.of)
+        if (std::ranges::find(rule.with, each) != rule.with.end()) named.erase(each.first);
     return named;
 }
 

@@ -136,12 +136,16 @@ std::size_t countOf(const std::vector<ClaimCell>& cells, ClaimVerdict verdict) {
     return static_cast<std::size_t>(std::ranges::count(cells, verdict, &ClaimCell::verdict));
 }
 
-ClaimVerdict verdictOfAll(const std::vector<ClaimCell>& cells) {
+/// `mean`: the verdict on the mean over all cells.
+ClaimVerdict verdictOfAll(const std::vector<ClaimCell>& cells, ClaimVerdict mean) {
     for (const ClaimVerdict all : {ClaimVerdict::confirmed, ClaimVerdict::refuted})
         if (countOf(cells, all) == cells.size()) return all;
     const bool somewhereTrue = std::ranges::count(cells, ClaimVerdict::confirmed, &ClaimCell::ofAll) > 0;
     const bool somewhereFalse = std::ranges::count(cells, ClaimVerdict::refuted, &ClaimCell::ofAll) > 0;
-    return somewhereTrue && somewhereFalse ? ClaimVerdict::depends : ClaimVerdict::unresolved;
+    if (somewhereTrue && somewhereFalse) return ClaimVerdict::depends;
+    const bool mostlyFalse = somewhereFalse && 2 * countOf(cells, ClaimVerdict::refuted) > cells.size();
+    if (mostlyFalse && !somewhereTrue && mean == ClaimVerdict::refuted) return ClaimVerdict::refuted;
+    return ClaimVerdict::unresolved;
 }
 
 /// Why cells are open: too few turns, or an interval that holds both.
@@ -155,10 +159,17 @@ std::string openCells(const Rule& rule, const std::vector<ClaimCell>& cells) {
                        countOf(cells, ClaimVerdict::refuted));
 }
 
-void decide(ClaimResult& result) {
-    result.verdict = verdictOfAll(result.cells);
+void decide(const Rule& rule, ClaimResult& result) {
+    result.verdict = verdictOfAll(result.cells, verdictOf(rule, result.low, result.high));
     if (countOf(result.cells, ClaimVerdict::confirmed) > 0 && countOf(result.cells, ClaimVerdict::refuted) > 0)
-        result.condition = conditionOf(result.cells);
+        result.condition = conditionOf(result.cells, rule.along);
+}
+
+/// Some cells are open.
+bool isPartly(const ClaimResult& result) {
+    return result.verdict == ClaimVerdict::unresolved ||
+           (result.verdict == ClaimVerdict::refuted &&
+            countOf(result.cells, ClaimVerdict::refuted) < result.cells.size());
 }
 
 void judgeSamples(const Rule& rule, const ClaimSamples& samples, ClaimResult& result) {
@@ -176,8 +187,8 @@ void judgeSamples(const Rule& rule, const ClaimSamples& samples, ClaimResult& re
         result.cells.back().cell = samples.cells[i];
     }
     measureAll(rule, samples, scale, result);
-    decide(result);
-    if (result.verdict == ClaimVerdict::unresolved) result.note = openCells(rule, result.cells);
+    decide(rule, result);
+    if (isPartly(result)) result.note = openCells(rule, result.cells);
     if (samples.undefined > 0)
         result.note +=
             fmt::format("{}{} pairs without a ratio: both are 0", result.note.empty() ? "" : "; ", samples.undefined);
@@ -205,7 +216,7 @@ void judgeCurves(const Rule& rule, const CostCurves& curves, ClaimResult& result
         result.low = result.cells[0].low;
         result.high = result.cells[0].high;
     }
-    decide(result);
+    decide(rule, result);
 }
 
 /// One of `cellCount` cells. A finding has its own 95 % interval; that for all cells together is wider by Student's
@@ -291,7 +302,7 @@ ClaimResult judgeFinding(const Rule& rule, const std::vector<StoredFinding>& fin
         result.low = result.cells[0].low;
         result.high = result.cells[0].high;
     }
-    decide(result);
+    decide(rule, result);
     if (result.verdict == ClaimVerdict::unresolved && result.cells.size() > 1)
         result.note += (result.note.empty() ? "" : "; ") + openCells(rule, result.cells);
     return result;

@@ -4,11 +4,16 @@
 // outside, else unresolved. All cells together:
 //
 //     confirmed    in every cell
-//     refuted      in every cell
+//     refuted      in every cell; or in more than half of them, if the mean over all cells lies outside too and no cell
+//     is
+//                  confirmed by an interval that holds for all cells together
 //     depends      confirmed in some cells and refuted in others, each by an interval that holds for all cells together
 //     unresolved   anything else
 //     untestable   a control gave another verdict than is known for it
 //     not-tested   a row that the rule needs is missing; the note says which
+//
+// A claim is a statement on every cell, so counterexamples refute it although other cells are open; nothing but all
+// cells confirms it.
 //
 // The 95 % interval of a cell is Student's over the repetitions (at least 6) or seeds (at least 5), of logarithms for
 // ratios and growths if all values are above 0. A ratio of which a denominator is not above 0, as a method's own time
@@ -79,7 +84,8 @@ struct ClaimResult {
 [[nodiscard]] ClaimResult judgeFinding(const Rule& rule, const std::vector<StoredFinding>& findings);
 
 /// In which cells a claim is true, in words: `true for particles up to 2000, false from 5000`. If no single column
-/// tells true cells from false ones, their numbers.
-[[nodiscard]] std::string conditionOf(const std::vector<ClaimCell>& cells);
+/// tells true cells from false ones, their numbers. With a column `along`, a map: for each combination of the others
+/// where along it the claim is true, false and open.
+[[nodiscard]] std::string conditionOf(const std::vector<ClaimCell>& cells, const std::string& along = "");
 
 }  // namespace dustbench::bench

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <set>
 
 #include "bench/claims/claim_control.h"
@@ -93,6 +94,32 @@ TEST(Claims, AllThatThePapersClaimStandInTheLedger) {
     for (int number = 1; number <= 34; ++number) EXPECT_TRUE(numbers.contains(number)) << "R" << number;
 }
 
+/// The entries that a text names: `R5a`, `R12`.
+std::set<std::string> entriesIn(const std::string& text) {
+    std::set<std::string> found;
+    const std::regex entry("\\bR[0-9]+[a-z]*\\b");
+    for (std::sregex_iterator each(text.begin(), text.end(), entry), end; each != end; ++each)
+        found.insert(each->str());
+    return found;
+}
+
+TEST(Claims, StandBesideTheSentencesOfTheirPaper) {
+    std::ifstream file(paperFile("carr2006", "README.md"));
+    const std::set<std::string> named = entriesIn({std::istreambuf_iterator<char>(file), {}});
+    std::set<std::string> ids, numbers;
+    for (const Claim& claim : loadClaims("carr2006")) {
+        ids.insert(claim.id);
+        numbers.insert(claim.id.substr(0, claim.id.find_first_not_of("0123456789", 1)));
+        const bool isOurs = claim.id.ends_with("f");
+        EXPECT_TRUE(isOurs || named.contains(claim.id)) << claim.id << " stands beside no sentence of the paper";
+        if (isOurs) {
+            EXPECT_TRUE(ids.contains(claim.id.substr(0, claim.id.size() - 1)))
+                << claim.id << " has no entry as printed";
+        }
+    }
+    for (const std::string& name : named) EXPECT_TRUE(ids.contains(name) || numbers.contains(name)) << name;
+}
+
 TEST(Claims, SuitesOfControlsAreThePapers) {
     for (const std::string& id : listPapers()) {
         const Paper paper = loadPaper(id);
@@ -107,17 +134,17 @@ TEST(Claims, SuitesOfControlsAreThePapers) {
 TEST(Claims, ReadTheRunsOfTheirSuiteAndNoOthers) {
     // Both octrees of the suite's quick form, by their real names; the recursive one takes half the time.
     const Suite suite = loadSuite("carr2006-depth", true);
-    std::string text = "run_id,status,method,repetition,p.particles,p.layout,p.depth,build_ms_median\n";
+    std::string text = "run_id,status,method,repetition,p.particles,p.mode,p.depth,build_ms_median\n";
     for (const bool isSuites : {true, false})
         for (const PlannedRun& cell : suite.cells)
             for (int repetition = 1; repetition <= repetitions; ++repetition) {
-                if (!cell.spec.parameters.contains("layout")) continue;
+                if (!cell.spec.parameters.contains("mode")) continue;
                 const double share = (cell.spec.method == "octree_recursive") == isSuites ? 1 : 2;
                 const double ms = share * std::stod(cell.spec.parameters.at("particles"));
                 text +=
                     fmt::format("{}{},done,{},{},{},{},{},{}\n", runId(inRepetition(cell.spec, repetition)),
                                 isSuites ? "" : "x", cell.spec.method, repetition, cell.spec.parameters.at("particles"),
-                                cell.spec.parameters.at("layout"), cell.spec.parameters.at("depth"), ms);
+                                cell.spec.parameters.at("mode"), cell.spec.parameters.at("depth"), ms);
             }
     for (const JudgedClaim& judged : judgeClaims("carr2006", files::CsvTable::parseText(text, "summary.csv")))
         if (judged.claim.id == "R2a") {

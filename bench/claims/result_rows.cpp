@@ -88,6 +88,16 @@ std::string ResultRows::cellKey(std::size_t row, const std::set<std::string>& ex
     return key;
 }
 
+std::string ResultRows::valueIn(const std::string& key, std::string_view column) const {
+    std::istringstream values(key);
+    std::string value;
+    for (const std::string& each : identity_) {
+        std::getline(values, value);
+        if (each == column) return value;
+    }
+    return {};
+}
+
 Selection ResultRows::cellValues(const std::string& key, const std::vector<std::string>& keys) const {
     std::vector<std::istringstream> others(keys.begin(), keys.end());
     std::istringstream own(key);

@@ -35,6 +35,8 @@ class ResultRows {
     [[nodiscard]] bool correspond(std::size_t a, std::size_t b, const std::set<std::string>& named) const;
     /// Identifies the cell of a row, without the columns `except`.
     [[nodiscard]] std::string cellKey(std::size_t row, const std::set<std::string>& except) const;
+    /// The value of a column in a key of `cellKey`; of a pair of rows that of the first.
+    [[nodiscard]] std::string valueIn(const std::string& key, std::string_view column) const;
     /// The columns and values that distinguish a cell from the others with these keys: `p.particles` 500, `p.speed` 40.
     /// A key may be that of a pair of rows, one after the other: columns of the second in which it differs from the
     /// first begin with `with `.

@@ -27,15 +27,16 @@ struct PictureMetric {
 };
 inline constexpr std::array<PictureMetric, 3> qualityMetrics{
     {{"psnr_mask_db", "dB", "identical", true}, {"ssim_mask", "", "1", true}, {"flip_mask", "", "0", false}}};
-inline constexpr std::array<PictureMetric, 9> flawMetrics{{{"popping", "encoded value", "0"},
-                                                           {"gaps", "share of the trail", "0"},
-                                                           {"components", "parts", "as the reference"},
-                                                           {"cutoff", "alpha/pixel", "0"},
-                                                           {"self_similarity", "", "0"},
-                                                           {"banding", "linear light", "0"},
-                                                           {"error_max", "linear light", "0"},
-                                                           {"quads_per_pixel", "1/pixel", "any"},
-                                                           {"volume_error", "", "0"}}};
+inline constexpr std::array<PictureMetric, 10> flawMetrics{{{"popping", "encoded value", "0"},
+                                                            {"gaps", "share of the trail", "0"},
+                                                            {"spill", "share of the shown trail", "0"},
+                                                            {"components", "parts", "as the reference"},
+                                                            {"cutoff", "alpha/pixel", "0"},
+                                                            {"self_similarity", "", "0"},
+                                                            {"banding", "linear light", "0"},
+                                                            {"error_max", "linear light", "0"},
+                                                            {"quads_per_pixel", "1/pixel", "any"},
+                                                            {"volume_error", "", "0"}}};
 /// Throws InputError that begins with `what`.
 [[nodiscard]] const PictureMetric& qualityMetric(const std::string& what, const std::string& column);
 

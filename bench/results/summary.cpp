@@ -91,7 +91,12 @@ const std::vector<std::string>& columnsAfterParameters() {
                                  "error_max",
                                  "volume_picture",
                                  "invalid",
-                                 "banding"})
+                                 "banding",
+                                 "spill",
+                                 "popping_small",
+                                 "popping_large",
+                                 "popping_small_part",
+                                 "popping_large_part"})
             list.emplace_back(name);
         for (const MethodFact& fact : methodFacts()) list.push_back(fact.info.name);
         return list;

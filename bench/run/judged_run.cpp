@@ -120,7 +120,11 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         }
         metrics.frame = frame;
         metrics.timeSeconds = world.state().timeSeconds;
-        if (inStretch) metrics.popping = poppingJudge.add(drawn, exact);
+        if (inStretch) {
+            CollectedVolume volume;
+            runner.volume(volume);
+            metrics.popping = poppingJudge.add(drawn, exact, sizedPrimitivesOnScreen(volume, view));
+        }
         judgement.frames.push_back(metrics);
     };
     const std::int64_t preroll = stepsBeforeWarmup(world);
@@ -142,6 +146,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
                                  stateHash);
     judgement.popping = poppingJudge.summary().mean();
     judgement.poppingMax = poppingJudge.summary().maximum();
+    judgement.poppingBySize = poppingJudge.bySize();
     writeWhole(folder / "metrics.csv", metricsCsv(judgement));
     return judgement;
 }

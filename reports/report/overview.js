@@ -2,7 +2,7 @@
 const overview = (() => {
     const { element, put, button } = pageKit;
     const { digits, shownOf, columnOf, variantOf, worldOf } = chartKit;
-    const flaws = ['gaps', 'components', 'cutoff', 'popping', 'self_similarity', 'quads_per_pixel', 'volume_error'];
+    const flaws = ['gaps', 'spill', 'components', 'cutoff', 'popping', 'self_similarity', 'quads_per_pixel', 'volume_error'];
     const wanted = ['fps_avg', 'method_ms_median', 'psnr_db', ...flaws];
     const firstRows = 12;
 

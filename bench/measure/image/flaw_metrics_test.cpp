@@ -5,6 +5,7 @@
 
 #include "bench/measure/image/cutoff.h"
 #include "bench/measure/image/popping.h"
+#include "bench/measure/image/popping_sizes.h"
 #include "bench/measure/image/quads_per_pixel.h"
 #include "bench/measure/image/self_similarity.h"
 #include "bench/measure/image/test_images.h"
@@ -29,6 +30,7 @@ TEST(FlawMetrics, AreEmptyWhereNoDustIsInView) {
     const Picture picture = greyPicture(0.5f);
     EXPECT_FALSE(popping({picture, picture, none, faint}, {picture, picture, faint, none}).value);
     EXPECT_FALSE(gaps(none, faint).value);
+    EXPECT_FALSE(spill(none, faint).value);
     EXPECT_FALSE(components(none, faint).parts);
     EXPECT_FALSE(components(none, faint).referenceParts);
     EXPECT_FALSE(cutoff(none, none, faint, faint).value);
@@ -85,6 +87,65 @@ TEST(Gaps, AreTheShareOfTheTrailThatIsMissing) {
     EXPECT_EQ(missing.map.at(4, 9), 0);
     EXPECT_EQ(gaps(trail, trail).value, 0);
     EXPECT_EQ(gaps(Plane(20, 10), trail).value, 1);
+}
+
+TEST(Spill, IsTheShareOfTheShownTrailThatIsNotThere) {
+    // Shown: α > 0.1 in 16 of 20 columns. Spilt: α > 2R, in the first 4.
+    const Plane shown = planeOf(20, 10, [](int x, int) { return x < 16 ? 0.4 : 0.1; });
+    const Plane trail = planeOf(20, 10, [](int x, int) { return x < 4 ? 0.1999 : x < 8 ? 0.2001 : x < 16 ? 0.9 : 0; });
+    const Measured spilt = spill(shown, trail);
+    EXPECT_EQ(spilt.value, 0.25);
+    EXPECT_EQ(spilt.map.at(3, 9), 1);
+    EXPECT_EQ(spilt.map.at(4, 9), 0);
+    EXPECT_EQ(spilt.map.at(17, 9), 0);
+    EXPECT_EQ(spill(trail, trail).value, 0);
+    EXPECT_FALSE(spill(Plane(20, 10), trail).value);
+    EXPECT_EQ(spill(shown, Plane(20, 10)).value, 1);
+}
+
+TEST(Spill, IsWhatABlanketPaysForHavingNoGaps) {
+    // A trail of 5 of 20 columns. A blanket covers all of it, and three quarters of the blanket lie beside it.
+    const Plane trail = planeOf(20, 10, [](int x, int) { return x < 5 ? 0.8 : 0.0; });
+    const Plane blanket = even(20, 10, 0.8), narrow = planeOf(20, 10, [](int x, int) { return x < 2 ? 0.8 : 0.0; });
+    EXPECT_EQ(gaps(blanket, trail).value, 0);
+    EXPECT_EQ(spill(blanket, trail).value, 0.75);
+    EXPECT_EQ(gaps(narrow, trail).value, 0.6);
+    EXPECT_EQ(spill(narrow, trail).value, 0);
+    // Each is the other with the pictures exchanged.
+    EXPECT_EQ(spill(trail, blanket).value, gaps(blanket, trail).value);
+}
+
+TEST(PoppingSizes, AreThePartsOfPopping) {
+    // The left half shows a small primitive and jumps by 0.1, the right half a large one and jumps by 0.3.
+    const Plane dust = even(20, 10, 0.5);
+    const Picture before = greyPicture(0.4f), still = greyPicture(0.4f);
+    const Picture after = pictureOf(20, 10, [](int x, int, int) { return maths::decodeSrgb(x < 10 ? 0.5f : 0.7f); });
+    const std::vector<SizedPrimitive> primitives{{{5, 5, 8}, 0.5, 1}, {{15, 5, 8}, 4, 1}};
+    const auto sizes = largeAmong(primitives, 20, 10);
+    ASSERT_TRUE(sizes);
+    const DustFrame from{before, still, dust, dust}, to{after, still, dust, dust};
+    const PoppingBySize found = poppingBySize(from, to, *sizes, *sizes);
+    EXPECT_NEAR(*found.small, 0.1, 1e-6);
+    EXPECT_NEAR(*found.large, 0.3, 1e-6);
+    // Half of the pixels each: the squares of the parts add up to popping's.
+    EXPECT_NEAR(*found.smallPart, 0.1 / std::sqrt(2), 1e-6);
+    EXPECT_NEAR(*found.largePart, 0.3 / std::sqrt(2), 1e-6);
+    const double whole = *popping(from, to).value;
+    EXPECT_NEAR(*found.smallPart * *found.smallPart + *found.largePart * *found.largePart, whole * whole, 1e-6);
+}
+
+TEST(PoppingSizes, WeighAPixelByTheDepthOfItsPrimitives) {
+    // Two primitives in one place: the deeper one has the pixel. Where none reaches there is neither.
+    const auto at = [](double smallDepth, double largeDepth) {
+        return largeAmong(std::vector<SizedPrimitive>{{{10, 5, 3}, 0.5, smallDepth}, {{10, 5, 3}, 4, largeDepth}}, 20,
+                          10);
+    };
+    EXPECT_LT(at(1, 0.9)->large.at(10, 5), at(1, 0.9)->small.at(10, 5));
+    EXPECT_GT(at(0.9, 1)->large.at(10, 5), at(0.9, 1)->small.at(10, 5));
+    EXPECT_EQ(at(1, 1)->large.at(0, 0), 0);
+    // Primitives of one size are neither small nor large.
+    EXPECT_FALSE(largeAmong(std::vector<SizedPrimitive>{{{10, 5, 3}, 2, 1}, {{5, 5, 3}, 2, 1}}, 20, 10));
+    EXPECT_FALSE(largeAmong({}, 20, 10));
 }
 
 TEST(Components, CountsPartsThatTouchByEdgesOrCorners) {

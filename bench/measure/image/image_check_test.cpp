@@ -75,6 +75,7 @@ TEST(ImageCheck, EveryMetricRefusesDifferentSizes) {
     EXPECT_EQ(inputError([&] { static_cast<void>(flip(a, b)); }), both);
     const Plane p(16, 12), q(12, 16);
     EXPECT_THROW(static_cast<void>(gaps(p, q)), InputError);
+    EXPECT_THROW(static_cast<void>(spill(p, q)), InputError);
     EXPECT_THROW(static_cast<void>(components(p, q)), InputError);
     EXPECT_THROW(static_cast<void>(selfSimilarity(p, q, {}, 1)), InputError);
     EXPECT_THROW(static_cast<void>(cutoff(p, p, p, q)), InputError);

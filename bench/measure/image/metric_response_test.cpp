@@ -103,6 +103,12 @@ double hardness(int level) {
     return std::array{1.0, 0.6, 0.3, 0.1, 0.0}[static_cast<std::size_t>(level)];
 }
 
+/// Puffs of the same opacity, wider and wider.
+Puffs spread(int level, Puffs puffs) {
+    for (TestPuff& puff : puffs) puff.radius *= 1 + 0.5 * level;
+    return puffs;
+}
+
 /// All different, 16, 4 or 1 textures; each cloud has its own textures and random choices.
 Puffs texturedAs(int cloud, int level, Puffs puffs) {
     const int textures = std::array{0, 16, 4, 1}[static_cast<std::size_t>(level)];
@@ -120,6 +126,7 @@ const std::vector<Flaw>& flaws() {
     static const std::vector<Flaw> list{{"snapped", 5, dense, snapped, exact, false},
                                         {"strung", 5, strung, asTheyAre, exact, false},
                                         {"cut", 5, deep, asTheyAre, hardness, true},
+                                        {"spread", 5, dense, spread, exact, false},
                                         {"textures", 4, loose, textured, exact, false}};
     return list;
 }
@@ -173,6 +180,7 @@ Scores scoresOf(const Flaw& flaw, int level) {
     scores["flip_mask"] = meanWithin(seen.map, mask);
     const Plane continuum = testAlpha(trail.at(middle, 65, 64), exactly);
     scores["gaps"] = gaps(alphas[middle], continuum).value;
+    scores["spill"] = spill(alphas[middle], continuum).value;
     scores["components"] = components(alphas[middle], continuum).parts;
     scores["cutoff"] =
         cutoff(alphas[middle], testAlpha(drawn, free), references[middle], testAlpha(puffs(middle), free)).value;
@@ -315,6 +323,7 @@ TEST(MetricResponse, IsPerfectForTheReferenceItself) {
     Scores scores = scoresOf(none, 0);
     const Plane alpha = testAlpha(none.trail(0).at(0, 65), {500, 130, {}});
     scores["gaps"] = gaps(alpha, alpha).value;
+    scores["spill"] = spill(alpha, alpha).value;
     for (const auto& [metric, row] : documented()) {
         SCOPED_TRACE(metric);
         const std::string& perfect = row.at("perfect");

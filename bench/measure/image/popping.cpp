@@ -19,6 +19,11 @@ void requireOneSize(const DustFrame& frame, const DustFrame& first) {
 
 }  // namespace
 
+bool hasDust(const DustFrame& before, const DustFrame& now, std::size_t pixel) {
+    return before.alpha.values[pixel] > dustAlpha || before.referenceAlpha.values[pixel] > dustAlpha ||
+           now.alpha.values[pixel] > dustAlpha || now.referenceAlpha.values[pixel] > dustAlpha;
+}
+
 Measured popping(const DustFrame& before, const DustFrame& now) {
     requireOneSize(before, before);
     requireOneSize(now, before);
@@ -26,9 +31,7 @@ Measured popping(const DustFrame& before, const DustFrame& now) {
     double sum = 0;
     std::size_t pixels = 0;
     for (std::size_t i = 0; i < result.map.values.size(); ++i) {
-        const bool dust = before.alpha.values[i] > dustAlpha || before.referenceAlpha.values[i] > dustAlpha ||
-                          now.alpha.values[i] > dustAlpha || now.referenceAlpha.values[i] > dustAlpha;
-        if (!dust) continue;
+        if (!hasDust(before, now, i)) continue;
         double squares = 0;
         for (std::size_t channel = 0; channel < 3; ++channel) {
             const auto step = [&](const Picture& from, const Picture& to) {

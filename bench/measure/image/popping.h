@@ -24,6 +24,9 @@ struct DustFrame {
 /// InputError if the sizes differ.
 [[nodiscard]] Measured popping(const DustFrame& before, const DustFrame& now);
 
+/// Whether a pixel counts: α or R > 0.01 in either frame.
+[[nodiscard]] bool hasDust(const DustFrame& before, const DustFrame& now, std::size_t pixel);
+
 /// Popping over a run: mean and maximum over pairs of consecutive frames.
 ///
 /// Only uninterrupted stretches of at least `minimumPairs` pairs count, so that occasional jumps are likely to be

@@ -59,6 +59,11 @@ Measured gaps(const Plane& alpha, const Plane& referenceAlpha) {
     return result;
 }
 
+Measured spill(const Plane& alpha, const Plane& referenceAlpha) {
+    requireSameSize(alpha, "the alpha", referenceAlpha, "the reference's alpha");
+    return gaps(referenceAlpha, alpha);
+}
+
 TrailParts components(const Plane& alpha, const Plane& referenceAlpha) {
     requireSameSize(alpha, "the alpha", referenceAlpha, "the reference's alpha");
     TrailParts result;

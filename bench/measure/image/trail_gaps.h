@@ -1,7 +1,10 @@
-// Gaps: a trail that should be continuous but breaks up into separate puffs.
+// Gaps and spill: where a trail that should be continuous is missing, and where a method shows one that is not there.
 //
-// The trail is where the reference has R > 0.1; a method covers it where α ≥ R/2. The reference must be `continuum`:
-// one made from the same puffs would break up with them. Threads: pure.
+// The trail is where the reference has R > 0.1; a method covers it where α ≥ R/2. The method's own trail is where
+// α > 0.1; it spills where α > 2R. Each is the other with the two pictures exchanged: gaps are the error of omission,
+// spill the error of commission. Either alone is won by a fault: gaps by a blanket over the picture, spill by an empty
+// picture. The reference must be `continuum`: one made from the same puffs would break up with them.
+// Threads: pure. Source: Congalton1991 (omission and commission).
 #pragma once
 
 #include <optional>
@@ -10,7 +13,7 @@
 
 namespace dustbench::bench {
 
-/// Reference alphas above this are the trail.
+/// Alphas above this are the trail.
 inline constexpr float trailAlpha = 0.1f;
 /// Connected regions with fewer pixels are specks and not counted: where α and R/2 are almost equal, single pixels fall
 /// on either side.
@@ -19,6 +22,10 @@ inline constexpr int minimumPartPixels = 16;
 /// Share of the trail that is not covered: 0..1. Empty if the reference has no trail. The map is 1 in gaps, else 0.
 /// Throws InputError if the sizes differ.
 [[nodiscard]] Measured gaps(const Plane& alpha, const Plane& referenceAlpha);
+
+/// Share of the method's own trail (α > 0.1) where α > 2R: 0..1. Empty if the method shows no trail. The map is 1 where
+/// it spills, else 0. Throws InputError if the sizes differ.
+[[nodiscard]] Measured spill(const Plane& alpha, const Plane& referenceAlpha);
 
 struct TrailParts {
     /// Connected components (by edges and corners) of the covered area: 0 or more. Empty if there is no trail.

@@ -20,7 +20,7 @@ struct MeanMetric {
 };
 
 /// The metrics that a run reports as a mean over its moments.
-constexpr std::array<MeanMetric, 19> means{{
+constexpr std::array<MeanMetric, 20> means{{
     {{"psnr_db", "peak signal-to-noise ratio against the exact picture, dB"}, &MomentMetrics::psnrDb},
     {{"ssim", "structural similarity to the exact picture, 1: the same"}, &MomentMetrics::ssim},
     {{"flip", "difference from the exact picture that an eye sees when the two alternate, 0: none"},
@@ -35,6 +35,7 @@ constexpr std::array<MeanMetric, 19> means{{
     {{"rmse_linear", "root of the mean squared difference of linear light"}, &MomentMetrics::rmseLinear},
     {{"psnr_continuum_db", "psnr_db against 64 times as many particles, dB"}, &MomentMetrics::psnrContinuumDb},
     {{"gaps", "share of the trail that is not covered"}, &MomentMetrics::gaps},
+    {{"spill", "share of the trail that is shown where there is less than half of it"}, &MomentMetrics::spill},
     {{"components", "parts into which the trail falls"}, &MomentMetrics::components},
     {{"components_reference", "parts into which the exact trail falls"}, &MomentMetrics::componentsReference},
     {{"cutoff", "edges where dust meets ground and solids that are not there in truth, alpha per pixel"},
@@ -45,10 +46,14 @@ constexpr std::array<MeanMetric, 19> means{{
     {{"volume_picture", "distance of the picture from that of the volume that the method reports, 0: none"},
      &MomentMetrics::volumePicture},
 }};
-constexpr std::array<MetricInfo, 3> others{{
+constexpr std::array<MetricInfo, 7> others{{
     {"identical", "1: every judged picture is the exact one"},
     {"popping", "what jumps from frame to frame and should not: mean over the last frames"},
     {"popping_max", "the largest of these jumps"},
+    {"popping_small", "popping where the smaller primitives show"},
+    {"popping_large", "popping where the larger primitives show"},
+    {"popping_small_part", "what the pixels of the smaller primitives add to popping, as a root of squares"},
+    {"popping_large_part", "what the pixels of the larger primitives add to popping"},
 }};
 
 }  // namespace
@@ -85,8 +90,15 @@ std::vector<std::pair<std::string, double>> summaryOf(const Judgement& judgement
         identical += moment.identical.value_or(false) ? 1 : 0;
     }
     if (moments > 0) cells.emplace_back("identical", identical == moments ? 1 : 0);
-    if (judgement.popping) cells.emplace_back("popping", *judgement.popping);
-    if (judgement.poppingMax) cells.emplace_back("popping_max", *judgement.poppingMax);
+    const auto add = [&](std::string_view column, const std::optional<double>& value) {
+        if (value) cells.emplace_back(column, *value);
+    };
+    add("popping", judgement.popping);
+    add("popping_max", judgement.poppingMax);
+    add("popping_small", judgement.poppingBySize.small);
+    add("popping_large", judgement.poppingBySize.large);
+    add("popping_small_part", judgement.poppingBySize.smallPart);
+    add("popping_large_part", judgement.poppingBySize.largePart);
     return cells;
 }
 

@@ -16,6 +16,7 @@ namespace dustbench::bench {
 struct Judgement {
     std::vector<MomentMetrics> frames;  ///< judged moments, and frames of the popping stretch, which have only popping
     std::optional<double> popping, poppingMax;
+    PoppingBySize poppingBySize{};
 };
 
 /// `frame,time_s,` and every metric.

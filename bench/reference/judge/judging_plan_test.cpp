@@ -73,7 +73,7 @@ TEST(Judgement, LeavesCellsEmptyWhereNothingIsDefined) {
     judgement.frames[0].timeSeconds = 0.5;
     judgement.frames[0].popping = 0.25;
     const std::string text = metricsCsv(judgement);
-    EXPECT_EQ(text.substr(text.find('\n') + 1), "7,0.5,,,,,,,,,,,,,,,,,,,,,0.25\n");
+    EXPECT_EQ(text.substr(text.find('\n') + 1), "7,0.5,,,,,,,,,,,,,,,,,,,,,,0.25\n");
 }
 
 }  // namespace

@@ -99,6 +99,7 @@ JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, con
         metrics.psnrContinuumDb =
             pictureError(preparePicture(overScene(exact.continuum, drawn.scene), "the continuum"), picture).psnrDb;
     metrics.gaps = gaps(alpha, continuum).value;
+    metrics.spill = spill(alpha, continuum).value;
     const TrailParts parts = components(alpha, continuum);
     metrics.components = asNumber(parts.parts);
     metrics.componentsReference = asNumber(parts.referenceParts);
@@ -113,19 +114,31 @@ JudgedMoment judgeMoment(const DrawnMoment& drawn, const ExactMoment& exact, con
     return judged;
 }
 
-std::optional<double> PoppingJudge::add(const DrawnMoment& drawn, const ExactMoment& exact) {
+std::optional<double> PoppingJudge::add(const DrawnMoment& drawn, const ExactMoment& exact,
+                                        std::span<const SizedPrimitive> primitives) {
     Kept now{preparePicture(overScene(drawn.layer, drawn.scene), "the method's picture"),
              preparePicture(overScene(exact.layer, drawn.scene), "the reference"),
-             alphaOf(drawn.layer, "the method's layer"), alphaOf(exact.layer, "the reference's layer")};
+             alphaOf(drawn.layer, "the method's layer"), alphaOf(exact.layer, "the reference's layer"),
+             largeAmong(primitives, drawn.layer.width, drawn.layer.height)};
     std::optional<double> value;
     if (before_) {
-        value = popping({before_->image, before_->reference, before_->alpha, before_->referenceAlpha},
-                        {now.image, now.reference, now.alpha, now.referenceAlpha})
-                    .value;
+        const DustFrame then{before_->image, before_->reference, before_->alpha, before_->referenceAlpha};
+        const DustFrame here{now.image, now.reference, now.alpha, now.referenceAlpha};
+        value = popping(then, here).value;
         summary_.add(value);
+        PoppingBySize bySize;
+        if (before_->depths && now.depths) bySize = poppingBySize(then, here, *before_->depths, *now.depths);
+        small_.add(bySize.small);
+        large_.add(bySize.large);
+        smallPart_.add(bySize.smallPart);
+        largePart_.add(bySize.largePart);
     }
     before_ = std::move(now);
     return value;
+}
+
+PoppingBySize PoppingJudge::bySize() const {
+    return {small_.mean(), large_.mean(), smallPart_.mean(), largePart_.mean()};
 }
 
 }  // namespace dustbench::bench

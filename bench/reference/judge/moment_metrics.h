@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "bench/measure/image/popping.h"
+#include "bench/measure/image/popping_sizes.h"
 #include "bench/reference/judge/moment_pictures.h"
 
 namespace dustbench::bench {
@@ -19,8 +21,8 @@ struct MomentMetrics {
     std::optional<double> psnrMaskDb, ssimMask, rmseLinearMask, errorMax, banding;  ///< within the mask, as flipMask
     std::optional<bool> identical;
     std::optional<double> popping;  ///< from the frame before
-    std::optional<double> gaps, components, componentsReference, cutoff, selfSimilarity, quadsPerPixel, volumeError,
-        volumePicture;
+    std::optional<double> gaps, spill, components, componentsReference, cutoff, selfSimilarity, quadsPerPixel,
+        volumeError, volumePicture;
 };
 
 /// Data for judging a moment other than its pictures.
@@ -47,17 +49,21 @@ struct JudgedMoment {
 /// Computes popping over consecutive frames.
 class PoppingJudge {
  public:
-    /// Adds the next frame of the stretch; empty for the first.
-    std::optional<double> add(const DrawnMoment& drawn, const ExactMoment& exact);
+    /// Adds the next frame of the stretch; empty for the first. `primitives`: what the method draws.
+    std::optional<double> add(const DrawnMoment& drawn, const ExactMoment& exact,
+                              std::span<const SizedPrimitive> primitives = {});
     [[nodiscard]] const PoppingSummary& summary() const { return summary_; }
+    /// Means over the pairs, as of `summary`.
+    [[nodiscard]] PoppingBySize bySize() const;
 
  private:
     struct Kept {
         Picture image, reference;
         Plane alpha, referenceAlpha;
+        std::optional<SizeDepths> depths;
     };
     std::optional<Kept> before_;
-    PoppingSummary summary_;
+    PoppingSummary summary_, small_, large_, smallPart_, largePart_;
 };
 
 }  // namespace dustbench::bench

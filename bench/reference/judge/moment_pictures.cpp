@@ -1,5 +1,7 @@
 #include "bench/reference/judge/moment_pictures.h"
 
+#include <cmath>
+
 #include "bench/reference/camera_rays.h"
 #include "bench/reference/cloud_march.h"
 #include "methods/contract/volume.h"
@@ -32,23 +34,34 @@ ExactMoment exactMoment(const scene::Scene& scene, const scene::View& view, cons
     return exact;
 }
 
-std::vector<ScreenPrimitive> primitivesOnScreen(const CollectedVolume& volume, const scene::View& view) {
+std::vector<SizedPrimitive> sizedPrimitivesOnScreen(const CollectedVolume& volume, const scene::View& view) {
     const CameraRays rays(view);
     const double pixelsPerSlope = rays.pixelX(1) - rays.pixelX(0);
-    std::vector<ScreenPrimitive> primitives;
-    const auto add = [&](const glm::dvec3& centre, double radiusMetres) {
+    std::vector<SizedPrimitive> primitives;
+    const auto add = [&](const glm::dvec3& centre, double radiusMetres, double sizeMetres, double opticalDepth) {
         const glm::dvec3 place = rays.fromWorld(centre);
         if (place.z <= view.camera.nearMetres) return;
         primitives.push_back(
-            {rays.pixelX(place.x / place.z), rays.pixelY(place.y / place.z), radiusMetres / place.z * pixelsPerSlope});
+            {{rays.pixelX(place.x / place.z), rays.pixelY(place.y / place.z), radiusMetres / place.z * pixelsPerSlope},
+             sizeMetres,
+             opticalDepth});
     };
-    for (const CollectedPuff& puff : volume.puffs())
-        add(glm::dvec3(puff.centre), static_cast<double>(puff.radiusMetres));
+    for (const CollectedPuff& puff : volume.puffs()) {
+        const auto radius = static_cast<double>(puff.radiusMetres);
+        add(glm::dvec3(puff.centre), radius, radius, -std::log1p(-static_cast<double>(puff.opacity)));
+    }
     for (const CollectedOctree& octree : volume.octrees())
         for (const OctreeVoxel& voxel : octree.voxels) {
             const double edge = octree.cellEdgeMetres(voxel.level);
-            add(octree.minimumCorner(voxel) + 0.5 * edge, edge / static_cast<double>(octree::edgePerRadius));
+            add(octree.minimumCorner(voxel) + 0.5 * edge, edge / static_cast<double>(octree::edgePerRadius), edge,
+                static_cast<double>(voxel.extinctionPerMetre) * edge);
         }
+    return primitives;
+}
+
+std::vector<ScreenPrimitive> primitivesOnScreen(const CollectedVolume& volume, const scene::View& view) {
+    std::vector<ScreenPrimitive> primitives;
+    for (const SizedPrimitive& each : sizedPrimitivesOnScreen(volume, view)) primitives.push_back(each.place);
     return primitives;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/export/collected_volume.h"
+#include "bench/measure/image/popping_sizes.h"
 #include "bench/measure/image/screen_primitive.h"
 #include "bench/reference/particle_image.h"
 #include "methods/contract/scene.h"
@@ -41,6 +42,9 @@ inline constexpr std::int64_t continuumParticles = 64;
 [[nodiscard]] ExactMoment exactMoment(const scene::Scene& scene, const scene::View& view, const DrawnMoment& drawn,
                                       const Puffs& dust, bool withDetail, const std::optional<Puffs>& continuum);
 
+/// The same with their sizes in metres, a voxel's edge or a puff's radius, and optical depths.
+[[nodiscard]] std::vector<SizedPrimitive> sizedPrimitivesOnScreen(const CollectedVolume& volume,
+                                                                  const scene::View& view);
 /// Screen positions of puffs, or of voxels as puffs of equal optical depth (edge = 1.2533 r). Primitives behind the eye
 /// are omitted.
 [[nodiscard]] std::vector<ScreenPrimitive> primitivesOnScreen(const CollectedVolume& volume, const scene::View& view);

@@ -1,0 +1,47 @@
+// Popping of small and of large primitives apart, within one picture: whether large voxels pop more than small ones,
+// and whose jumps fill more of the picture.
+//
+// A primitive is large if it is larger, in metres, than the geometric mean of the smallest and the largest one. A pixel
+// belongs to the side whose primitives have more optical depth there in the two frames together; a primitive counts
+// with depth·exp(−2b²/r²) within 1.5 r, the extent of a drawn quad, whether the scene hides it or not.
+//
+//     small, large            popping over the pixels of that side alone: how much they jump
+//     small_part, large_part  √(Σ jump² over the side's pixels / number of all pixels with dust): what the side adds to
+//                             popping. What is far away covers few pixels, so this is weighted by distance.
+//                             small_part² + large_part² = popping², but for dust that no primitive reaches
+//
+// Units: display-encoded values; range 0..2. Threads: pure.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "bench/measure/image/popping.h"
+#include "bench/measure/image/screen_primitive.h"
+
+namespace dustbench::bench {
+
+struct SizedPrimitive {
+    ScreenPrimitive place;
+    double sizeMetres = 0;
+    double opticalDepth = 0;  ///< through its middle
+};
+
+/// Optical depth of small and of large primitives at each pixel.
+struct SizeDepths {
+    Plane small, large;
+};
+
+/// Empty if all primitives have the same size within 1 %, or there are none.
+[[nodiscard]] std::optional<SizeDepths> largeAmong(std::span<const SizedPrimitive> primitives, int width, int height);
+
+/// Empty for a side that has no pixel with dust.
+struct PoppingBySize {
+    std::optional<double> small, large, smallPart, largePart;
+};
+
+/// Throws InputError if the sizes of the pictures differ.
+[[nodiscard]] PoppingBySize poppingBySize(const DustFrame& before, const DustFrame& now, const SizeDepths& depthsBefore,
+                                          const SizeDepths& depthsNow);
+
+}  // namespace dustbench::bench
