@@ -1,0 +1,103 @@
+// Every delivered shape and particle system is in the picture: particles lie within the view of the camera that a user
+// sees it by, and cover pixels of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "bench/claims/lent_context.h"
+#include "methods/contract/registry.h"
+#include "methods/kit/draw/test_canvas.h"
+#include "methods/kit/files/data_folder.h"
+
+namespace dustbench {
+namespace {
+
+constexpr int width = 160, height = 120;
+
+/// Where a preset is looked at: the scene and camera that its file names, or what a run has by default.
+struct Place {
+    const char *scene = "plain", *camera = "chase";
+};
+
+/// Counts the puffs whose middles lie in the picture.
+class InView final : public VolumeVisitor {
+ public:
+    explicit InView(const scene::View& view) : toClip_(view.worldToClip()) {}
+
+    void puffs(const Puffs& puffs) override {
+        all += puffs.size();
+        for (std::size_t i = 0; i < puffs.size(); ++i) {
+            const glm::vec4 clip = toClip_ * glm::vec4(puffs.position(i), 1);
+            seen += clip.w > 0 && std::abs(clip.x) < clip.w && std::abs(clip.y) < clip.w ? 1 : 0;
+        }
+    }
+    void octree(const OctreeVolume&) override {}
+    void grid(const GridVolume&) override {}
+
+    std::size_t all = 0, seen = 0;
+
+ private:
+    glm::mat4 toClip_;
+};
+
+/// `leastShare`: of the particles that are in the picture.
+void expectInView(const char* method, const char* parameter, const std::string& preset, const Place& place,
+                  double seconds, double leastShare) {
+    SCOPED_TRACE(std::string(method) + ' ' + preset + " in " + place.scene);
+    bench::LentContext context(1);
+    const auto world =
+        context.world(place.scene, {{"preroll", "0"}, {"particles", "0"}, {"camera", place.camera}}, width, height);
+    const MethodInfo& info = findMethod(method);
+    ParameterValues values(info.parameters);
+    values.set(parameter, preset);
+    const std::unique_ptr<Method> shown = info.create(values);
+    draw::TestCanvas canvas(width, height, {0, 0, 0}, {1, 0, 0});
+    shown->prepare(world->scene(), world->setup(), draw::TestCanvas::device());
+    const int steps = static_cast<int>(60 * seconds);
+    for (int step = 1; step < steps; ++step) shown->update(world->step());
+    const Frame last = world->step();
+    shown->update(last);
+    EXPECT_GT(shown->primitives(), 0);
+    InView counted(last.view);
+    shown->volume(last, counted);
+    EXPECT_GT(counted.all, 0u);
+    EXPECT_GE(static_cast<double>(counted.seen), leastShare * static_cast<double>(counted.all))
+        << counted.seen << " of " << counted.all;
+    canvas.view = last.view;
+    const pictures::Image layer = canvas.picture([&](gpu::Layer& target) { shown->draw(last, target); });
+    const auto covered = std::ranges::count_if(layer.pixels, [](const glm::vec4& p) {
+        return std::max({p.r, p.g, p.b, p.a}) > 1.0f / 255;
+    });
+    testing::Test::RecordProperty(preset + "_pixels", std::to_string(covered));
+    EXPECT_GT(covered, width * height / 400);
+}
+
+TEST(PresetsInView, OfEveryShape) {
+    const std::vector<std::string> names = files::listData("shapes", ".toml");
+    EXPECT_GE(names.size(), 16u);
+    for (const std::string& name : names) expectInView("voxel_shape", "shape", name, {}, 2, 0.9);
+}
+
+TEST(PresetsInView, OfEveryParticleSystem) {
+    // Systems that stand somewhere name their scene in their files; the others are what wheels raise.
+    const Place dusk{"dusk", "fixed"};
+    const std::map<std::string, Place> others{{"carr_dust", {}},
+                                              {"wheel_dust", {}},
+                                              {"wheel_dust_mixed", {"two_soils", "chase"}},
+                                              {"snow", {"snowfall", "fixed"}},
+                                              {"torch", {"cascade", "fixed"}},
+                                              {"waterfall", {"cascade", "fixed"}}};
+    const std::vector<std::string> names = files::listData("particles", ".toml");
+    EXPECT_GE(names.size(), 19u);
+    for (const std::string& name : names) {
+        const auto found = others.find(name);
+        expectInView("plugin_particles", "system", name, found == others.end() ? dusk : found->second, 4, 0.2);
+        if (name.starts_with("thesis_")) expectInView("plugin_particles", "system", name, {"void", "fixed"}, 4, 0.2);
+    }
+}
+
+}  // namespace
+}  // namespace dustbench
