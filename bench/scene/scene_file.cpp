@@ -141,6 +141,7 @@ SceneFile readScene(const std::filesystem::path& file) {
     result.description = root.text("description");
     result.drive = files::fromFile(file, root.text("drive", "straight"), ".csv");
     result.dust = files::fromFile(file, root.text("dust", "wheel_dust"), ".toml");
+    result.isDrawn = root.boolean("drawn", true);
     readTable(root, "terrain", [&](TomlReader& table) { readTerrain(table, folder, result); });
     readTable(root, "start", [&](TomlReader& table) {
         result.start.x = table.number("x", -furthestMetres, furthestMetres, 0);

@@ -21,14 +21,18 @@ struct Start {
     double heading = 0;
 };
 
+/// What a scene file calls the dust of wheels that raise none.
+inline constexpr const char* noDust = "none";
+
 struct SceneFile {
     scene::Scene scene;
     MovingSolids movingSolids;
     CameraSet cameras;
     Start start;
+    bool isDrawn = true;  ///< false: only what the method draws is seen, on the horizon's colour
     std::string description;
     std::string drive;                         ///< id of the default drive
-    std::string dust;                          ///< id of the particle system for the wheels
+    std::string dust;                          ///< id of the particle system for the wheels, or noDust
     std::vector<std::filesystem::path> files;  ///< this file and all files that it references
 };
 

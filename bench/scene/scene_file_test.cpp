@@ -106,6 +106,7 @@ TEST(SceneFile, ManualShowsTheDefaults) {
     EXPECT_EQ(bare.scene.dustAlbedo, manual.scene.dustAlbedo);
     EXPECT_EQ(bare.drive, manual.drive);
     EXPECT_EQ(bare.dust, manual.dust);
+    EXPECT_EQ(bare.isDrawn, manual.isDrawn);
 }
 
 TEST(SceneFile, SunStandsWhereItsAnglesSay) {

@@ -115,7 +115,8 @@ struct World::State {
     std::uint64_t seed;
     std::int64_t fixedCount;
     std::int64_t particlesPerPuff;
-    particles::ParticleSystem dust;
+    bool raisesDust;
+    particles::ParticleSystem dust;  ///< stays empty if the wheels raise none
     std::unique_ptr<ControlSource> source;
     std::int64_t prerollSteps = 0;
     std::int64_t stepIndex = 0;  ///< of the next step; 0 is the first of the drive
@@ -160,14 +161,17 @@ World::World(const std::string& sceneId, std::unique_ptr<ControlSource> source, 
 void World::begin(SceneFile file, const std::string& drive, std::unique_ptr<ControlSource> source,
                   const ParameterValues& parameters, std::uint64_t seed, std::int64_t particlesPerPuff) {
     if (particlesPerPuff < 1) throw std::invalid_argument("World: at least 1 particle is born for each puff");
-    const auto dustFile = files::findData("particle system", "particles", file.dust, ".toml");
-    file.files.push_back(dustFile);
+    const bool raisesDust = file.dust != noDust;
+    const auto dustFile =
+        files::findData("particle system", "particles", raisesDust ? file.dust : "wheel_dust", ".toml");
+    if (raisesDust) file.files.push_back(dustFile);
     state_ = std::make_unique<State>(State{.file = std::move(file),
                                            .driveId = drive,
                                            .camera = parameters.choice("camera", cameraKinds),
                                            .seed = seed,
                                            .fixedCount = parameters.integer("particles"),
                                            .particlesPerPuff = particlesPerPuff,
+                                           .raisesDust = raisesDust,
                                            .dust = particles::ParticleSystem::load(dustFile, seed),
                                            .source = std::move(source)});
     State& s = *state_;
@@ -213,6 +217,9 @@ const Controls& World::controls() const {
 }
 double World::driveSeconds() const {
     return state_->source->seconds();
+}
+bool World::isSceneDrawn() const {
+    return state_->file.isDrawn;
 }
 const std::string& World::driveId() const {
     return state_->driveId;
@@ -282,7 +289,7 @@ void World::simulate() {
     s.lag = s.lag.followed(s.now.vehicle, s.file.cameras.chase.smoothingSeconds, stepSeconds);
     if (s.given)
         s.given->showAfter(s.stepIndex + s.prerollSteps);
-    else
+    else if (s.raisesDust)
         s.dust.update({s.file.scene, s.now, stepSeconds, s.fixedCount, s.particlesPerPuff});
     s.lit.reset();
 }

@@ -73,6 +73,8 @@ class World {
     /// Length of the drive; after it the last row holds.
     [[nodiscard]] double driveSeconds() const;
     [[nodiscard]] const std::string& driveId() const;
+    /// False: nothing of the scene is seen.
+    [[nodiscard]] bool isSceneDrawn() const;
 
     /// Gets the controls of the next step (stage `input`).
     void readInput();

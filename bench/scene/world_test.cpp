@@ -148,6 +148,16 @@ TEST(World, RaisesManyParticlesInThePlaceOfEachForTheContinuum) {
     EXPECT_THROW(World("plain", "", with({}), 3, 0), std::invalid_argument);
 }
 
+TEST(World, RaisesNoDustWhereTheSceneSaysNone) {
+    for (const char* particles : {"0", "300"}) {
+        World world("void", "", with({{"particles", particles}}), 3);
+        run(world, world.prerollSteps() + 30);
+        EXPECT_EQ(world.dust().size(), 0u);
+        EXPECT_EQ(world.setup().particles, std::stoi(particles));  // the method's own
+        EXPECT_GT(world.state().vehicle.speed, 1);
+    }
+}
+
 TEST(World, RaisesMoreDustTheFasterItDrives) {
     std::size_t before = 0;
     for (const char* speed : {"5", "15", "30"}) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes shapes/flow/whirl_*.vti, the flow of whirl.toml: a whirlwind whose axis sways, as VTK image data with cell data
-`velocity` (m/s) in the world's frame. Standard library only; the same content every time."""
+`velocity` (m/s) in the shape's frame. Standard library only; the same content every time."""
 
 import base64
 import math
@@ -9,7 +9,7 @@ import struct
 
 CELLS = (12, 14, 12)
 EDGE = 0.4  # m
-ORIGIN = (20.6, 0.0, -8.4)  # its middle is (23, 0, -6)
+ORIGIN = (-2.4, 0.0, -2.4)  # its middle stands on the shape's origin
 TIMES = (0.0, 1.0, 2.0, 3.0)
 CORE = 0.7  # m: radius at which the wind is strongest
 TURN = 2.6  # m/s there
@@ -20,7 +20,7 @@ SWAY = 0.5  # m
 def velocity(x, y, z, t):
     """A Rankine-like vortex about an axis that sways, with a rising core and a weak draught inwards."""
     phase = math.pi / 3 * 2 * t + 0.8 * y
-    dx, dz = x - 23.0 - SWAY * y / 3 * math.cos(phase), z + 6.0 - SWAY * y / 3 * math.sin(phase)
+    dx, dz = x - SWAY * y / 3 * math.cos(phase), z - SWAY * y / 3 * math.sin(phase)
     r2 = (dx * dx + dz * dz) / CORE**2
     turn = 2 * TURN / CORE / (1 + r2)
     inwards = 0.15 * turn

@@ -118,27 +118,33 @@ def helicopter():
 
 
 def figure():
-    """A round-headed guard with a plumed helmet, arms raised a little."""
-    green, gold, red, white, black, skin = (52, 150, 72), (226, 178, 60), (206, 48, 40), (245, 245, 240), (30, 30, 34), (38, 38, 44)
+    """Our own character: a lamplighter, a small bearded man with a bent pointed hat, who holds a lantern on a crook."""
+    teal, rust, cream, brown, yellow = (34, 128, 138), (196, 78, 40), (244, 232, 208), (84, 56, 36), (250, 208, 66)
     m = Model()
-    m.ellipsoid((0, 1.45, 0), (0.36, 0.38, 0.38), skin)                          # head
-    m.ellipsoid((0, 1.62, 0), (0.42, 0.28, 0.44), green)                         # helmet
-    m.tube([(0, 1.54, 0), (0, 1.6, 0)], [0.56, 0.5], gold, width=24)      # its brim
-    for k in range(9):                                                           # plume, a brush from front to back
-        a = -0.9 + 1.8 * k / 8
-        m.box((math.sin(a) * 0.42 - 0.05, 1.62 + math.cos(a) * 0.26, -0.05),
-              (math.sin(a) * 0.5 + 0.05, 1.7 + math.cos(a) * 0.5, 0.05), gold)
     for side in (-1, 1):
-        m.ellipsoid((0.31, 1.42, side * 0.16), (0.08, 0.11, 0.1), white)         # eyes
-        m.ellipsoid((0.375, 1.42, side * 0.15), (0.03, 0.05, 0.04), black, rings=8, width=12)
-        m.tube([(0, 1.02, side * 0.2), (0.05, 0.98, side * 0.45), (0.14, 0.82, side * 0.62)], [0.1, 0.09, 0.08], red)
-        m.ellipsoid((0.17, 0.75, side * 0.66), (0.12, 0.12, 0.12), white)        # gloves
-        m.tube([(0, 0.5, side * 0.14), (0, 0.16, side * 0.17)], [0.11, 0.1], red)
-        m.ellipsoid((0.1, 0.09, side * 0.18), (0.26, 0.1, 0.13), white)          # shoes
-    m.tube([(0, 0.38, 0), (0, 0.6, 0), (0, 0.9, 0), (0, 1.12, 0)], [0.4, 0.3, 0.25, 0.2],
-           lambda share: green if share < 0.4 else red, width=20)                # skirt and coat
-    m.tube([(0, 0.58, 0), (0, 0.66, 0)], [0.31, 0.3], gold, width=20)            # belt
-    m.write("figure.ply", "our own: a figure of simple parts")
+        m.ellipsoid((0.1, 0.1, side * 0.2), (0.27, 0.1, 0.13), brown)            # boots
+        m.tube([(0, 0.1, side * 0.19), (0, 0.66, side * 0.15)], [0.12, 0.14], teal)
+    m.tube([(0, 0.5, 0), (0, 0.76, 0), (0, 1.05, 0), (0, 1.28, 0)], [0.52, 0.44, 0.35, 0.25], rust, width=20)  # coat
+    m.tube([(0, 0.74, 0), (0, 0.84, 0)], [0.465, 0.435], brown, width=20)        # belt
+    m.ellipsoid((0.45, 0.79, 0), (0.05, 0.08, 0.1), yellow, rings=8, width=12)  # its buckle
+    m.ellipsoid((0, 1.46, 0), (0.31, 0.3, 0.31), cream)                         # head
+    m.ellipsoid((0.33, 1.46, 0), (0.1, 0.08, 0.08), rust, rings=8, width=12)     # nose
+    for side in (-1, 1):
+        m.ellipsoid((0.27, 1.55, side * 0.13), (0.05, 0.06, 0.05), brown, rings=8, width=12)  # eyes
+    m.tube([(0.12, 1.4, 0), (0.27, 1.22, 0), (0.38, 1.02, 0), (0.44, 0.9, 0)], [0.29, 0.24, 0.14, 0.04], cream)  # beard
+    m.tube([(0, 1.62, 0), (0, 1.69, 0)], [0.5, 0.42], brown, width=24)          # brim
+    m.tube([(0, 1.66, 0), (-0.04, 1.9, 0), (-0.16, 2.12, 0), (-0.36, 2.26, 0), (-0.54, 2.22, 0)],
+           [0.38, 0.29, 0.2, 0.14, 0.07], teal, width=18)                       # hat
+    m.tube([(0, 1.18, 0.16), (0.1, 1.05, 0.44), (0.3, 1.2, 0.62)], [0.13, 0.12, 0.1], rust)      # the arm that holds
+    m.tube([(0, 1.18, -0.16), (0.02, 0.95, -0.42), (0.1, 0.72, -0.5)], [0.13, 0.12, 0.1], rust)  # the arm that hangs
+    m.ellipsoid((0.34, 1.23, 0.66), (0.11, 0.11, 0.11), cream)
+    m.ellipsoid((0.11, 0.66, -0.5), (0.1, 0.11, 0.1), cream)
+    m.tube([(0.36, 0.02, 0.68), (0.36, 2.0, 0.68), (0.44, 2.2, 0.68), (0.62, 2.24, 0.68), (0.72, 2.1, 0.68)],
+           [0.07] * 5, brown)                                                    # crook
+    m.tube([(0.72, 2.02, 0.68), (0.72, 2.1, 0.68)], [0.18, 0.08], brown)         # lantern
+    m.ellipsoid((0.72, 1.87, 0.68), (0.18, 0.2, 0.18), yellow)
+    m.tube([(0.72, 1.63, 0.68), (0.72, 1.7, 0.68)], [0.15, 0.15], brown)
+    m.write("figure.ply", "our own: a lamplighter of simple parts")
 
 
 def hare():

@@ -61,8 +61,13 @@ void LivingShape::step(const Frame& frame) {
     if (field_) {
         const auto timing = frame.clock.measureDetail("flow");
         const double since = shape_.flow.fromSeconds ? *shape_.flow.fromSeconds - field_->firstSeconds() : 0;
-        drawAlong(system_->particles().store, *field_, frame.state.timeSeconds - since,
-                  1 - std::exp(-shape_.flow.drawsPerSecond * seconds));
+        const double time = frame.state.timeSeconds - since;
+        const float share = 1 - std::exp(-shape_.flow.drawsPerSecond * seconds);
+        particles::ParticleStore& store = system_->particles().store;
+        if (shape_.flow.followsShape)
+            drawAlong(store, *field_, pose, time, share);
+        else
+            drawAlong(store, *field_, time, share);
     }
 }
 

@@ -70,6 +70,7 @@ struct Look {
 struct FlowField {
     std::vector<std::filesystem::path> files;  ///< empty: none
     std::string field = "velocity";
+    bool followsShape = false;          ///< in the shape's frame, with which it moves; else in the world's
     float drawsPerSecond = 4;           ///< rate at which particles take on its velocity
     std::optional<double> fromSeconds;  ///< simulated time at which the series begins; empty: the time in its files
 };

@@ -75,6 +75,23 @@ class Documents(unittest.TestCase):
                 with self.subTest(source=str(source.relative_to(ROOT))):
                     self.assertIn(name, names)
 
+    def test_the_tables_of_papers_name_entries_and_tests_that_exist_and_every_entry(self):
+        tests = {f"{suite}.{name}" for source in tracked("*_test.cpp")
+                 for suite, name in re.findall(r"(?m)^TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)", source.read_text())}
+        claims = {folder.name: set(re.findall(r'(?m)^id = "(\w+)"', (folder / "claims.toml").read_text()))
+                  for folder in (ROOT / "data" / "papers").iterdir() if (folder / "claims.toml").exists()}
+        for paper, ids in claims.items():
+            table = ROOT / "data" / "papers" / paper / "README.md"
+            if not table.exists():
+                continue
+            text = table.read_text()
+            with self.subTest(paper=paper):
+                named = set(re.findall(r"`([A-Z]\w+\.[A-Z]\w+)`", text))
+                self.assertEqual(named - tests, set(), "no such test")
+                self.assertEqual(ids - set(re.findall(r"\b[A-Z]\d+[a-z]?\b", text)), set(), "entries without a sentence")
+                mentioned = set(re.findall(r"\b[RP]\d+[a-z]\b", text))
+                self.assertEqual(mentioned - set().union(*claims.values()), set(), "no such entry")
+
     def test_the_readme_is_short(self):
         self.assertLessEqual(len((ROOT / "README.md").read_text().splitlines()), 150)
 

@@ -86,10 +86,24 @@ glm::vec4 with(const glm::vec3& colour, float fourth = 0) {
 
 }  // namespace
 
-struct OpaqueScene::State {
-    State(const scene::Scene& shown, gpu::Device& device, int width, int height, ScenePanels panelsShown);
+struct OpaqueScene::Targets {
+    Targets(gpu::Device& usedBy, int width, int height) : device(usedBy) { resize(width, height); }
 
-    void resize(int width, int height);
+    void resize(int width, int height) {
+        colour = gpu::Texture::make2D(device, "scene colour", gpu::Format::rgba16F, width, height);
+        depth = gpu::Texture::make2D(device, "scene depth", gpu::Format::depth32F, width, height);
+        target = gpu::Framebuffer(device, "scene", &colour, &depth);
+    }
+
+    gpu::Device& device;
+    gpu::Texture colour;
+    gpu::Texture depth;
+    gpu::Framebuffer target;
+};
+
+struct OpaqueScene::State {
+    State(const scene::Scene& shown, gpu::Device& device, ScenePanels panelsShown);
+
     void aimVehicleShadow(const glm::dvec3& eye, const scene::VehiclePoses& poses,
                           const scene::VehicleState& vehicleToEye);
     void aimSolidShadow(const glm::dvec3& eye);
@@ -102,9 +116,6 @@ struct OpaqueScene::State {
 
     const scene::Scene& scene;
     gpu::Device& device;
-    gpu::Texture colour;
-    gpu::Texture depth;
-    gpu::Framebuffer target;
 
     GroundPass ground;
     PanelPass panels;
@@ -128,8 +139,7 @@ struct OpaqueScene::State {
     std::vector<GroundRectangle> footprints;
 };
 
-OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& drawnBy, int width, int height,
-                          ScenePanels panelsShown)
+OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& drawnBy, ScenePanels panelsShown)
     : scene(shown),
       device(drawnBy),
       ground(device, shown),
@@ -142,7 +152,6 @@ OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& drawnBy, int w
                  {draw_shaders::opaque_moment_glsl, draw_shaders::opaque_sky_vert, draw_shaders::opaque_sky_frag}),
       noVertices(device),
       momentBlock(device, "scene moment", sizeof(OpaqueMoment)) {
-    resize(width, height);
     const glm::vec3 toSun = scene.lights.toSun;
     if (scene.lights.onDust) dustShadow.emplace(device, toSun);
     if (scene.vehicle) {
@@ -155,12 +164,6 @@ OpaqueScene::State::State(const scene::Scene& shown, gpu::Device& drawnBy, int w
     }
     if (!solids.all().empty())
         solidShadow.emplace(device, "solid shadow", solidShadowTexels, solidShadowReachMetres, toSun);
-}
-
-void OpaqueScene::State::resize(int width, int height) {
-    colour = gpu::Texture::make2D(device, "scene colour", gpu::Format::rgba16F, width, height);
-    depth = gpu::Texture::make2D(device, "scene depth", gpu::Format::depth32F, width, height);
-    target = gpu::Framebuffer(device, "scene", &colour, &depth);
 }
 
 void OpaqueScene::State::aimSolidShadow(const glm::dvec3& eye) {
@@ -283,7 +286,13 @@ void OpaqueScene::State::drawPanels(SolidPrograms& drawn, const glm::dvec3& eye,
 }
 
 OpaqueScene::OpaqueScene(const scene::Scene& scene, gpu::Device& device, int width, int height, ScenePanels panels)
-    : state_(std::make_unique<State>(scene, device, width, height, panels)) {}
+    : OpaqueScene(scene, device, width, height, panels, Scenery::drawn) {}
+
+OpaqueScene::OpaqueScene(const scene::Scene& scene, gpu::Device& device, int width, int height, ScenePanels panels,
+                         Scenery scenery)
+    : targets_(std::make_unique<Targets>(device, width, height)), background_(scene.lights.skyHorizon) {
+    if (scenery == Scenery::drawn) state_ = std::make_unique<State>(scene, device, panels);
+}
 
 OpaqueScene::~OpaqueScene() = default;
 
@@ -293,6 +302,12 @@ void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view,
         throw std::invalid_argument("OpaqueScene: more lamps than " + std::to_string(maximumLamps));
     if (view.width != colour().width() || view.height != colour().height())
         throw std::invalid_argument("OpaqueScene: the view's size is not the one given at construction");
+    if (!state_) {
+        targets_->target.bind();
+        targets_->target.clearColour(background_.r, background_.g, background_.b, 1);
+        targets_->target.clearDepth();
+        return;
+    }
     State& own = *state_;
     const glm::dvec3& eye = view.camera.eye;
     const scene::VehicleState vehicleToEye = relativeTo(state.vehicle, eye);
@@ -309,8 +324,8 @@ void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view,
     SolidPrograms& programs = lamps.empty() ? own.programs : *own.programsWithLamps;
     own.findFootprints(eye, poses);
 
-    own.target.bind();
-    own.target.clearDepth();  // ground and sky cover every pixel: the colour needs no clearing
+    targets_->target.bind();
+    targets_->target.clearDepth();  // ground and sky cover every pixel: the colour needs no clearing
     if (own.vehicleShadow) own.vehicleShadow->depth().bind(2);
     if (own.solidShadow) own.solidShadow->depth().bind(3);
     if (own.dustShadow) own.dustShadow->columns().bind(5);
@@ -323,15 +338,15 @@ void OpaqueScene::draw(const scene::SceneState& state, const scene::View& view,
 }
 
 void OpaqueScene::resize(int width, int height) {
-    state_->resize(width, height);
+    targets_->resize(width, height);
 }
 
 const gpu::Texture& OpaqueScene::colour() const {
-    return state_->colour;
+    return targets_->colour;
 }
 
 const gpu::Texture& OpaqueScene::depth() const {
-    return state_->depth;
+    return targets_->depth;
 }
 
 }  // namespace dustbench::draw

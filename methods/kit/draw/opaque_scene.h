@@ -1,4 +1,5 @@
-// Draws the opaque scene: sky and sun, textured ground, solids, panels, the vehicle with its wheels, and shadows.
+// Draws the opaque scene: sky and sun, textured ground, solids, panels, the vehicle with its wheels, and shadows. If
+// its scenery is hidden, it is the horizon's colour alone.
 //
 // Units: linear colour, scene metres. Depth: reversed, 32-bit float. Owns: its colour and depth targets.
 #pragma once
@@ -16,10 +17,15 @@ namespace dustbench::draw {
 /// How the scene's panels appear: flat, or not at all because a method draws them. They cast shadows either way.
 enum class ScenePanels { flat, hidden };
 
+/// Hidden: nothing of the scene is drawn, nor held for drawing. colour() is the horizon's, and depth() is far away.
+enum class Scenery { drawn, hidden };
+
 class DUSTBENCH_API OpaqueScene {
  public:
     OpaqueScene(const scene::Scene& scene, gpu::Device& device, int width, int height,
                 ScenePanels panels = ScenePanels::flat);
+    OpaqueScene(const scene::Scene& scene, gpu::Device& device, int width, int height, ScenePanels panels,
+                Scenery scenery);
     ~OpaqueScene();
     OpaqueScene(const OpaqueScene&) = delete;
     OpaqueScene& operator=(const OpaqueScene&) = delete;
@@ -37,8 +43,11 @@ class DUSTBENCH_API OpaqueScene {
     [[nodiscard]] const gpu::Texture& depth() const;   ///< Depth32F
 
  private:
+    struct Targets;
     struct State;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<Targets> targets_;
+    std::unique_ptr<State> state_;  ///< none if the scenery is hidden
+    glm::vec3 background_{0};       ///< in its place
 };
 
 }  // namespace dustbench::draw

@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "methods/kit/maths/bezier.h"
@@ -96,6 +97,26 @@ TEST(Bezier, EqualsTheBernsteinForm) {
         const float bernstein = s * s * s * 0.3f + 3 * s * s * t * -1.2f + 3 * s * t * t * 2.5f + t * t * t * 0.7f;
         EXPECT_NEAR(bezier(0.3f, -1.2f, 2.5f, 0.7f, t), bernstein, 1e-6f);
         EXPECT_NEAR(bezierPolynomial(0.3f, -1.2f, 2.5f, 0.7f)(t), bernstein, 2e-6f);
+    }
+}
+
+TEST(Bezier, OfAnyNumberOfPointsIsTheSumOfBernsteinPolynomials) {
+    const std::vector<float> all{0.3f, -1.2f, 2.5f, 0.7f, 4.0f, -3.0f, 0.1f, 1.9f};
+    for (std::size_t count = 1; count <= all.size(); ++count) {
+        const std::span<const float> points = std::span(all).first(count);
+        const std::vector<float> weights = bernsteinWeights(points);
+        for (int k = 0; k <= 40; ++k) {
+            const double t = k / 40.0;
+            double sum = 0;
+            for (std::size_t i = 0; i < count; ++i)
+                sum += std::tgamma(static_cast<double>(count)) / std::tgamma(static_cast<double>(i + 1)) /
+                       std::tgamma(static_cast<double>(count - i)) * std::pow(1 - t, count - 1 - i) * std::pow(t, i) *
+                       static_cast<double>(points[i]);
+            EXPECT_NEAR(bezier(points, static_cast<float>(t)), sum, 4e-6) << count << ' ' << t;
+            EXPECT_NEAR(bernsteinSum(weights, static_cast<float>(t)), sum, 8e-6) << count << ' ' << t;
+        }
+        EXPECT_EQ(bezier(points, 0.0f), points.front());
+        EXPECT_NEAR(bezier(points, 1.0f), points.back(), 5e-7);
     }
 }
 

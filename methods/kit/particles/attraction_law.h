@@ -15,12 +15,15 @@
 
 namespace dustbench::particles {
 
-enum class AttractionLaw { inverse, inverseSquare, inverseCube, inverseRoot, inverseLog, printedLog };
+enum class AttractionLaw { linear, inverse, inverseSquare, inverseCube, inverseRoot, inverseLog, printedLog };
 
-inline constexpr Choices<AttractionLaw> attractionLaws{
-    {"1/d", AttractionLaw::inverse},          {"1/d2", AttractionLaw::inverseSquare},
-    {"1/d3", AttractionLaw::inverseCube},     {"1/sqrt_d", AttractionLaw::inverseRoot},
-    {"1/log_1+d", AttractionLaw::inverseLog}, {"1/log_d", AttractionLaw::printedLog}};
+inline constexpr Choices<AttractionLaw> attractionLaws{{"d", AttractionLaw::linear},
+                                                       {"1/d", AttractionLaw::inverse},
+                                                       {"1/d2", AttractionLaw::inverseSquare},
+                                                       {"1/d3", AttractionLaw::inverseCube},
+                                                       {"1/sqrt_d", AttractionLaw::inverseRoot},
+                                                       {"1/log_1+d", AttractionLaw::inverseLog},
+                                                       {"1/log_d", AttractionLaw::printedLog}};
 
 inline constexpr const char* attractionLawHelp =
     "of the distance d, softened to √(d² + ε²); 1/log_1+d: the logarithm without its pole at 1 m; 1/log_d: as printed, "
@@ -29,6 +32,7 @@ inline constexpr const char* attractionLawHelp =
 /// Returns f(s)/s from s²; its product with r is the attraction.
 template <AttractionLaw law>
 [[nodiscard]] inline float pullPerMetre(float s2) {
+    if constexpr (law == AttractionLaw::linear) return 1.0f;
     if constexpr (law == AttractionLaw::inverse) return 1.0f / s2;
     if constexpr (law == AttractionLaw::inverseSquare) return 1.0f / (s2 * std::sqrt(s2));
     if constexpr (law == AttractionLaw::inverseCube) return 1.0f / (s2 * s2);
@@ -44,6 +48,8 @@ template <AttractionLaw law>
 template <typename Action>
 void withLaw(AttractionLaw law, const Action& action) {
     switch (law) {
+        case AttractionLaw::linear:
+            return action.template operator()<AttractionLaw::linear>();
         case AttractionLaw::inverse:
             return action.template operator()<AttractionLaw::inverse>();
         case AttractionLaw::inverseSquare:

@@ -193,7 +193,8 @@ TEST(Attractor, FollowsItsLawAndIsDefinedAtItsVeryPlace) {
         const char* law;
         double (*f)(double);
     };
-    const Case cases[] = {{"1/d", [](double d) { return 1 / d; }},
+    const Case cases[] = {{"d", [](double d) { return d; }},
+                          {"1/d", [](double d) { return 1 / d; }},
                           {"1/d2", [](double d) { return 1 / (d * d); }},
                           {"1/d3", [](double d) { return 1 / (d * d * d); }},
                           {"1/sqrt_d", [](double d) { return 1 / std::sqrt(d); }},

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "methods/kit/findings/findings.h"
+#include "methods/kit/findings/timing.h"
 #include "methods/kit/maths/bezier.h"
 #include "methods/kit/maths/philox.h"
 
@@ -60,6 +61,60 @@ double momentumOverImpulse(double mass, double force, const std::function<double
     return mass * velocity / (force * steps * stepSeconds);
 }
 
+/// The sum of Bernstein polynomials as it stands: Σ C(N, i)·(1 − t)^(N−i)·t^i·P_i.
+double bernsteinCurve(std::span<const float> controls, double t) {
+    const auto degree = static_cast<int>(controls.size()) - 1;
+    double sum = 0, binomial = 1;
+    for (int i = 0; i <= degree; ++i) {
+        sum += binomial * std::pow(1 - t, degree - i) * std::pow(t, i) *
+               static_cast<double>(controls[static_cast<std::size_t>(i)]);
+        binomial *= static_cast<double>(degree - i) / (i + 1);
+    }
+    return sum;
+}
+
+/// Six control points of one channel, as in the thesis's figure.
+std::array<float, 6> sixControlsOf(std::uint64_t seed, std::int64_t draw) {
+    const Controls a = controlsOf(seed, 2 * draw), b = controlsOf(seed, 2 * draw + 1);
+    return {a[0], a[1], a[2], a[3], b[0], b[1]};
+}
+
+template <std::size_t count>
+float casteljau(std::array<float, count> left, float t) {
+    for (std::size_t n = count - 1; n > 0; --n)
+        for (std::size_t i = 0; i < n; ++i) left[i] = maths::interpolate(left[i], left[i + 1], t);
+    return left[0];
+}
+
+/// Time of de Casteljau's algorithm over that of the sum, for curves of `count` points at many moments; `again`: over
+/// its own.
+template <std::size_t count>
+Finding timeRatio(std::string quantity, std::uint64_t seed, bool again) {
+    constexpr std::int64_t moments = 200'000;
+    constexpr int repetitions = 15;
+    std::array<float, count> points{};
+    for (std::size_t i = 0; i < count; ++i)
+        points[i] = static_cast<float>(uniform(seed, controlStream, static_cast<std::int64_t>(i)));
+    const std::vector<float> weights = maths::bernsteinWeights(points);
+    std::vector<float> times;
+    for (std::int64_t i = 0; i < moments; ++i) times.push_back(static_cast<float>(uniform(seed, timeStream, i)));
+    const auto secondsOfCurve = [&](const auto& curve) {
+        float sum = 0;
+        const double seconds = findings::secondsOf([&] {
+            for (const float t : times) sum += curve(t);
+        });
+        return std::isfinite(sum) ? seconds : 0;  // so that the sum is needed
+    };
+    const auto steps = [&](float t) { return casteljau(points, t); };
+    const auto sum = [&](float t) { return maths::bernsteinSum(weights, t); };
+    std::vector<double> ratios;
+    for (int k = 0; k < repetitions; ++k) {
+        const double above = secondsOfCurve(steps);
+        ratios.push_back(above / (again ? secondsOfCurve(steps) : secondsOfCurve(sum)));
+    }
+    return findings::medianOf(std::move(quantity), std::move(ratios));
+}
+
 Finding meanOf(const char* quantity, std::int64_t draws, const std::function<double(std::int64_t)>& value) {
     std::vector<double> values;
     values.reserve(static_cast<std::size_t>(draws));
@@ -84,6 +139,14 @@ std::vector<Finding> measureFormulae(std::uint64_t seed, std::int64_t draws) {
         const Controls p = controlsOf(seed, i);
         return std::abs(mendedCurve(p, 1) - lastOf(p));
     };
+    const auto ofSix = [&](const auto& curve) {
+        return [&, curve](std::int64_t i) {
+            const auto six = sixControlsOf(seed, i);
+            const double t = uniform(seed, timeStream, i);
+            return std::abs(curve(six, t) -
+                            static_cast<double>(maths::bezier(std::span<const float>(six), static_cast<float>(t))));
+        };
+    };
     constexpr Controls ones{1, 1, 1, 1};
     const auto momentum = [&](double mass, const auto& acceleration) {
         return [=](std::int64_t i) {
@@ -93,6 +156,8 @@ std::vector<Finding> measureFormulae(std::uint64_t seed, std::int64_t draws) {
     return {meanOf("bezier_end_printed", draws, printedEnd),
             meanOf("bezier_end_mended", draws, mendedEnd),
             meanOf("bezier_end_printed_2", draws, printedEndOfTwo),
+            meanOf("bezier_six_by_sum", draws, ofSix(bernsteinCurve)),
+            meanOf("bezier_six_printed", draws, ofSix(printedCurve)),
             meanOf("bezier_equal_printed", draws,
                    [&](std::int64_t i) { return printedCurve(ones, uniform(seed, timeStream, i)); }),
             meanOf("bezier_equal_mended", draws,
@@ -104,11 +169,20 @@ std::vector<Finding> measureFormulae(std::uint64_t seed, std::int64_t draws) {
             meanOf("momentum_1kg_printed", draws, momentum(1, printedAcceleration))};
 }
 
+std::vector<Finding> measureCurveTimes(std::uint64_t seed) {
+    return {timeRatio<6>("casteljau_over_sum_6", seed, false), timeRatio<24>("casteljau_over_sum_24", seed, false),
+            timeRatio<6>("casteljau_over_casteljau_6", seed, true)};
+}
+
 ExperimentInfo describe() {
     ExperimentInfo info;
     info.summary = "Measures what two formulae do that the thesis prints wrongly: weights of Bézier curves, a = m·ΣF.";
     info.source = "Thesis";
-    info.run = [](ExperimentContext& context) { return measureFormulae(context.seed(), 10'000); };
+    info.run = [](ExperimentContext& context) {
+        std::vector<Finding> findings = measureFormulae(context.seed(), 10'000);
+        for (Finding& finding : measureCurveTimes(context.seed())) findings.push_back(std::move(finding));
+        return findings;
+    };
     return info;
 }
 

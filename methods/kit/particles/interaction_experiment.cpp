@@ -17,7 +17,8 @@ namespace {
 
 using findings::exponentOf, findings::medianOf, findings::secondsOf;
 
-constexpr Attraction attraction{AttractionLaw::inverseSquare, 1, 0.1f};
+constexpr Attraction bySquare{AttractionLaw::inverseSquare, 1, 0.1f};
+constexpr Attraction byCube{AttractionLaw::inverseCube, 1, 0.1f};
 constexpr float onePercentAngle = 0.65f;
 constexpr int repetitions = 5;
 
@@ -33,7 +34,7 @@ struct Bodies3 {
         }
     }
     /// Computes the exact forces on `count` bodies from `first` on.
-    void pullPairs(std::size_t first, std::size_t count) {
+    void pullPairs(std::size_t first, std::size_t count, const Attraction& attraction = bySquare) {
         constexpr std::size_t block = 256;
         for (std::size_t i = first; i < first + count; i += block) {
             const std::size_t size = std::min(block, first + count - i);
@@ -41,7 +42,7 @@ struct Bodies3 {
             addPull(attraction, {x, y, z, mass}, {size, &x[i], &y[i], &z[i], &ax[i], &ay[i], &az[i]});
         }
     }
-    void pullTree(float angle, FarBodies farBodies = FarBodies::together) {
+    void pullTree(float angle, FarBodies farBodies = FarBodies::together, const Attraction& attraction = bySquare) {
         AttractionTree tree;
         tree.build(x, y, z);
         tree.pull(attraction, angle, farBodies, ax, ay, az);
@@ -64,6 +65,22 @@ Finding errorOf(std::string quantity, const Bodies3& exact, const Bodies3& tree,
     const auto relative = [&](double meanSquare) { return std::sqrt(std::max(meanSquare, 0.0) / (size / n)); };
     return {std::move(quantity), relative(sum / n), relative(sum / n - half), relative(sum / n + half),
             static_cast<std::int64_t>(count)};
+}
+
+/// How many times as large one error is as another, with the interval that both of theirs allow.
+Finding ratioOfErrors(std::string quantity, const Finding& above, const Finding& below) {
+    return {std::move(quantity), above.value / below.value, above.low / below.high, above.high / below.low,
+            above.samples};
+}
+
+/// Of a force that falls like 1/d³, at the angle at which the square's is measured.
+void measureCube(std::uint64_t seed, std::size_t count, std::size_t sample, std::vector<Finding>& findings) {
+    Bodies3 exact(count, seed), tree(count, seed);
+    exact.pullPairs(0, sample, byCube);
+    tree.pullTree(0.6f, FarBodies::together, byCube);
+    findings.push_back(errorOf("rms_cube_angle_0.6", exact, tree, sample));
+    tree.pullTree(0.6f, FarBodies::ignored, byCube);
+    findings.push_back(errorOf("rms_cube_ignored_0.6", exact, tree, sample));
 }
 
 /// Returns the median time of the forces on all bodies.
@@ -153,6 +170,13 @@ std::vector<Finding> measureErrors(std::uint64_t seed) {
     findings.push_back(exponentOf("error_exponent", angles, errors));
     tree.pullTree(0.6f, FarBodies::ignored);
     findings.push_back(errorOf("rms_ignored_0.6", exact, tree, sample));
+    const auto found = [&](std::string_view quantity) {
+        return *std::ranges::find(findings, quantity, &Finding::quantity);
+    };
+    const Finding together = found("rms_angle_0.6"), ignored = found("rms_ignored_0.6");
+    findings.push_back(ratioOfErrors("ignored_over_together_0.6", ignored, together));
+    findings.push_back(ratioOfErrors("together_over_together_0.6", together, together));
+    measureCube(seed, count, sample, findings);
 
     std::vector<double> counts, pairs;
     for (const std::size_t n : {4000, 8000, 16000, 32000, 64000}) {

@@ -7,13 +7,16 @@
 
 namespace dustbench::particles::interaction {
 
-/// The experiment `interaction`, of bodies in a uniform ball that attract each other by 1/d².
+/// The experiment `interaction`, of bodies in a uniform ball that attract each other by 1/d², or by 1/d³ where the name
+/// says `cube`.
 ///
 /// pairs_exponent, tree_exponent: of the time as a function of the number of bodies, 1,000 to 16,000 and 4,000 to
 /// 64,000.
 /// tree_work_exponent: of the number of pairs that the tree evaluates.
 /// rms_angle_0.3 … rms_angle_1.2: root mean square error of the tree's force relative to the force, 20,000 bodies.
-/// rms_ignored_0.6: the same with distant bodies ignored.
+/// rms_ignored_0.6: the same with distant bodies ignored; ignored_over_together_0.6: over rms_angle_0.6.
+/// together_over_together_0.6: rms_angle_0.6 over itself, a control.
+/// rms_cube_angle_0.6, rms_cube_ignored_0.6: both for a force that falls like 1/d³.
 /// error_exponent: of that error as a function of the angle.
 /// rms_100k, speedup_100k: for 100,000 bodies at an angle of 0.65, the error, and the time of all pairs over the
 /// tree's, including its construction.

@@ -19,6 +19,12 @@ TEST(InteractionExperiment, ErrorGrowsWithTheAngleAndWorkLessThanItsSquare) {
         EXPECT_GT(found.at("error_exponent").value, 1.5);
         EXPECT_LT(found.at("error_exponent").value, 3.5);
         EXPECT_GT(found.at("rms_ignored_0.6").low, 0.3);
+        // A force that falls faster has its error nearer by: those taken together matter less, and so do those ignored.
+        EXPECT_LT(found.at("rms_cube_ignored_0.6").high, found.at("rms_ignored_0.6").low);
+        EXPECT_LT(found.at("rms_cube_angle_0.6").high, found.at("rms_cube_ignored_0.6").low);
+        EXPECT_EQ(found.at("together_over_together_0.6").value, 1);
+        EXPECT_EQ(found.at("ignored_over_together_0.6").value,
+                  found.at("rms_ignored_0.6").value / found.at("rms_angle_0.6").value);
         EXPECT_GT(found.at("tree_work_exponent").low, 0.9);
         EXPECT_LT(found.at("tree_work_exponent").high, 1.4);
     }

@@ -59,6 +59,20 @@ TEST(Shading, LightFallsWithTheSquareOfTheDistanceUpToItsMaximum) {
     EXPECT_GT(limited, 100);
 }
 
+TEST(Shading, LightFallsWithTheCubeOfTheDistanceWhereThatIsChosen) {
+    const auto system = lit(
+        "{ part = \"light\", place = [1, 1, 0], colour = [1, 0.5, 0], intensity = 2, maximum = 0.8, falloff = \"1/d3\" "
+        "}");
+    int limited = 0;
+    for (std::size_t i = 0; i < system.store().size(); ++i) {
+        const double d = std::abs(static_cast<double>(system.store().x[i]) - 1);
+        const double luminosity = std::min(2 / (d * d * d), 0.8);
+        EXPECT_NEAR(system.store().red[i], 0.5 * luminosity, 1e-5);
+        limited += luminosity < 0.8 ? 0 : 1;
+    }
+    EXPECT_GT(limited, 100);
+}
+
 TEST(EmittedLight, IsTheThesissSumAndItsPlaceTheBarycentre) {
     for (const std::uint64_t seed : {1, 2, 3}) {
         const auto system = lit("{ part = \"light\", place = [1, 1, 0], colour = [1, 0.5, 0.2], intensity = 2 }", seed);

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <vector>
 
+#include "methods/kit/maths/bezier.h"
 #include "methods/kit/particles/part_table.h"
 #include "methods/kit/particles/test_world.h"
 
@@ -235,6 +237,28 @@ TEST(Colour, LinearAndBezierFollowTheShareOfLife) {
             EXPECT_NEAR(store.colour(i).b, value(0, 1, 4, 2, t), 1e-5);
             EXPECT_NEAR(store.opacity[i], value(0.5, 0.9, 0.3, 0.1, t), 1e-6);
         }
+    }
+}
+
+TEST(Colour, CurvesOfSixPointsFollowTheShareOfLifeInEachChannel) {
+    const auto system =
+        runFor(2, 1.0 / 64,
+               test::with(test::with(still,
+                                     "colour = { part = \"constant\", opacity_curve = \"linear\", opacity_start = 0.5, "
+                                     "opacity_end = 0.1 }",
+                                     "colour = { part = \"bezier_points\", points = 6, point_1 = [1, 0, 0, 0], "
+                                     "point_2 = [0, 2, 0, 0.9], point_3 = [3, 0, 1, 0.9], point_4 = [0, 0, 4, 0.1], "
+                                     "point_5 = [1, 1, 0, 0.5], point_6 = [0, 0.5, 2, 0], point_7 = [9, 9, 9, 0.9] }"),
+                          "average_seconds = 1000", "average_seconds = 2"),
+               scene::Scene{});
+    const ParticleStore& store = system.store();
+    ASSERT_GT(store.size(), 100u);
+    for (std::size_t i = 0; i < store.size(); ++i) {
+        const float t = store.age[i] / store.lifetime[i];
+        EXPECT_NEAR(store.red[i], maths::bezier(std::array{1.0f, 0.0f, 3.0f, 0.0f, 1.0f, 0.0f}, t), 1e-5);
+        EXPECT_NEAR(store.green[i], maths::bezier(std::array{0.0f, 2.0f, 0.0f, 0.0f, 1.0f, 0.5f}, t), 1e-5);
+        EXPECT_NEAR(store.blue[i], maths::bezier(std::array{0.0f, 0.0f, 1.0f, 4.0f, 0.0f, 2.0f}, t), 1e-5);
+        EXPECT_NEAR(store.opacity[i], maths::bezier(std::array{0.0f, 0.9f, 0.9f, 0.1f, 0.5f, 0.0f}, t), 1e-6);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "methods/kit/particles/storage_experiment.h"
 
+#include <algorithm>
 #include <map>
 
 #include "methods/kit/findings/findings.h"
@@ -83,6 +84,52 @@ Finding ratioOf(std::string quantity, const std::vector<double>& above, const st
     return medianOf(std::move(quantity), ratios);
 }
 
+/// Seconds in which a storage grows from nothing to `particles`, in `steps` steps.
+template <typename Add>
+double growthSeconds(std::uint64_t seed, std::size_t particles, int steps, const Add& add) {
+    Births births(seed, particles / static_cast<std::size_t>(steps));
+    double total = 0;
+    for (int step = 0; step < steps; ++step) {
+        const auto& newborns = births.next();
+        total += secondsOf([&] { add(newborns); });
+    }
+    return total;
+}
+
+/// Of a list of newly allocated nodes, of an array that doubles its room, and of one that has none to spare.
+void measureGrowth(std::uint64_t seed, std::size_t particles, int repetitions, std::vector<Finding>& findings) {
+    constexpr int steps = 200;
+    std::vector<double> list, listAgain, doubling, tight;
+    const auto growList = [&] {
+        List<false> storage;
+        return growthSeconds(seed, particles, steps, [&](const auto& newborns) { storage.refill(newborns); });
+    };
+    for (int k = 0; k < repetitions; ++k) {
+        list.push_back(growList());
+        listAgain.push_back(growList());
+        ArrayOfStructures<false> array;
+        doubling.push_back(
+            growthSeconds(seed, particles, steps, [&](const auto& newborns) { array.append(newborns); }));
+        TightArray moved;
+        tight.push_back(growthSeconds(seed, particles, steps, [&](const auto& newborns) { moved.add(newborns); }));
+    }
+    findings.push_back(ratioOf("growth_array_over_list", doubling, list));
+    findings.push_back(ratioOf("growth_moved_array_over_list", tight, list));
+    findings.push_back(ratioOf("growth_of_equals", listAgain, list));
+}
+
+/// Fewer particles: an array of which each of the dead is erased by itself takes time with the square of their number.
+void measureErasure(std::uint64_t seed, std::size_t particles, int repetitions, std::vector<Finding>& findings) {
+    Subject<List<true>> list(seed, particles);
+    Subject<ErasedArray> erased(seed, particles);
+    Times ofList, ofErased;
+    for (int k = 0; k < repetitions; ++k) {
+        list.measure(ofList);
+        erased.measure(ofErased);
+    }
+    findings.push_back(ratioOf("churn_erased_array_over_list", ofErased.churn, ofList.churn));
+}
+
 }  // namespace
 
 std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, int repetitions) {
@@ -112,6 +159,19 @@ std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, i
     findings.push_back(ratioOf("allocation_without_over_with_list", times["list"].refill, times["list_pool"].refill));
     findings.push_back(ratioOf("allocation_of_equals", listPoolAgain.refill, times["list_pool"].refill));
     findings.push_back(ratioOf("scan_of_equals", aosPoolAgain.scan, times["aos_pool"].scan));
+    findings.push_back(ratioOf("churn_aos_over_list", times["aos_pool"].churn, times["list_pool"].churn));
+    findings.push_back(ratioOf("churn_of_equals", listPoolAgain.churn, times["list_pool"].churn));
+    std::vector<double> twice;
+    for (std::size_t i = 0; i < aosPoolAgain.scan.size(); ++i)
+        twice.push_back((times["aos_pool"].scan[i] + aosPoolAgain.scan[i]) / times["aos_pool"].scan[i]);
+    findings.push_back(medianOf("scan_twice", twice));
+    const double bytes = static_cast<double>(List<true>::bytesPerParticle()) / sizeof(Attributes);
+    constexpr double bytesOfPlace = 3 * sizeof(float), bytesOfLinkedPlace = bytesOfPlace + 4 + sizeof(void*);
+    findings.push_back({"bytes_list_over_array", bytes, bytes, bytes, 1});
+    findings.push_back({"bytes_list_over_array_of_places", bytesOfLinkedPlace / bytesOfPlace,
+                        bytesOfLinkedPlace / bytesOfPlace, bytesOfLinkedPlace / bytesOfPlace, 1});
+    measureGrowth(seed, particles, repetitions, findings);
+    measureErasure(seed, particles / 5, std::min(repetitions, 9), findings);
     for (const auto& [name, measured] : times) {
         findings.push_back(medianOf("scan_ns_" + name, measured.scan));
         findings.push_back(medianOf("churn_ns_" + name, measured.churn));

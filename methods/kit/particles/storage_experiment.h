@@ -1,6 +1,6 @@
 // Measures the cost of a linked list, of arrays and of a pool of the dead (claim R22).
 //
-// Threads: one. Source: Thesis, 3.1.4.
+// Threads: one. Source: Thesis, 3.1.3 and 3.3.1.
 #pragma once
 
 #include "methods/contract/experiment.h"
@@ -15,8 +15,16 @@ namespace dustbench::particles::storage {
 /// dead over with it.
 /// allocation_without_over_with_list: the same without the walk that finds the dead: time of freeing and allocating
 /// nodes, over that of taking them from the pool.
-/// allocation_of_equals, scan_of_equals: controls, one list and one array of structures measured twice.
-/// scan_ns_…, churn_ns_…: nanoseconds per particle and step, by `list`, `aos`, `soa`, with `_pool`.
+/// churn_aos_over_list: the same of the array over that of the list, both with the pool.
+/// churn_erased_array_over_list: of 20,000 particles, of an array from whose middle each of the dead is erased.
+/// growth_array_over_list: time to grow from nothing to 100,000 particles in 200 steps: of an array that doubles its
+/// room, over that of a list; growth_moved_array_over_list: of an array that is moved whole at each step.
+/// bytes_list_over_array: bytes of a particle with its link over those of the particle; …_of_places: of a particle that
+/// has a place alone, a control.
+/// scan_twice: an array scanned twice over once, a control.
+/// allocation_of_equals, churn_of_equals, growth_of_equals, scan_of_equals: controls, one list and one array of
+/// structures measured twice. scan_ns_…, churn_ns_…: nanoseconds per particle and step, by `list`, `aos`, `soa`, with
+/// `_pool`.
 [[nodiscard]] DUSTBENCH_API ExperimentInfo describe();
 [[nodiscard]] std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, int repetitions);
 

@@ -5,11 +5,12 @@
 // of the dead. That of an array gives their slots to newborns; without it the survivors are first moved together.
 //
 // Units: m, m/s, s. Owns: its particles. Threads: one caller at a time.
-// Source: Thesis, 3.1.2 (attributes) and 3.1.4 (list and pool).
+// Source: Thesis, 3.1.2 (attributes) and 3.1.3 and 3.3.1 (list and pool).
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -69,6 +70,8 @@ class List {
             while (free_) delete std::exchange(free_, free_->next);
         for (const Attributes& newborn : newborns) first_ = make(newborn);
     }
+    /// Bytes of a particle with what links it.
+    static constexpr std::size_t bytesPerParticle() { return sizeof(Node); }
     [[nodiscard]] double sumOfAges() const {
         double sum = 0;
         for (const Node* node = first_; node; node = node->next) sum += static_cast<double>(node->particle.age);
@@ -113,13 +116,57 @@ class ArrayOfStructures {
         } else {
             std::erase_if(particles_, [](const Attributes& particle) { return particle.isDead(); });
         }
-        particles_.insert(particles_.end(), newborns.begin() + static_cast<std::ptrdiff_t>(next), newborns.end());
+        append(std::span(newborns).subspan(next));
+    }
+    void append(std::span<const Attributes> newborns) {
+        particles_.insert(particles_.end(), newborns.begin(), newborns.end());
     }
     [[nodiscard]] double sumOfAges() const {
         double sum = 0;
         for (const Attributes& particle : particles_) sum += static_cast<double>(particle.age);
         return sum;
     }
+
+ private:
+    std::vector<Attributes> particles_;
+};
+
+/// An array of structures from whose middle each of the dead is erased, so that all behind it move up.
+class ErasedArray {
+ public:
+    void scan(float seconds) {
+        for (Attributes& particle : particles_) particle.live(seconds);
+    }
+    void churn(const std::vector<Attributes>& newborns) {
+        for (std::size_t i = 0; i < particles_.size();)
+            if (particles_[i].isDead())
+                particles_.erase(particles_.begin() + static_cast<std::ptrdiff_t>(i));
+            else
+                ++i;
+        particles_.insert(particles_.end(), newborns.begin(), newborns.end());
+    }
+    [[nodiscard]] double sumOfAges() const {
+        double sum = 0;
+        for (const Attributes& particle : particles_) sum += static_cast<double>(particle.age);
+        return sum;
+    }
+
+ private:
+    std::vector<Attributes> particles_;
+};
+
+/// An array without spare room: whoever grows it allocates anew and moves all (`std::vector` does so at each doubling
+/// of its size). This is the thesis's array where no adjacent memory is free.
+class TightArray {
+ public:
+    void add(const std::vector<Attributes>& newborns) {
+        std::vector<Attributes> grown;
+        grown.reserve(particles_.size() + newborns.size());
+        grown.insert(grown.end(), particles_.begin(), particles_.end());
+        grown.insert(grown.end(), newborns.begin(), newborns.end());
+        particles_.swap(grown);
+    }
+    [[nodiscard]] std::size_t size() const { return particles_.size(); }
 
  private:
     std::vector<Attributes> particles_;

@@ -89,6 +89,32 @@ TEST(FieldFlow, CarriesParticlesRoundInARigidRotationToFirstOrder) {
     EXPECT_NEAR(coarse / fine, 4, 0.4);
 }
 
+TEST(FieldFlow, OfAShapesFrameMovesTurnsAndGrowsWithIt) {
+    const volumes::VectorSeries series =
+        seriesOf([](const glm::dvec3& p, double) { return glm::vec3(1, p.x, 0); }, {0});
+    Pose pose;
+    pose.rotation = glm::mat3({0, 0, -1}, {0, 1, 0}, {1, 0, 0});  // a quarter turn about y: its x is the world's -z
+    pose.position = {10, 2, -5};
+    pose.scale = 2;
+    pose.velocity = {3, 0, 0};
+    pose.angularVelocity = {0, 0.5f, 0};
+    MemoryLedger ledger;
+    particles::ParticleStore store = particlesWithin(ledger, 3, 4);
+    for (std::size_t i = 0; i < store.size(); ++i) store.x[i] += 10, store.y[i] += 2, store.z[i] -= 5;
+    drawAlong(store, series, pose, 0, 1);
+    int within = 0;
+    for (std::size_t i = 0; i < store.size(); ++i) {
+        const glm::vec3 from = store.position(i) - pose.position;
+        const float ownX = -from.z / 2;
+        if (std::abs(ownX) > 1.37f) continue;  // of the cells at the border the value is not linear
+        ASSERT_NEAR(store.velocityX[i], 3 + 0.5f * from.z, 1e-4f);
+        ASSERT_NEAR(store.velocityY[i], 2 * ownX, 1e-4f);
+        ASSERT_NEAR(store.velocityZ[i], -2 - 0.5f * from.x, 1e-4f);
+        ++within;
+    }
+    EXPECT_GT(within, 1000);
+}
+
 TEST(FieldFlow, LeavesAloneWhoIsBeyondItsGrid) {
     const volumes::VectorSeries series = seriesOf([](const glm::dvec3&, double) { return glm::vec3(5); }, {0});
     MemoryLedger ledger;
