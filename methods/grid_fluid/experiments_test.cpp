@@ -1,11 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <numbers>
 #include <numeric>
 
+#include "methods/grid_fluid/compositing_experiment.h"
 #include "methods/grid_fluid/demo_memory_experiment.h"
 #include "methods/grid_fluid/fire_experiment.h"
 #include "methods/grid_fluid/large_steps_experiment.h"
+#include "methods/grid_fluid/lego_experiment.h"
+#include "methods/grid_fluid/marching_cubes_experiment.h"
 #include "methods/grid_fluid/obstacles_experiment.h"
 #include "methods/grid_fluid/scheme_accuracy_experiment.h"
 #include "methods/grid_fluid/sight_experiment.h"
@@ -105,9 +110,45 @@ TEST(FireExperiment, ShowsTheSameMassAsParticlesAndAsAVolume) {
 
 TEST(FireExperiment, CorrelatesWhatBurnsWithWhatIsSeen) {
     const fire::FireGrid grid = fire::burn(16, 0.6, 0, 3).grid;
-    EXPECT_GT(fire::correlationOf(fire::pictureOf(grid, {}, 32), grid), 0.95);
+    const fire::Picture freshness = fire::freshnessOf(grid, 32);
+    EXPECT_GT(fire::correlationOf(fire::pictureOf(grid, {}, 32), freshness), 0.95);
     const raycast::TransferFunction backwards({{0, glm::vec3(3), 1}, {1, glm::vec3(0), 1}});
-    EXPECT_LT(fire::correlationOf(fire::pictureOf(grid, backwards, 32), grid), -0.95);
+    EXPECT_LT(fire::correlationOf(fire::pictureOf(grid, backwards, 32), freshness), -0.95);
+}
+
+TEST(FireExperiment, AFieldIsShownAsTheGridThatHoldsIt) {
+    // A puff with fire in it, wide enough for the cells.
+    const auto field = [](const glm::dvec3& place) {
+        const glm::dvec3 aside = (place - glm::dvec3(0.7, 1.5, 0.8)) / 0.25;
+        return glm::dvec2(std::exp(-glm::dot(aside, aside) / 2), std::clamp(place.y - 1, 0.0, 1.0));
+    };
+    constexpr int cells = 32;
+    fire::FireGrid grid{cells, {}, {}};
+    for (int z = 0; z < cells; ++z)
+        for (int y = 0; y < 2 * cells; ++y)
+            for (int x = 0; x < cells; ++x) {
+                const glm::dvec2 there = field((glm::dvec3(x, y, z) + 0.5) * grid.spacingMetres());
+                grid.density.push_back(static_cast<float>(there.x));
+                grid.reaction.push_back(static_cast<float>(there.y));
+            }
+    const fire::FieldPictures shown = fire::picturesOf(field, grid.spacingMetres(), {}, 32);
+    EXPECT_LT(fire::distanceOf(shown.shown, fire::pictureOf(grid, {}, 32)), 0.01);
+    EXPECT_LT(fire::distanceOf(shown.freshness, fire::freshnessOf(grid, 32)), 0.01);
+}
+
+TEST(FireExperiment, GridsConvergeToTheFireThatPathsGive) {
+    // All of what the source gave is on some path. The flow is that of the grid, so only what is carried differs.
+    constexpr double seconds = 0.5;
+    std::array<double, 3> apart{};
+    for (std::size_t k = 0; k < apart.size(); ++k) {
+        const int cells = 12 << k;
+        const fire::Burning fire = fire::burn(cells, seconds, 0, 3, fire::Paths::kept);
+        apart[k] = fire::distanceOf(fire::pictureOf(fire.grid, {}, 24),
+                                    fire::picturesOf(fire.field, fire::widthMetres / 48, {}, 24).shown);
+    }
+    EXPECT_LT(apart[1], 0.6 * apart[0]);
+    EXPECT_LT(apart[2], 0.6 * apart[1]);
+    EXPECT_LT(apart[2], 0.1);
 }
 
 TEST(FireExperiment, CountsThePiecesThatStandOut) {
@@ -142,6 +183,76 @@ TEST(SightExperiment, FindsWhatIsDrawnWrong) {
     raycast::RaycastSettings settings;
     settings.stopAlpha = 0.5;
     EXPECT_GT(sight::maximumSightError(context.device(), settings, {{{0, 0, 9}, {0, 0, -1}, {}}}), 0.1);
+}
+
+/// A picture whose alpha is a function of the pixel.
+template <typename Alpha>
+pictures::Image imageOf(int width, int height, const Alpha& alpha) {
+    pictures::Image image{width, height, {}};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) image.pixels.emplace_back(0, 0, 0, static_cast<float>(alpha(x, y)));
+    return image;
+}
+
+TEST(LegoExperiment, MeasuresTheJumpsAtBordersByTheCloudsOwnChange) {
+    constexpr int edge = 4 * lego::pixelsPerCell;
+    constexpr double slope = 1.0 / 64;
+    const pictures::Image exact = imageOf(edge, edge, [&](int x, int y) { return slope * (x + y); });
+    EXPECT_EQ(lego::blocksOf(exact, exact), 0);
+    // One value for each cell: a border adds the changes of the seven pixels before it.
+    const auto middle = [](int x) { return (x / lego::pixelsPerCell + 0.5) * lego::pixelsPerCell - 0.5; };
+    const pictures::Image blocks = imageOf(edge, edge, [&](int x, int y) { return slope * (middle(x) + middle(y)); });
+    EXPECT_NEAR(lego::blocksOf(blocks, exact), lego::pixelsPerCell - 1, 1e-4);
+    // What is wrong elsewhere than at a border does not count.
+    const pictures::Image shifted = imageOf(edge, edge, [&](int x, int y) { return slope * (x + y) + 0.1; });
+    EXPECT_NEAR(lego::blocksOf(shifted, exact), 0, 1e-4);
+}
+
+TEST(LegoExperiment, SeesBlocksOfNearestSamplingAlone) {
+    for (const raycast::Backend backend : {raycast::Backend::gl, raycast::Backend::cpu}) {
+        raycast::RaycastSettings settings;
+        settings.backend = backend;
+        settings.jitter = false;
+        const auto blocksBy = [&](raycast::Filter filter) {
+            settings.filter = filter;
+            return lego::blocksSeen(draw::TestCanvas::device(), settings, 12, 3);
+        };
+        EXPECT_GT(blocksBy(raycast::Filter::nearest), 3);
+        EXPECT_LT(blocksBy(raycast::Filter::linear), 0.3);
+        EXPECT_LT(blocksBy(raycast::Filter::cubic), 0.5);
+    }
+}
+
+TEST(CompositingExperiment, IsTheSameFromEitherSideAndStopsBeyondAnAlpha) {
+    using compositing::Sample;
+    const std::array samples{Sample{{1, 0, 0}, 0.5f}, Sample{{0, 1, 0}, 0.5f}, Sample{{0, 0, 1}, 1}};
+    const glm::vec4 seen(0.5f, 0.25f, 0.25f, 1);
+    EXPECT_EQ(compositing::frontToBack(samples, 1).seen, seen);
+    EXPECT_EQ(compositing::backToFront(samples).seen, seen);
+    EXPECT_EQ(compositing::frontToBack(samples, 1).samples, 3);
+    const compositing::Composite stopped = compositing::frontToBack(samples, 0.6f);
+    EXPECT_EQ(stopped.samples, 2);
+    EXPECT_EQ(stopped.seen, glm::vec4(0.5f, 0.25f, 0, 0.75f));
+}
+
+TEST(CompositingExperiment, ComparesMarchAndSlicesAtTheSamePlaces) {
+    Context context;
+    std::map<std::string, double> found;
+    for (const Finding& finding : compositing::describe().run(context)) found[finding.quantity] = finding.value;
+    EXPECT_LT(found.at("orders_formulas"), 1e-5);
+    EXPECT_LT(found.at("orders_gl"), 1e-4);
+    EXPECT_GT(found.at("orders_wrong"), 0.1);
+    EXPECT_EQ(found.at("saved_2"), 0);
+    EXPECT_GT(found.at("saved_40"), found.at("saved_10"));
+    EXPECT_GT(found.at("saved_10"), 0.02);
+}
+
+TEST(MarchingCubesExperiment, CountsTheKnownClasses) {
+    // By Burnside's lemma: 23 colourings of a cube's corners with two colours under its turns, 22 with mirrors.
+    EXPECT_EQ(marching_cubes::classesOf(false, false), 23);
+    EXPECT_EQ(marching_cubes::classesOf(true, false), 22);
+    EXPECT_EQ(marching_cubes::classesOf(false, true), 15);
+    EXPECT_EQ(marching_cubes::classesOf(true, true), 14);
 }
 
 TEST(DemoMemoryExperiment, CountsTheBytesOfThePaper) {

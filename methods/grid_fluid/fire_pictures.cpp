@@ -66,8 +66,7 @@ double correlationOf(const std::vector<double>& a, const std::vector<double>& b)
     return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-/// Mean freshness along a ray along −z, premultiplied as a colour is, and alpha: a sum over the cells on its way. No
-/// part of it is the march whose pictures it judges.
+/// A sum over the cells on a ray's way.
 glm::dvec4 freshnessSeen(const FireGrid& grid, const raycast::TransferFunction& flame, const glm::dvec2& place) {
     const glm::ivec2 last(grid.cells - 1, 2 * grid.cells - 1);
     const glm::dvec2 at = place / grid.spacingMetres() - 0.5, low = glm::floor(at), share = at - low;
@@ -146,14 +145,45 @@ double distanceOf(const Picture& picture, const Picture& reference) {
     return std::sqrt(apart / whole);
 }
 
-double correlationOf(const Picture& picture, const FireGrid& of) {
+Picture freshnessOf(const FireGrid& grid, int width) {
     const raycast::TransferFunction flame;
-    const Picture burning =
-        pictureByRays(picture.width, [&](const glm::dvec2& place) { return freshnessSeen(of, flame, place); });
+    return pictureByRays(width, [&](const glm::dvec2& place) { return freshnessSeen(grid, flame, place); });
+}
+
+FieldPictures picturesOf(const FireField& field, double stepMetres, const raycast::TransferFunction& flame, int width) {
+    const glm::dvec3 reflected(smoke().all());
+    const auto steps = static_cast<int>(std::lround(widthMetres / stepMetres));
+    // Each ray is followed once, for both pictures.
+    FieldPictures pictures;
+    pictures.freshness = pictureByRays(width, [](const glm::dvec2&) { return glm::dvec4(0); });
+    pictures.shown = pictureByRays(width, [&](const glm::dvec2& place) {
+        double depth = 0, fresh = 0;
+        glm::dvec3 colour(0);
+        for (int step = steps - 1; step >= 0; --step) {
+            const glm::dvec2 there = field({place, (step + 0.5) * stepMetres});
+            const glm::dvec4 look(flame.at(there.y));
+            const double next = depth + extinctionPerMetre * look.a * there.x * stepMetres;
+            const double share = std::exp(-depth) - std::exp(-next);
+            fresh += share * there.y;
+            colour += share * (reflected + glm::dvec3(look));
+            depth = next;
+        }
+        const double alpha = -std::expm1(-depth);
+        const glm::dvec2 pixel = place / (widthMetres / width);
+        const auto at =
+            static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(pixel.x);
+        pictures.freshness.colours[at] = glm::dvec3(fresh);
+        pictures.freshness.alphas[at] = alpha;
+        return glm::dvec4(colour, alpha);
+    });
+    return pictures;
+}
+
+double correlationOf(const Picture& picture, const Picture& freshness) {
     std::vector<double> fresh, seen;
     for (std::size_t i = 0; i < picture.alphas.size(); ++i) {
-        if (std::min(picture.alphas[i], burning.alphas[i]) < 1.0 / 255) continue;
-        fresh.push_back(burning.colours[i].r / burning.alphas[i]);
+        if (std::min(picture.alphas[i], freshness.alphas[i]) < 1.0 / 255) continue;
+        fresh.push_back(freshness.colours[i].r / freshness.alphas[i]);
         seen.push_back(glm::dot(picture.colours[i], glm::dvec3(0.2126, 0.7152, 0.0722)) / picture.alphas[i]);
     }
     return correlationOf(ranksOf(fresh), ranksOf(seen));

@@ -4,6 +4,7 @@
 // the current oneTBB arena; the same at any number of them.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct FireGrid {
     [[nodiscard]] double spacingMetres() const { return widthMetres / cells; }
 };
 
+/// Density and reaction at any place.
+using FireField = std::function<glm::dvec2(const glm::dvec3&)>;
+
 /// One pixel a ray along −z, rows from the bottom.
 struct Picture {
     int width = 0, height = 0;
@@ -39,12 +43,23 @@ struct Picture {
 /// Puffs as billboards, from the farthest to the nearest.
 [[nodiscard]] Picture pictureOf(std::vector<Flake> flakes, const raycast::TransferFunction& flame, int width);
 
+/// Of what burns: the mean freshness along the rays, premultiplied in each channel. No part of it is the march whose
+/// pictures it judges.
+[[nodiscard]] Picture freshnessOf(const FireGrid& grid, int width);
+
+struct FieldPictures {
+    Picture shown, freshness;
+};
+/// A field as it is, in steps of `stepMetres`: neither cells nor particles.
+[[nodiscard]] FieldPictures picturesOf(const FireField& field, double stepMetres,
+                                       const raycast::TransferFunction& flame, int width);
+
 /// ‖a − b‖ / ‖b‖ of the colours over black.
 [[nodiscard]] double distanceOf(const Picture& picture, const Picture& reference);
 
-/// Spearman's rank correlation of what burns, the mean freshness along the rays of the fire `of`, with the luminance of
-/// what is seen there, over the pixels that both cover.
-[[nodiscard]] double correlationOf(const Picture& picture, const FireGrid& of);
+/// Spearman's rank correlation of the freshness with the luminance of what is seen there, over the pixels that both
+/// pictures cover.
+[[nodiscard]] double correlationOf(const Picture& picture, const Picture& freshness);
 
 /// Share of the pieces that are a maximum of the picture's alpha of their own, within a deviation of their centre.
 [[nodiscard]] double piecesSeen(const Picture& picture, const std::vector<Flake>& pieces);

@@ -323,6 +323,45 @@ TEST(GridFluid, RefusesWhatCannotFlow) {
     EXPECT_NE(refusal(settingsOf("plume", {16, 16, 16}), 1).find("a box filled by them"), std::string::npos);
 }
 
+TEST(Emitters, SwingAsASineWithinTheirChance) {
+    scene::Scene scene;
+    scene::SceneState state;
+    SourceSetup setup;
+    setup.densityPerSecond = 10;
+    setup.swing = 0.4f;
+    setup.swingSeconds = 0.5f;
+    const auto strengths = [&](float chance, std::uint64_t seed) {
+        setup.chance = chance;
+        const std::vector<SourceSetup> setups{setup};
+        Emitters emitters(setups, scene, seed);
+        std::vector<double> found;
+        for (int step = 0; step < 60; ++step) {
+            state.timeSeconds = step / 60.0;
+            const flow::FluidSource& source = emitters.at(state, step, 1.0 / 60, 0).front();
+            found.push_back(static_cast<double>(source.densityPerSecond) / 10);
+        }
+        return found;
+    };
+    const std::vector<double> sine = strengths(0, 1), noisy = strengths(0.3f, 1);
+    // A sine of period 30 steps about 0.8 with an amplitude of 0.2: what it and its half period later add up to.
+    EXPECT_NEAR(*std::ranges::max_element(sine), 1, 0.002);
+    EXPECT_NEAR(*std::ranges::min_element(sine), 0.6, 0.002);
+    for (std::size_t step = 0; step + 30 < sine.size(); ++step) {
+        EXPECT_NEAR(sine[step] + sine[step + 15], 1.6, 1e-5);
+        EXPECT_NEAR(sine[step], sine[step + 30], 1e-5);
+    }
+    double apart = 0;
+    for (std::size_t step = 0; step < sine.size(); ++step) {
+        const double ratio = noisy[step] / sine[step];
+        EXPECT_GE(ratio, 0.7 - 1e-6);
+        EXPECT_LE(ratio, 1.3 + 1e-6);
+        apart = std::max(apart, std::abs(ratio - 1));
+    }
+    EXPECT_GT(apart, 0.2);
+    EXPECT_EQ(noisy, strengths(0.3f, 1));
+    EXPECT_NE(noisy, strengths(0.3f, 2));
+}
+
 TEST(FluidFile, SaysWhatIsWrongWithFileAndLine) {
     TestFolder folder;
     const auto refusal = [&](const std::string& text) {

@@ -181,15 +181,16 @@ Finding geometricMeanOf(const std::string& name, const std::vector<double>& loga
     return finding;
 }
 
-/// Processor time of MacCormack's steps to that of semi-Lagrangian's, by turns in one thread.
-std::vector<double> timeRatios(int cells, int pairs) {
+/// Processor time of MacCormack's steps to that of semi-Lagrangian's in a grid of `refinement` times the cells along
+/// each axis, by turns in one thread.
+std::vector<double> timeRatios(int cells, int refinement, int pairs) {
     std::vector<double> ratios;
     tbb::task_arena(1).execute([&] {
         MemoryLedger ledger;
         const flow::FluidSource source = jetOf(1);
-        flow::FluidSolver plain(settingsOf(AdvectionScheme::semiLagrangian, cells), ledger),
+        flow::FluidSolver plain(settingsOf(AdvectionScheme::semiLagrangian, refinement * cells), ledger),
             corrected(settingsOf(AdvectionScheme::macCormack, cells), ledger);
-        constexpr int stepsAtOnce = 5;
+        const int stepsAtOnce = refinement > 1 ? 1 : 5;
         const auto secondsOf = [&](flow::FluidSolver& solver) {
             return findings::secondsOf([&] {
                 for (int step = 0; step < stepsAtOnce; ++step) solver.step(stepSeconds, {&source, 1});
@@ -203,6 +204,17 @@ std::vector<double> timeRatios(int cells, int pairs) {
     return ratios;
 }
 
+/// Bytes of MacCormack's solver to those of semi-Lagrangian's in a grid twice as fine.
+double bytesRatio(int cells) {
+    const auto bytesOf = [&](AdvectionScheme scheme, int edge) {
+        MemoryLedger ledger;
+        flow::FluidSolver solver(settingsOf(scheme, edge), ledger);
+        solver.step(stepSeconds, {});
+        return static_cast<double>(ledger.totalBytes());
+    };
+    return bytesOf(AdvectionScheme::macCormack, cells) / bytesOf(AdvectionScheme::semiLagrangian, 2 * cells);
+}
+
 std::vector<Finding> measureAll(ExperimentContext& context) {
     const int cells = context.quick() ? 16 : 24, jets = context.quick() ? 5 : 12;
     Found found;
@@ -210,10 +222,16 @@ std::vector<Finding> measureAll(ExperimentContext& context) {
         measureJet(found, cells, 1000 * context.seed() + static_cast<std::uint64_t>(jet));
     std::vector<Finding> all;
     for (const auto& [name, values] : found) all.push_back(geometricMeanOf(name, values));
-    std::vector<double> ratios = timeRatios(2 * cells, context.quick() ? 9 : 15), back;
-    for (const double ratio : ratios) back.push_back(1 / ratio);
-    all.push_back(findings::medianOf("time_ratio", ratios));
-    all.push_back(findings::medianOf("time_ratio_back", back));
+    const int pairs = context.quick() ? 9 : 15;
+    for (const auto& [name, refinement] : {std::pair{"", 1}, {"_finer", 2}}) {
+        std::vector<double> ratios = timeRatios(2 * cells, refinement, pairs), back;
+        for (const double ratio : ratios) back.push_back(1 / ratio);
+        all.push_back(findings::medianOf(std::string("time_ratio") + name, ratios));
+        all.push_back(findings::medianOf(std::string("time_ratio") + name + "_back", back));
+    }
+    const double bytes = bytesRatio(2 * cells);
+    all.push_back({"bytes_ratio_finer", bytes, bytes, bytes, 1});
+    all.push_back({"bytes_ratio_finer_back", 1 / bytes, 1 / bytes, 1 / bytes, 1});
     return all;
 }
 

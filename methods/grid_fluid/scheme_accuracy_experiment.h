@@ -43,7 +43,10 @@ struct Distance {
 ///     nearer_MEASURE_SCHEME        e(MC, h) / e(SL, h)
 ///     finer_MEASURE_SCHEME         e(MC, h) / e(SL, h/2)
 ///     control_MEASURE_SCHEME       e(SL, h) / e(SL, h/2)
-///     time_ratio, time_ratio_back  processor time of a step, MC to SL, and the other way round
+///     time_ratio                   processor time of a step, MC to SL, on the grid of h
+///     time_ratio_finer             the same, MC on the grid of h to SL on that of h/2
+///     bytes_ratio_finer            memory of the solvers of these two
+///     …_back                       the other way round
 [[nodiscard]] ExperimentInfo describe();
 
 }  // namespace dustbench::grid_fluid::scheme_accuracy

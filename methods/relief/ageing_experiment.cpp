@@ -69,6 +69,21 @@ void addGrowth(const CostSweep& sweep, std::vector<Finding>& findings) {
     addExponents("scatter_in_a_corner", measureCost(each), sweep.rounds, findings);
 }
 
+/// R25: the time that ageing takes of a frame, over its hits, on a relief of 512² texels.
+void addFrameTimes(std::uint64_t seed, std::vector<Finding>& findings) {
+    constexpr int side = 512;
+    const auto add = [&](const std::string& name, const CostSweep& sweep) {
+        for (const CostCell& cell : measureCost(sweep)) {
+            std::vector<double> milliseconds;
+            for (const double seconds : cell.seconds) milliseconds.push_back(1e3 * seconds);
+            findings.push_back(meanOf(fmt::format("{}_ms_{}", name, cell.hits), milliseconds));
+        }
+    };
+    add("frame", {Search::gather, {side}, {100, 1000, 10'000}, seed});
+    add("frame", {.search = Search::gather, .sides = {side}, .hits = {100'000}, .seed = seed, .rounds = 2});
+    add("scattered_frame", {Search::scatter, {side}, {1000}, seed});
+}
+
 Finding crossover(std::uint64_t seed) {
     CostSweep sweep{Search::gather, {1, 2, 4, 8, 16, 32, 64}, {1000}, seed};
     const std::vector<CostCell> gather = measureCost(sweep);
@@ -92,8 +107,9 @@ Finding crossover(std::uint64_t seed) {
     return finding;
 }
 
-/// R24: how often y decreases in a step of the paper's law, for particles without initial vertical velocity.
-Finding loweredGreen(const std::string& quantity, const glm::vec3& gravity, std::uint64_t seed) {
+/// R24: how often y decreases in a step of the paper's law, for particles without initial vertical velocity: of the
+/// position texture, and of that of velocities.
+std::vector<Finding> loweredGreen(const std::string& suffix, const glm::vec3& gravity, std::uint64_t seed) {
     constexpr int count = 1000, steps = 5;
     scene::Panel panel;  // large enough that no particle leaves it
     panel.sizeMetres = glm::dvec2(1e4);
@@ -109,17 +125,19 @@ Finding loweredGreen(const std::string& quantity, const glm::vec3& gravity, std:
         particles.add({{random[0], 0, -5000}, {maths::centred(random[1]), 0, maths::centred(random[2])}}, {},
                       static_cast<std::uint64_t>(n));
     }
-    std::vector<float> before(count, 0.0f);
-    std::int64_t lowered = 0;
+    std::vector<glm::vec2> before(count, glm::vec2(0));  // y of place and velocity
+    glm::dvec2 lowered(0);
     for (int step = 0; step < steps; ++step) {
         particles.step(surface, {.law = MotionLaw::paper, .gravity = gravity});
         for (std::size_t i = 0; i < particles.size(); ++i) {
-            lowered += particles.places()[i].y < before[i] ? 1 : 0;
-            before[i] = particles.places()[i].y;
+            const glm::vec2 now(particles.places()[i].y, particles.velocities()[i].y);
+            lowered += glm::dvec2(glm::lessThan(now, before[i]));
+            before[i] = now;
         }
     }
-    const double share = static_cast<double>(lowered) / (count * steps);
-    return {quantity, share, share, share, std::int64_t{count} * steps};
+    const glm::dvec2 share = lowered / double{count * steps};
+    return {{"green_lowered" + suffix, share.x, share.x, share.x, std::int64_t{count} * steps},
+            {"velocity_green_lowered" + suffix, share.y, share.y, share.y, std::int64_t{count} * steps}};
 }
 
 /// R24: under the paper's ageing a hit texel's depth, the α of its texture, is 1, and no other texel changes.
@@ -166,9 +184,11 @@ ExperimentInfo describe() {
     info.run = [](ExperimentContext& context) {
         std::vector<Finding> findings;
         addGrowth(context.quick() ? shortSweep(context.seed()) : wholeSweep(context.seed()), findings);
+        addFrameTimes(context.seed(), findings);
         findings.push_back(crossover(context.seed()));
-        findings.push_back(loweredGreen("green_lowered", {0, -9.8f, 0}, context.seed()));
-        findings.push_back(loweredGreen("green_lowered_without_gravity", glm::vec3(0), context.seed()));
+        for (const auto& [suffix, gravity] :
+             {std::pair("", glm::vec3(0, -9.8f, 0)), {"_without_gravity", glm::vec3(0)}})
+            for (const Finding& finding : loweredGreen(suffix, gravity, context.seed())) findings.push_back(finding);
         for (const Finding& finding : hitTexels(context.seed())) findings.push_back(finding);
         return findings;
     };

@@ -111,5 +111,25 @@ TEST(ViewAngle, TheSafeMarchMissesNothingAndFewStepsMissMostWhenGrazing) {
     EXPECT_GT(missed(few, 85), missed(few, 0));
 }
 
+TEST(ViewAngle, BumpMappingMissesWhatTheDepthMovesAside) {
+    // At a depth of d the point that is seen lies d·tan(angle) beside that of the face.
+    scene::Panel panel = stripes();
+    auto level = std::make_shared<scene::Relief>(*panel.relief);
+    level->depth.assign(level->depth.size(), 0.5f);
+    panel.relief = level;
+    const double tolerance = 3 * panel.sizeMetres.x / level->columns;
+    scene::Scene scene;
+    const auto missedAt = [&](double degrees) {
+        return view_angle::seenAt(draw::TestCanvas::device(), scene, panel, {}, degrees).bumpShare();
+    };
+    EXPECT_LT(missedAt(0), 0.02);
+    // The picture's rim is 26° off its middle.
+    const auto angleOf = [&](double times) {
+        return std::atan(times * tolerance / (0.5 * panel.depthMetres)) * 180 / 3.14159265;
+    };
+    EXPECT_LT(missedAt(angleOf(0.2)), 0.02);
+    EXPECT_GT(missedAt(angleOf(2.5)), 0.9);
+}
+
 }  // namespace
 }  // namespace dustbench::relief

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "methods/relief/particles/relief_particles.h"
@@ -30,14 +31,32 @@ double exactDistance(const DepthMap& map, const scene::Panel& panel, const glm::
     return share ? enter + *share * (leave - enter) : -1;
 }
 
-Finding findingOf(const std::string& quantity, const std::vector<Seen>& seen) {
-    Seen all;
+Finding findingOf(const std::string& quantity, const std::vector<Seen>& seen, std::int64_t Seen::*missed) {
+    std::int64_t pixels = 0, misses = 0;
     double low = 1, high = 0;
     for (const Seen& one : seen) {
-        all.pixels += one.pixels, all.missed += one.missed;
-        low = std::min(low, one.share()), high = std::max(high, one.share());
+        pixels += one.pixels, misses += one.*missed;
+        low = std::min(low, one.ofPixels(one.*missed)), high = std::max(high, one.ofPixels(one.*missed));
     }
-    return {quantity, all.share(), low, high, all.pixels};
+    return {quantity, static_cast<double>(misses) / static_cast<double>(pixels), low, high, pixels};
+}
+
+/// How much more is missed at 70° than at 0°, of one way less that of another.
+void addDependences(std::vector<Finding>& findings) {
+    const auto dependence = [&](const std::string& way) {
+        const auto missed = [&](const char* angle) {
+            return std::ranges::find(findings, "missed_" + way + angle, &Finding::quantity)->value;
+        };
+        return missed("_70") - missed("_0");
+    };
+    const std::int64_t pixels = findings.front().samples;
+    for (const auto& [name, of, over] : {std::tuple("relief_over_bump", "15", "bump"),
+                                         {"relief_over_mesh", "15", "mesh"},
+                                         {"mesh_over_bump", "mesh", "bump"},
+                                         {"bump_over_mesh", "bump", "mesh"}}) {
+        const double lead = dependence(over) - dependence(of);
+        findings.push_back({name, lead, lead, lead, pixels});
+    }
 }
 
 std::vector<Finding> measured(ExperimentContext& context) {
@@ -54,8 +73,11 @@ std::vector<Finding> measured(ExperimentContext& context) {
             std::vector<Seen> seen;
             for (const scene::Panel& panel : world->scene().panels)
                 seen.push_back(seenAt(context.device(), world->scene(), panel, style, angle));
-            findings.push_back(findingOf("missed_" + name + "_" + std::to_string(angle), seen));
+            findings.push_back(findingOf("missed_" + name + "_" + std::to_string(angle), seen, &Seen::missed));
+            if (style.march == March::safe)
+                findings.push_back(findingOf("missed_bump_" + std::to_string(angle), seen, &Seen::bumpMissed));
         }
+    addDependences(findings);
     return findings;
 }
 
@@ -82,6 +104,9 @@ Seen seenAt(gpu::Device& device, const scene::Scene& scene, const scene::Panel& 
             const auto depth = static_cast<double>(depths[static_cast<std::size_t>((height - 1 - y) * width + x)]);
             const double shown = depth > 0 ? view.camera.nearMetres / (depth * glm::dot(axis, ray)) : HUGE_VAL;
             seen.missed += std::abs(shown - exact) > tolerance ? 1 : 0;
+            // The face is the panel's plane z = 0.
+            const glm::dvec3 onRelief = eye + exact * way, onFace = eye - eye.z / way.z * way;
+            seen.bumpMissed += glm::distance(glm::dvec2(onRelief), glm::dvec2(onFace)) > tolerance ? 1 : 0;
         }
     return seen;
 }

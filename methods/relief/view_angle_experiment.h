@@ -5,7 +5,10 @@
 // or a point whose distance differs by more than the size of three texels: then something else is shown.
 //
 // Findings, over both panels: `missed_STEPS_ANGLE`, the share of the pixels missed by STEPS linear and 5 binary steps
-// (15 is the paper's), and `missed_safe_ANGLE`, `missed_mesh_ANGLE`.
+// (15 is the paper's), and `missed_safe_ANGLE`, `missed_mesh_ANGLE`. `missed_bump_ANGLE`: by bump mapping, which shows
+// the texel of the face that the ray meets, and misses where it is more than three texels beside the exact point.
+// Two ways against each other, `A_over_B`: how much more of the pixels B misses at 70° than at 0°, less the same of A;
+// bump mapping, the paper's march (`relief`) and the mesh, which is displacement by geometry.
 //
 // Threads: the OpenGL thread. Source: Policarpo2005; Bergeron, 3.5.
 #pragma once
@@ -16,11 +19,14 @@
 namespace dustbench::relief::view_angle {
 
 struct Seen {
-    std::int64_t pixels = 0;  ///< in which the exact ray meets the relief
+    std::int64_t pixels = 0;      ///< in which the exact ray meets the relief
+    std::int64_t bumpMissed = 0;  ///< of them, by bump mapping
     std::int64_t missed = 0;
 
-    [[nodiscard]] double share() const {
-        return pixels > 0 ? static_cast<double>(missed) / static_cast<double>(pixels) : 0;
+    [[nodiscard]] double share() const { return ofPixels(missed); }
+    [[nodiscard]] double bumpShare() const { return ofPixels(bumpMissed); }
+    [[nodiscard]] double ofPixels(std::int64_t some) const {
+        return pixels > 0 ? static_cast<double>(some) / static_cast<double>(pixels) : 0;
     }
 };
 

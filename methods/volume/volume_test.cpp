@@ -206,8 +206,9 @@ TEST_F(ShownVolume, SparseTakesLessMemoryWhereMostOfTheBoxIsEmpty) {
 }
 
 TEST_F(ShownVolume, SparseRefusesOtherRenderersAndFiltersWhenItIsMade) {
-    for (const auto& [name, value] : {std::pair("renderer", "slices"), std::pair("renderer", "splat"),
-                                      std::pair("renderer", "isosurface"), std::pair("filter", "cubic")})
+    for (const auto& [name, value] :
+         {std::pair("renderer", "slices"), std::pair("renderer", "splat"), std::pair("renderer", "isosurface"),
+          std::pair("filter", "cubic"), std::pair("filter", "nearest")})
         EXPECT_THAT(inputError([&] {
                         (void)made("cloud", {{"storage", "sparse"}, {name, value}});
                     }),

@@ -223,7 +223,7 @@ void drawGrids(gpu::Device& device) {
     };
     for (const bool burning : {false, true})
         for (const int shadowCells : {0, 2})
-            for (const Filter filter : {Filter::linear, Filter::cubic}) {
+            for (const Filter filter : {Filter::nearest, Filter::linear, Filter::cubic}) {
                 RaycastSettings settings;
                 settings.shadowCells = shadowCells;
                 settings.filter = filter;
@@ -270,10 +270,33 @@ void drawSparse(Stages& stages) {
     std::filesystem::remove_all(folder);
 }
 
+/// Experiments with shaders of their own.
+void runExperiments(gpu::Device& device) {
+    class Context final : public ExperimentContext {
+     public:
+        explicit Context(gpu::Device& shared) : device_(shared) {}
+        [[nodiscard]] std::uint64_t seed() const override { return 1; }
+        [[nodiscard]] bool quick() const override { return true; }
+        [[nodiscard]] gpu::Device& device() override { return device_; }
+        [[nodiscard]] std::unique_ptr<ExperimentWorld> world(const std::string&,
+                                                             const std::map<std::string, std::string>&, int,
+                                                             int) override {
+            throw std::logic_error("an experiment with shaders asked for a world");
+        }
+
+     private:
+        gpu::Device& device_;
+    };
+    Context context(device);
+    for (const ExperimentInfo& info : experiments())
+        if (info.id == "bandwidth") (void)info.run(context);
+}
+
 void drawEverything(gpu::Device& device) {
     (void)gpu::timerQueriesAreTrue(device);
     const bench::SplitView twoPictures(device);
     drawGrids(device);
+    runExperiments(device);
     Stages stages(device);
     for (const MethodInfo& info : methods()) {
         stages.show(info, {});

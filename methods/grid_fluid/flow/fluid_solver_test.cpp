@@ -146,6 +146,27 @@ TEST(FluidSolver, APlumeRisesSymmetrically) {
     EXPECT_LE(worst, 1e-5 * maximum);
 }
 
+TEST(FluidSolver, WarmSmokeRisesAndColdSmokeSinks) {
+    const auto heightOf = [](float kelvinPerSecond) {
+        Plume plume;
+        plume.settings.sides = closed;
+        plume.sources[0].centreMetres.y = 1.6;
+        plume.sources[0].kelvinPerSecond = kelvinPerSecond;
+        plume.start();
+        for (int step = 0; step < 30; ++step) plume.solver->step(0.03, plume.sources);
+        double sum = 0, moment = 0;
+        forCells(plume.solver->layout(), [&](int, int j, int, std::size_t at) {
+            const auto here = static_cast<double>(plume.solver->cells().cell(at)[density]);
+            sum += here;
+            moment += here * (j + 0.5) * 0.1;
+        });
+        return moment / sum;
+    };
+    EXPECT_NEAR(heightOf(0), 1.6, 0.01);
+    EXPECT_GT(heightOf(40), 1.7);
+    EXPECT_LT(heightOf(-40), 1.5);
+}
+
 TEST(FluidSolver, LosesLittleOfTheDensityOrNone) {
     // A cloud under the lid of a closed box: interpolation and clamp do not conserve. It loses 12.6 % in 40 steps, and
     // 3 % with cells half as wide.

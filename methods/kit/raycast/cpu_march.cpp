@@ -29,6 +29,19 @@ Floats sampleCubic(const PaddedCells& cells, const Places& at) {
     });
 }
 
+/// The values of the cells at positions relative to the middle of the first cell.
+Floats sampleNearest(const PaddedCells& cells, const Places& at) {
+    const auto cellOf = [](const Floats& place, int count) {
+        return wholePart(atLeast(atMost(place + 0.5f, all(static_cast<float>(count - 1))), all(0)));
+    };
+    const Ints index = cellOf(at.x, cells.cells().x) + cells.row() * cellOf(at.y, cells.cells().y) +
+                       cells.slab() * cellOf(at.z, cells.cells().z);
+    const float* const origin = cells.origin();
+    Floats values;
+    for (int lane = 0; lane < laneCount; ++lane) values[lane] = origin[index[lane]];
+    return values;
+}
+
 /// Whether any brick that a box of cells touches is occupied.
 bool anyOccupied(const BrickMap& bricks, const Four& low, const Four& high) {
     constexpr float perCell = 1.0f / BrickMap::edge;
@@ -49,7 +62,7 @@ struct Grid {
     const BrickMap* bricks;         ///< null: no skipping
 };
 
-template <bool cubic>
+template <Filter filter>
 class DenseProbe {
  public:
     DenseProbe(const Grid& grid, const RayPacket& rays) : grid_(grid), rays_(rays) {}
@@ -66,8 +79,11 @@ class DenseProbe {
 
  private:
     [[gnu::always_inline]] [[nodiscard]] Floats sample(const Field& field, const Reach& reach) const {
-        return cubic ? sampleCubic(field.cells, placesOf(rays_, reach.middle, Four{}, 1))
-                     : sampleLinear(field, rays_, reach, 1);
+        if constexpr (filter == Filter::linear)
+            return sampleLinear(field, rays_, reach, 1);
+        else
+            return (filter == Filter::cubic ? sampleCubic : sampleNearest)(field.cells,
+                                                                           placesOf(rays_, reach.middle, Four{}, 1));
     }
 
     const Grid& grid_;
@@ -108,12 +124,19 @@ void CpuMarch::march(const PixelRays& rays, const SceneDepths& depths, const Ref
                   extinctionPerCell_ * thickness,
                   opaqueDepth(settings_)};
     if (light_) medium.light.emplace(light_->padded(), 1 / static_cast<float>(light_->texelCells()));
-    const bool cubic = settings_.filter == Filter::cubic;
-    const auto all =
-        channels() == 4
-            ? (cubic ? marchPackets<DenseProbe<true>, true, Grid> : marchPackets<DenseProbe<false>, true, Grid>)
-            : (cubic ? marchPackets<DenseProbe<true>, false, Grid> : marchPackets<DenseProbe<false>, false, Grid>);
-    all(medium, grid, rays, depths, settings_.jitter, picture);
+    const auto by = [&]<Filter filter>() {
+        const auto all = channels() == 4 ? marchPackets<DenseProbe<filter>, true, Grid>
+                                         : marchPackets<DenseProbe<filter>, false, Grid>;
+        all(medium, grid, rays, depths, settings_.jitter, picture);
+    };
+    switch (settings_.filter) {
+        case Filter::nearest:
+            return by.operator()<Filter::nearest>();
+        case Filter::linear:
+            return by.operator()<Filter::linear>();
+        case Filter::cubic:
+            return by.operator()<Filter::cubic>();
+    }
 }
 
 }  // namespace dustbench::raycast

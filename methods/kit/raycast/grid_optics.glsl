@@ -37,6 +37,10 @@ uniform float extinction;  // of a density of 1, per cell
 
 #ifdef SPARSE
 // Nothing: see above.
+#elif defined(NEAREST)
+float sampled(sampler3D field, vec3 at) {
+    return texelFetch(field, clamp(ivec3(floor(at)), ivec3(0), ivec3(cells) - 1), 0).r;
+}
 #elif defined(CUBIC)
 // Evaluates a cubic B-spline with eight linear samples instead of 64 cells, by merging the weights along each axis
 // into two pairs. Source: Sigg2005.

@@ -47,6 +47,7 @@ std::map<std::string, std::string> OpticsOnGpu::definitions() const {
     std::map<std::string, std::string> definitions;
     if (burning_) definitions = fireDefinitions();
     if (settings_.shadowCells > 0) definitions["SHADOW"] = "";
+    if (settings_.filter == Filter::nearest) definitions["NEAREST"] = "";
     if (settings_.filter == Filter::cubic) definitions["CUBIC"] = "";
     return definitions;
 }

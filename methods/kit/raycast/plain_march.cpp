@@ -9,6 +9,7 @@ namespace {
 
 /// Weights of the cells ⌊x⌋ − 1 … ⌊x⌋ + 2 at a position x = ⌊x⌋ + t.
 std::array<double, 4> weightsOf(Filter filter, double t) {
+    if (filter == Filter::nearest) return t < 0.5 ? std::array{0.0, 1.0, 0.0, 0.0} : std::array{0.0, 0.0, 1.0, 0.0};
     if (filter == Filter::linear) return {0, 1 - t, t, 0};
     const double s = 1 - t;  // the cubic B-spline
     return {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6, t * t * t / 6};
@@ -41,9 +42,9 @@ glm::dvec4 burningAt(const std::vector<glm::vec4>& table, double reaction) {
     return glm::mix(glm::dvec4(table[texel]), glm::dvec4(table[next]), at - std::floor(at));
 }
 
-}  // namespace
-
-glm::dvec4 plainMarch(const PlainVolume& volume, const PlainRay& ray) {
+/// Visits the steps from front to back until `visit` returns false.
+template <typename Visit>
+void forEachStep(const PlainVolume& volume, const PlainRay& ray, const Visit& visit) {
     const auto& [grid, settings, reflected, light] = volume;
     double enter = 0, leave = ray.end;
     for (int axis = 0; axis < 3; ++axis) {
@@ -52,12 +53,10 @@ glm::dvec4 plainMarch(const PlainVolume& volume, const PlainRay& ray) {
         leave = std::min(leave, std::max(a, b));
     }
     const double sigma = settings.extinctionPerMetre * grid.spacingMetres;
-    const double opaque = -std::log1p(-settings.stopAlpha), step = settings.stepCells, shift = ray.jitter * step;
+    const double step = settings.stepCells, shift = ray.jitter * step;
     const std::vector<glm::vec4> fire = settings.fire.table();
     const auto phase = static_cast<double>(reflected.phase(glm::vec3(ray.along)));
-    double depth = 0;
-    glm::dvec3 colour(0);
-    for (double k = std::floor((enter - shift) / step); k * step + shift < leave && depth <= opaque; ++k) {
+    for (double k = std::floor((enter - shift) / step); k * step + shift < leave; ++k) {
         const double from = std::max(k * step + shift, enter), to = std::min((k + 1) * step + shift, leave);
         if (from >= to) continue;
         const glm::dvec3 middle = ray.eye + 0.5 * (from + to) * ray.along;
@@ -74,11 +73,32 @@ glm::dvec4 plainMarch(const PlainVolume& volume, const PlainRay& ray) {
             extinction *= burning.a;
             source += glm::dvec3(burning);
         }
-        const double next = depth + extinction * (to - from);
-        colour += (std::exp(-depth) - std::exp(-next)) * source;
-        depth = next;
+        if (!visit(PlainStep{extinction * (to - from), source})) return;
     }
+}
+
+}  // namespace
+
+glm::dvec4 plainMarch(const PlainVolume& volume, const PlainRay& ray) {
+    const double opaque = -std::log1p(-volume.settings.stopAlpha);
+    double depth = 0;
+    glm::dvec3 colour(0);
+    forEachStep(volume, ray, [&](const PlainStep& step) {
+        const double next = depth + step.depth;
+        colour += (std::exp(-depth) - std::exp(-next)) * step.source;
+        depth = next;
+        return depth <= opaque;
+    });
     return {colour, -std::expm1(-depth)};
+}
+
+std::vector<PlainStep> plainSteps(const PlainVolume& volume, const PlainRay& ray) {
+    std::vector<PlainStep> steps;
+    forEachStep(volume, ray, [&](const PlainStep& step) {
+        steps.push_back(step);
+        return true;
+    });
+    return steps;
 }
 
 double plainJitter(int x, int y) {

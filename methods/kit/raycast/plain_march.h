@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 #include "methods/kit/raycast/light_volume.h"
 #include "methods/kit/raycast/raycast_settings.h"
@@ -32,6 +33,14 @@ struct PlainRay {
 
 /// Red, green, blue, premultiplied, and alpha.
 [[nodiscard]] DUSTBENCH_API glm::dvec4 plainMarch(const PlainVolume& volume, const PlainRay& ray);
+
+/// A step of the march.
+struct PlainStep {
+    double depth = 0;      ///< optical
+    glm::dvec3 source{0};  ///< the colour that a thick cloud of its kind shows
+};
+/// All steps of a ray, from front to back, however deep.
+[[nodiscard]] DUSTBENCH_API std::vector<PlainStep> plainSteps(const PlainVolume& volume, const PlainRay& ray);
 
 /// Offset of a pixel's steps as a fraction of a step, counted from the bottom left: the fractional part of x/g + y/g²,
 /// with 1/g and 1/g² in units of 2⁻³², where g is the plastic number.

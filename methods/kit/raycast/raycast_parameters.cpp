@@ -12,7 +12,9 @@ void declareRaycast(ParameterSet& parameters) {
             "a march along each pixel's ray; planes across the view; a Gaussian for each cell; or an opaque surface "
             "of one density")
         .real("iso_density", 0.5, 1e-6, 1e6, "", "of renderer=isosurface")
-        .choice("filter", Filter::linear, filters, "how cells are interpolated")
+        .choice("filter", Filter::linear, filters,
+                "how cells are interpolated: not at all, each cell one value; between eight of them; or by a B-spline "
+                "of 64")
         .real("step_cells", 0.5, 0.01, 8, "cells", "length of a ray's steps")
         .boolean("jitter", true, "shift each pixel's steps by a share of one: noise instead of bands")
         .real("stop_alpha", 0.99, 0, 1, "", "a ray ends where more than this is covered; 1: never")

@@ -30,10 +30,12 @@ inline constexpr Choices<Renderer> renderers{{"raycast", Renderer::raycast},
 
 /// Interpolation between cell middles; constant beyond the outermost ones.
 enum class Filter {
+    nearest,  ///< none: each cell has one value, so that cells show as blocks
     linear,
     cubic,  ///< B-spline: smoother and never negative, but blurs
 };
-inline constexpr Choices<Filter> filters{{"linear", Filter::linear}, {"cubic", Filter::cubic}};
+inline constexpr Choices<Filter> filters{
+    {"nearest", Filter::nearest}, {"linear", Filter::linear}, {"cubic", Filter::cubic}};
 
 struct RaycastSettings {
     Backend backend = Backend::automatic;

@@ -65,6 +65,16 @@ inline double maximumDifference(const pictures::Image& a, const pictures::Image&
     return maximum;
 }
 
+/// Number of pixels that differ by more in any channel.
+inline int pixelsApart(const pictures::Image& a, const pictures::Image& b, double tolerance) {
+    int apart = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const glm::vec4 off = glm::abs(a.pixels[i] - b.pixels[i]);
+        apart += glm::any(glm::greaterThan(off, glm::vec4(static_cast<float>(tolerance)))) ? 1 : 0;
+    }
+    return apart;
+}
+
 inline double meanAlpha(const pictures::Image& image) {
     double sum = 0;
     for (const glm::vec4& pixel : image.pixels) sum += static_cast<double>(pixel.a);

@@ -180,10 +180,13 @@ TEST(SparsePicture, RefusesWhatItDoesNotShow) {
         settings.renderer = renderer;
         EXPECT_THAT(inputError([&] { requireSparse(settings); }), HasSubstr("with storage=sparse, allowed: raycast"));
     }
-    RaycastSettings cubic;
-    cubic.filter = raycast::Filter::cubic;
-    EXPECT_EQ(inputError([&] { requireSparse(cubic); }),
-              "parameter filter: got cubic with storage=sparse, allowed: linear");
+    for (const raycast::Filter filter : {raycast::Filter::nearest, raycast::Filter::cubic}) {
+        RaycastSettings settings;
+        settings.filter = filter;
+        EXPECT_EQ(inputError([&] { requireSparse(settings); }), "parameter filter: got " +
+                                                                    std::string(raycast::filters.wordOf(filter)) +
+                                                                    " with storage=sparse, allowed: linear");
+    }
     EXPECT_NO_THROW(requireTreesFit(128'000'000, 128'000'000));
     EXPECT_EQ(
         inputError([] { requireTreesFit(128'100'000, 128'000'000); }),
