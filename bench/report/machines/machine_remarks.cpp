@@ -247,6 +247,8 @@ class Remarks {
                     missing.on.push_back(side);
                 else if (!runs.invalid.empty())
                     missing.lacking.emplace_back(side, "invalid: " + whyInvalid(*runs.invalid.front()));
+                else if (!runs.copied.empty())
+                    missing.lacking.emplace_back(side, "copied from another folder");
                 else if (!runs.failed.empty())
                     missing.lacking.emplace_back(side, "failed: " + runs.failed.front()->reason);
                 else if (!runs.skipped.empty())
