@@ -76,9 +76,8 @@ std::vector<Alert> confirmed(const bench::FolderComparison& comparison, const st
 
 void sayBroken(const bench::FolderComparison& comparison) {
     for (const bench::FolderCell* cell : comparison.broken)
-        std::cerr << fmt::format("regression: {}: {} in B: {}\n", labelOf(*cell, comparison.axes),
-                                 cell->b.failed.front()->status == bench::RunStatus::timeout ? "timed out" : "failed",
-                                 cell->b.failed.front()->reason);
+        std::cerr << fmt::format("regression: {}: in B {}\n", labelOf(*cell, comparison.axes),
+                                 files::printable(bench::whyBroken(*cell)));
 }
 
 void writeMarkdown(const RegressionOptions& options, const bench::FolderComparison& comparison,
@@ -107,10 +106,20 @@ std::optional<std::vector<Alert>> lookAgain(const RegressionOptions& options, co
     return confirmed(comparison, alerts, second);
 }
 
+/// A gate that holds results against themselves always passes.
+void requireTwoFolders(const std::string& a, const std::string& b) {
+    std::error_code none;
+    if (std::filesystem::equivalent(a, b, none) ||
+        std::filesystem::equivalent(std::filesystem::path(a) / "runs", std::filesystem::path(b) / "runs", none))
+        throw InputError(
+            fmt::format("compare: got '{}' and '{}', which are the same folder twice, allowed: two", a, b));
+}
+
 }  // namespace
 
 int checkRegression(const RegressionOptions& options) {
     const std::vector<std::string> columns = parseColumns(options.columns);
+    requireTwoFolders(options.a, options.b);
     const bench::ResultsSide a{options.a, bench::readStoredRuns(options.a)};
     const bench::ResultsSide b{options.b, bench::readStoredRuns(options.b)};
     for (const bench::ResultsSide* side : {&a, &b})

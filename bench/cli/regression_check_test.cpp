@@ -34,6 +34,7 @@ class CompareFolders : public Dustbench {
                 change(record);
                 record.summary = {{"repetition", std::int64_t{repetition}},
                                   {"frame_ms_median", particles * factor * (1 + 0.002 * repetition)}};
+                if (!record.validity.empty()) record.summary.emplace_back("invalid", record.validity.front());
                 const fs::path folder = folder_ / name / "runs" / bench::runId(record.spec);
                 fs::create_directories(folder);
                 std::ofstream(folder / "run.json") << bench::toJson(record);
@@ -119,6 +120,46 @@ TEST_F(CompareFolders, AnAlertIsMeasuredAgainAndStandsOnlyIfItAlertsAgain) {
                                       HasSubstr("\n| column | method | particles |"), HasSubstr("<details>")));
 }
 
+TEST_F(CompareFolders, AFolderAgainstItselfPassesNoGate) {
+    write("a", 1, [](bench::RunRecord& record) { record.provenance.startedUtc = "2026-01-02T03:04:05Z"; });
+    fs::create_directory_symlink(folder_ / "a", folder_ / "link");
+    fs::create_directories(folder_ / "within");
+    fs::create_directory_symlink(folder_ / "a" / "runs", folder_ / "within" / "runs");
+    for (const char* same : {"a", "a/../a", "link", "within"}) {
+        const Called called = compare(same);
+        EXPECT_EQ(called.code, 3) << same;
+        EXPECT_THAT(called.err, HasSubstr("which are the same folder twice"));
+        EXPECT_EQ(called.out, "");
+    }
+    fs::copy(folder_ / "a", folder_ / "copy", fs::copy_options::recursive);
+    const Called copied = compare("copy");
+    EXPECT_EQ(copied.code, 6);
+    EXPECT_THAT(copied.err, HasSubstr("not comparable: 12 runs of B are copied from A"));
+}
+
+TEST_F(CompareFolders, AnotherQuotaIsANote) {
+    write("a", 1);
+    write("less", 1.001, [](bench::RunRecord& record) { record.provenance.machine.quotaCores = 0.5; });
+    const Called called = compare("less");
+    EXPECT_EQ(called.code, 0) << called.err;
+    EXPECT_THAT(called.err, HasSubstr("note: quota_cores: '0' in A and '0.5' in B (2 cells)"));
+}
+
+TEST_F(CompareFolders, InvalidRunsAreSaidAndPassNoGate) {
+    const auto invalid = [](bench::RunRecord& record) { record.validity = {"clipped is 4, allowed: up to 0"}; };
+    write("a", 1);
+    write("all", 1, invalid);
+    const Called one = compare("all");
+    EXPECT_EQ(one.code, 6) << one.err;
+    EXPECT_THAT(one.err, AllOf(HasSubstr("note: B: 12 of 12 runs are invalid"), HasSubstr("clipped is 4")));
+    write("some", 1.001, [&](bench::RunRecord& record) {
+        if (record.spec.parameters["particles"] == "900") invalid(record);
+    });
+    const Called some = compare("some");
+    EXPECT_EQ(some.code, 5) << some.err;
+    EXPECT_THAT(some.err, HasSubstr("regression: haze particles=900: in B invalid: clipped is 4"));
+}
+
 TEST_F(CompareFolders, WhatAnotherBuildMeasuredCannotBeMeasuredAgainAndStands) {
     write("a", 1);
     write("slower", 1.1);
@@ -143,7 +184,7 @@ TEST_F(CompareFolders, AGateThatCouldNotCloseIsNotPassed) {
         record.reason = "no end after 2 s";
     });
     EXPECT_EQ(compare("fails").code, 5);
-    EXPECT_THAT(compare("fails").err, HasSubstr("timed out in B: no end after 2 s"));
+    EXPECT_THAT(compare("fails").err, HasSubstr("in B timed out: no end after 2 s"));
 }
 
 TEST_F(CompareFolders, WritesACsvAndTakesFoldersAsTheyAre) {

@@ -67,6 +67,8 @@ void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results)
                                  ? fmt::format("95 % of the frames within {:.2f} ms, ", number("frame_ms_p95"))
                                  : "",
                              number("particles_median"), number("primitives_median"));
+    if (const std::string why = bench::whyInvalid(stored); !why.empty())
+        std::cout << "  invalid: " << files::printable(why) << " (left out of claims, fits and verdicts)\n";
     for (const std::string& warning : stored.warnings) std::cout << "  warning: " << files::printable(warning) << "\n";
 }
 

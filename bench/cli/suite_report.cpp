@@ -24,6 +24,12 @@ bench::TextRows transposed(const bench::TextRows& table) {
     return turned;
 }
 
+/// `invalid: ` and what saysInvalid says; empty if all runs are valid.
+std::string invalidLine(const std::vector<const bench::StoredRun*>& runs) {
+    const std::string said = bench::saysInvalid(runs);
+    return said.empty() ? "" : "invalid: " + files::printable(said) + "\n";
+}
+
 std::string textOf(bench::TextRows table) {
     table.rows.insert(table.rows.begin(), std::move(table.header));
     return textTable(table.rows);
@@ -37,6 +43,12 @@ std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs
                     suite.repetitions == 1 ? std::string("one run each")
                                            : fmt::format("medians over {} runs each", suite.repetitions));
     text += textOf(bench::tabulate(suite, runs));
+    std::vector<const bench::StoredRun*> all;
+    for (const bench::PlannedRun& cell : suite.cells) {
+        const auto done = bench::doneRuns(cell, suite.repetitions, runs);
+        all.insert(all.end(), done.begin(), done.end());
+    }
+    text += invalidLine(all);
     if (bench::TextRows metrics = bench::tabulateMetrics(suite, runs); !metrics.rows.empty())
         text += "\nmetrics, means over the judged moments (reports/METRICS.md)\n" +
                 textOf(metrics.rows.size() <= maximumColumns ? transposed(metrics) : std::move(metrics));
@@ -54,8 +66,10 @@ std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs
 }
 
 std::string runsReport(const std::string& title, const std::vector<bench::MeasuredCell>& cells) {
+    std::vector<const bench::StoredRun*> all;
+    for (const bench::MeasuredCell& cell : cells) all.insert(all.end(), cell.done.begin(), cell.done.end());
     return title + "\nframes per second; ms of a frame and of its stages; medians over the runs\n" +
-           textOf(bench::tabulate(cells));
+           textOf(bench::tabulate(cells)) + invalidLine(all);
 }
 
 std::string publishedReport(bench::TextRows table) {

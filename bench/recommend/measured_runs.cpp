@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "bench/results/key_fields.h"
 #include "bench/results/measured_on.h"
@@ -136,6 +137,14 @@ void keepOnly(MeasuredRuns& runs, const Condition& condition, const std::vector<
                                      fmt::join(condition.values, ","), fmt::join(values, ", ")));
 }
 
+/// A run counts once, however often a table that was put together has it.
+void requireEqualRows(const CsvTable& table, std::size_t first, std::size_t second, const std::string& from) {
+    for (const std::string& column : table.header())
+        if (table.cell(first, column) != table.cell(second, column))
+            throw InputError(fmt::format("'{}': got two different rows of the run '{}', allowed: one", from,
+                                         table.cell(first, "run_id")));
+}
+
 }  // namespace
 
 MeasuredRuns measuredRuns(const CsvTable& table, const std::string& from) {
@@ -143,7 +152,12 @@ MeasuredRuns measuredRuns(const CsvTable& table, const std::string& from) {
         if (!table.hasColumn(column))
             throw InputError(fmt::format("'{}': has no column '{}', expected a summary.csv", from, column));
     MeasuredRuns measured{.from = from, .machines = std::vector<MachineFacts>(1)};
+    std::map<std::string, std::size_t> rowOf;
     for (std::size_t row = 0; row < table.rows(); ++row) {
+        if (const auto [first, isNew] = rowOf.emplace(table.cell(row, "run_id"), row); !isNew) {
+            requireEqualRows(table, first->second, row, from);
+            continue;
+        }
         if (table.cell(row, "status") != "done") {
             ++measured.notDone;
         } else if (const std::string why = cellOf(table, row, "invalid"); !why.empty()) {

@@ -137,6 +137,18 @@ TEST(MeasuredRuns, LeaveOutWhatIsInvalidOrNotDoneAndCountIt) {
     EXPECT_THAT(rankings.incomplete, IsEmpty());
 }
 
+TEST(MeasuredRuns, CountOnceHoweverOftenATableHasThem) {
+    const std::string table = tableOf({{.ms = "1"}, {.ms = "2", .repetition = 2}});
+    const std::string rows = table.substr(table.find('\n') + 1);
+    const auto read = [](const std::string& text) {
+        return measuredRuns(files::CsvTable::parseText(text, "summary.csv"), "summary.csv").runs;
+    };
+    EXPECT_THAT(read(table + rows), SizeIs(2));
+    std::string other = rows;
+    other.replace(other.find(",1,,"), 4, ",9,,");
+    EXPECT_THROW((void)read(table + other), InputError);
+}
+
 TEST(MeasuredRuns, AreNarrowedByAnySetting) {
     MeasuredRuns runs =
         runsOf({{.ms = "1"}, {.ms = "2", .particles = 2000}, {.ms = "3", .particles = 2000, .depth = "9"}});

@@ -121,7 +121,7 @@ void fitCurves(RunGroup& group) {
             for (const std::string_view column : fittedColumns) {
                 std::vector<CostPoint> points;
                 for (const ReportCell* cell : cells)
-                    for (const double ms : numbersIn(cell->done, column))
+                    for (const double ms : numbersIn(validOf(cell->done), column))
                         points.push_back({*numberOf(cell->settings.at(axis.name)), ms});
                 const CostFit fit = fitCost(points);
                 if (!fit.reason.empty()) continue;

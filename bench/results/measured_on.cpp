@@ -1,5 +1,6 @@
 #include "bench/results/measured_on.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -40,6 +41,15 @@ std::string differingInput(const StoredRun& first, const StoredRun& second) {
         hashes.erase(found);
     }
     return hashes.empty() ? std::string() : hashes.begin()->first;
+}
+
+bool areOneMeasurement(const StoredRun& a, const StoredRun& b) {
+    const auto started = a.provenance.find("started_utc");
+    if (a.runId != b.runId || started == a.provenance.end() || started->second.empty()) return false;
+    const auto same = [](const OutputFile& x, const OutputFile& y) { return x.file == y.file && x.sha256 == y.sha256; };
+    const std::vector<OutputFile> none;
+    return a.provenance == b.provenance && a.cells == b.cells &&
+           std::ranges::equal(a.outputs ? *a.outputs : none, b.outputs ? *b.outputs : none, same);
 }
 
 std::vector<FieldDifference> differences(const StoredRun& first, const StoredRun& second,

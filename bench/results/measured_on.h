@@ -1,4 +1,4 @@
-// Compares the circumstances of two runs: machine, graphics device and build.
+// Compares the circumstances of two runs: machine, graphics device and build; or whether they are one.
 #pragma once
 
 #include <span>
@@ -20,6 +20,9 @@ namespace dustbench::bench {
 
 /// The first input file that is not the same in both; empty if all are.
 [[nodiscard]] std::string differingInput(const StoredRun& first, const StoredRun& second);
+
+/// True if both are one measurement, as in a folder and its copy: same start, place, numbers and files.
+[[nodiscard]] bool areOneMeasurement(const StoredRun& a, const StoredRun& b);
 
 struct FieldDifference {
     std::string field, first, second;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <simdjson.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 #include <set>
@@ -83,6 +84,28 @@ std::optional<std::vector<OutputFile>> readOutputs(object json) {
 }
 
 }  // namespace
+
+std::string whyInvalid(const StoredRun& run) {
+    const auto found = run.cells.find("invalid");
+    return found == run.cells.end() ? std::string() : found->second;
+}
+
+std::string saysInvalid(const std::vector<const StoredRun*>& runs) {
+    std::map<std::string, std::size_t> reasons;
+    std::size_t count = 0;
+    for (const StoredRun* run : runs)
+        if (std::string why = whyInvalid(*run); !why.empty()) {
+            ++reasons[shortened(std::move(why))];
+            ++count;
+        }
+    if (count == 0) return "";
+    const auto most = std::ranges::max_element(reasons, {}, [](const auto& entry) { return entry.second; });
+    return fmt::format("{} of {} {} invalid and left out of claims, fits and verdicts: {}{}", count, runs.size(),
+                       runs.size() == 1 ? "run is" : count == 1 ? "runs is" : "runs are", most->first,
+                       reasons.size() == 1   ? std::string()
+                       : reasons.size() == 2 ? std::string(" (and another reason)")
+                                             : fmt::format(" (and {} other reasons)", reasons.size() - 1));
+}
 
 StoredRun readRunFile(const std::filesystem::path& file) {
     thread_local simdjson::dom::parser parser;  // reuses its memory

@@ -29,6 +29,12 @@ struct StoredRun {
     std::optional<std::vector<OutputFile>> outputs{};
 };
 
+/// Why no claim, fit, verdict or gate may use the run (`invalid` of summary.csv); empty if it is valid.
+[[nodiscard]] std::string whyInvalid(const StoredRun& run);
+
+/// How many of these runs are invalid and why, as one line; empty if all are valid.
+[[nodiscard]] std::string saysInvalid(const std::vector<const StoredRun*>& runs);
+
 /// By run id.
 using StoredRuns = std::map<std::string, StoredRun>;
 

@@ -16,6 +16,16 @@ std::vector<const StoredRun*> doneRuns(const PlannedRun& cell, int repetitions, 
     return done;
 }
 
+const StoredRun* validRun(const PlannedRun& cell, int repetition, const StoredRuns& runs) {
+    const StoredRun* run = doneRun(cell, repetition, runs);
+    return run && whyInvalid(*run).empty() ? run : nullptr;
+}
+
+std::vector<const StoredRun*> validOf(std::vector<const StoredRun*> done) {
+    std::erase_if(done, [](const StoredRun* run) { return !whyInvalid(*run).empty(); });
+    return done;
+}
+
 std::optional<double> numberIn(const StoredRun& run, std::string_view column) {
     const auto found = run.cells.find(column);
     return found == run.cells.end() ? std::nullopt : files::numberOf(found->second);

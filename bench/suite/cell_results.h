@@ -16,6 +16,10 @@ namespace dustbench::bench {
 /// All done runs of a cell, in order.
 [[nodiscard]] std::vector<const StoredRun*> doneRuns(const PlannedRun& cell, int repetitions, const StoredRuns& runs);
 
+/// The same of valid runs alone: what fits and verdicts use.
+[[nodiscard]] const StoredRun* validRun(const PlannedRun& cell, int repetition, const StoredRuns& runs);
+[[nodiscard]] std::vector<const StoredRun*> validOf(std::vector<const StoredRun*> done);
+
 /// A cell of summary.csv; empty if it has no value.
 [[nodiscard]] std::optional<double> numberIn(const StoredRun& run, std::string_view column);
 /// The values of the runs that have one.

@@ -60,10 +60,15 @@ std::vector<FitResult> fitSuite(const Suite& suite, const StoredRuns& runs) {
         for (const std::string& column : planned.columns)
             for (const LoadedCells& group : cellsByLoad(suite, planned)) {
                 std::vector<CostPoint> points;
-                for (const PlannedRun* cell : group.cells)
-                    for (const double number : numbersIn(doneRuns(*cell, suite.repetitions, runs), column))
+                std::size_t invalid = 0;
+                for (const PlannedRun* cell : group.cells) {
+                    const auto done = doneRuns(*cell, suite.repetitions, runs);
+                    const auto valid = validOf(done);
+                    invalid += done.size() - valid.size();
+                    for (const double number : numbersIn(valid, column))
                         points.push_back({*loadOf(*cell, planned.against), isRate(column) ? 1000 / number : number});
-                result.curves.push_back({column, group.label, fitCost(points)});
+                }
+                result.curves.push_back({column, group.label, fitCost(points), invalid});
             }
         results.push_back(std::move(result));
     }
@@ -72,13 +77,16 @@ std::vector<FitResult> fitSuite(const Suite& suite, const StoredRuns& runs) {
 
 TextRows tabulate(const FitResult& result) {
     TextRows table{{"column", "method", "a [ms]", "b", "k", "loads", "runs", "scatter", "note"}, {}};
-    for (const auto& [column, label, fit] : result.curves) {
+    for (const auto& [column, label, fit, invalid] : result.curves) {
         std::vector<std::string> row{column, label};
         for (const Estimate& estimate : {fit.fixedMs, fit.factor, fit.exponent}) row.push_back(withInterval(estimate));
         row.push_back(std::to_string(fit.loads));
         row.push_back(std::to_string(fit.runs));
         row.push_back(std::isfinite(fit.relativeError) ? fmt::format("{:.1f} %", 100 * fit.relativeError) : "");
         row.push_back(fit.reason);
+        if (invalid > 0)
+            row.back() += fmt::format("{}{} invalid {} left out", fit.reason.empty() ? "" : "; ", invalid,
+                                      invalid == 1 ? "run" : "runs");
         table.rows.push_back(std::move(row));
     }
     return table;

@@ -1,6 +1,6 @@
 // Fits the growth of costs with a load, for a suite's `[[fit]]` tables, from its stored runs.
 //
-// All cells that differ only in the load form one curve, ms = a + b·N^k; each run is a point of it.
+// All cells that differ only in the load form one curve, ms = a + b·N^k; each valid run is a point of it.
 #pragma once
 
 #include <string>
@@ -23,7 +23,8 @@ struct LoadedCells {
 
 struct FittedCurve {
     std::string column, label;
-    CostFit fit;
+    CostFit fit;              ///< of valid runs
+    std::size_t invalid = 0;  ///< runs left out as invalid
 };
 
 struct FitResult {

@@ -49,6 +49,12 @@ Row metricsOf(const std::vector<const StoredRun*>& done) {
     return row;
 }
 
+/// ` (2 of 6 invalid)`; empty if all are valid.
+std::string invalidMark(const std::vector<const StoredRun*>& done) {
+    const std::size_t count = done.size() - validOf(done).size();
+    return count == 0 ? "" : fmt::format(" ({} of {} invalid)", count, done.size());
+}
+
 Row joined(Row row, Row more) {
     row.insert(row.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     return row;
@@ -75,12 +81,12 @@ TextRows tabulateRuns(const Suite& suite, const StoredRuns& runs, const Row& num
     if (cells.empty()) return table;
     const auto world = worldAxes(cells);
     const auto settings = methodAxes(cells);
-    const auto nameOf = [&](const PlannedRun& cell, std::size_t done) {
+    const auto nameOf = [&](const PlannedRun& cell, const std::vector<const StoredRun*>& done) {
         std::string name = cell.spec.method;
         if (const std::string setting = labelOf(settings, cell.spec); !setting.empty()) name += " " + setting;
-        if (done < static_cast<std::size_t>(suite.repetitions))
-            name += fmt::format(" ({} of {} runs)", done, suite.repetitions);
-        return name;
+        if (done.size() < static_cast<std::size_t>(suite.repetitions))
+            name += fmt::format(" ({} of {} runs)", done.size(), suite.repetitions);
+        return name + invalidMark(done);
     };
     const auto groups = groupByWorld(cells, world);
     const bool inColumns = std::ranges::all_of(groups, [](const auto& group) { return group.second.size() == 1; });
@@ -98,7 +104,7 @@ TextRows tabulateRuns(const Suite& suite, const StoredRuns& runs, const Row& num
         }
         for (const PlannedRun* cell : members) {
             const auto done = doneRuns(*cell, suite.repetitions, runs);
-            Row row{(headed ? "  " : "") + nameOf(*cell, done.size())};
+            Row row{(headed ? "  " : "") + nameOf(*cell, done)};
             if (inColumns)
                 for (const Axis& axis : world) row.push_back(axis.of(cell->spec));
             table.rows.push_back(joined(std::move(row), numbersOf(done)));
@@ -125,7 +131,8 @@ TextRows tabulate(const std::vector<MeasuredCell>& cells) {
         cells, [](const MeasuredCell& cell) { return !numbersIn(cell.done, "method_ms_median").empty(); });
     TextRows table{joined({"method", "runs"}, timesHeader(withOwn)), {}};
     for (const MeasuredCell& cell : cells)
-        table.rows.push_back(joined({cell.label, std::to_string(cell.done.size())}, timesOf(cell.done, withOwn)));
+        table.rows.push_back(joined({cell.label + invalidMark(cell.done), std::to_string(cell.done.size())},
+                                    timesOf(cell.done, withOwn)));
     return table;
 }
 

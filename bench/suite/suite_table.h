@@ -21,7 +21,7 @@ struct TextRows {
 /// and stages. If the suite has one method in one setting, columns of
 /// each row show what varies. Otherwise a row with only the world's label, `particles=500 speed=20`, heads the rows of
 /// the methods, which are labelled with their varying settings: `octree_search layout=morton`. Rows with incomplete
-/// runs are marked: `billboard (4 of 6 runs)`.
+/// runs are marked: `billboard (4 of 6 runs)`, and those with invalid runs: `billboard (2 of 6 invalid)`.
 [[nodiscard]] TextRows tabulate(const Suite& suite, const StoredRuns& runs);
 
 /// The same rows with the metrics of judged runs (reports/METRICS.md); no rows if none were judged.

@@ -94,6 +94,44 @@ TEST(SuiteTable, ARunThatFailedIsNotCounted) {
     EXPECT_EQ(tabulate(suite, runs).rows.at(0).at(0), "haze (0 of 1 runs)");
 }
 
+TEST(SuiteTable, InvalidRunsAreMarkedWhereTheirNumbersStand) {
+    Suite suite;
+    suite.repetitions = 2;
+    suite.cells.push_back(cellOf("haze", "100", {}));
+    StoredRuns runs;
+    for (const int repetition : {1, 2}) store(runs, suite.cells[0], repetition, "10");
+    runs.begin()->second.cells["invalid"] = "particles_median is 68, asked for: 100";
+    EXPECT_EQ(tabulate(suite, runs).rows.at(0).at(0), "haze (1 of 2 invalid)");
+    const std::vector<const StoredRun*> done = doneRuns(suite.cells[0], 2, runs);
+    EXPECT_EQ(tabulate({MeasuredCell{"haze", done}}).rows.at(0).at(0), "haze (1 of 2 invalid)");
+    EXPECT_EQ(
+        saysInvalid(done),
+        "1 of 2 runs is invalid and left out of claims, fits and verdicts: particles_median is 68, asked for: 100");
+    EXPECT_EQ(saysInvalid({done.back()}), "");
+}
+
+TEST(SuiteFit, InvalidRunsAreNoPointsAndAreCounted) {
+    Suite suite;
+    suite.repetitions = 2;
+    suite.fits = {{{"frame_ms_median"}, "particles", ""}};
+    StoredRuns runs;
+    for (const int particles : {100, 200, 400, 800}) {
+        suite.cells.push_back(cellOf("haze", std::to_string(particles), {}));
+        for (const int repetition : {1, 2}) {
+            store(runs, suite.cells.back(), repetition, "10");
+            StoredRun& run = runs[runId(inRepetition(suite.cells.back().spec, repetition))];
+            run.cells["frame_ms_median"] = std::to_string(5 + 0.01 * particles);
+            if (repetition == 2) run.cells["frame_ms_median"] = "500";  // of another load than was asked for
+            if (repetition == 2) run.cells["invalid"] = "particles_median is 483, asked for: 100";
+        }
+    }
+    const FitResult result = fitSuite(suite, runs).at(0);
+    EXPECT_EQ(result.curves.at(0).fit.runs, 4u);
+    EXPECT_EQ(result.curves.at(0).invalid, 4u);
+    EXPECT_NEAR(result.curves.at(0).fit.exponent.value, 1, 0.01);
+    EXPECT_EQ(cellAt(tabulate(result), 0, "note"), "4 invalid runs left out");
+}
+
 TEST(SuiteTable, NumbersKeepFourDigits) {
     EXPECT_EQ(fourDigits(0.04712), "0.047");
     EXPECT_EQ(fourDigits(9.9996), "10.00");

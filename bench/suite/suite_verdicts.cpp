@@ -34,8 +34,8 @@ std::string ratioText(double ratio) {
 /// The pair's ln(of / with); empty if a run is missing or has no time above 0.
 std::optional<double> logRatio(const CellPair& pair, int repetition, const std::string& column,
                                const StoredRuns& runs) {
-    const StoredRun* of = doneRun(*pair.of, repetition, runs);
-    const StoredRun* with = doneRun(*pair.with, repetition, runs);
+    const StoredRun* of = validRun(*pair.of, repetition, runs);
+    const StoredRun* with = validRun(*pair.with, repetition, runs);
     if (!of || !with) return std::nullopt;
     const auto a = numberIn(*of, column), b = numberIn(*with, column);
     if (!a || !b || !(*a > 0) || !(*b > 0)) return std::nullopt;
@@ -54,19 +54,46 @@ std::string otherMachine(const CellPair& pair, int repetition, const StoredRuns&
                        found.front().first, found.front().second);
 }
 
+/// If both runs are done and one of them is invalid, why; else empty.
+std::string invalidIn(const CellPair& pair, int repetition, const StoredRuns& runs) {
+    const StoredRun* of = doneRun(*pair.of, repetition, runs);
+    const StoredRun* with = doneRun(*pair.with, repetition, runs);
+    if (!of || !with) return {};
+    const std::string why = whyInvalid(*of);
+    return why.empty() ? whyInvalid(*with) : why;
+}
+
+/// What was left out of a verdict, as a clause: pairs of different machines, and invalid ones with their count.
+struct LeftOut {
+    std::string machines, whyInvalid;
+    std::size_t invalid = 0;
+
+    void addInvalid(const std::string& why) {
+        ++invalid;
+        if (whyInvalid.empty()) whyInvalid = why;
+    }
+    [[nodiscard]] std::string text() const {
+        if (invalid == 0) return machines;
+        return fmt::format("{}{}{} with an invalid run {} left out ({})", machines, machines.empty() ? "" : "; ",
+                           invalid == 1 ? "1 pair" : fmt::format("{} pairs", invalid), invalid == 1 ? "was" : "were",
+                           whyInvalid);
+    }
+};
+
 CellVerdict judged(std::vector<std::string> at, const std::vector<double>& logRatios, Order order,
-                   const std::string& leftOut) {
+                   const LeftOut& leftOut) {
     CellVerdict verdict{std::move(at), judgeLogRatios(logRatios), ""};
-    if (logRatios.empty())
+    if (logRatios.empty() && leftOut.invalid == 0)
         verdict.reason = "no paired runs with a time above 0";
-    else if (logRatios.size() < minimumPairs)
+    else if (!logRatios.empty() && logRatios.size() < minimumPairs)
         verdict.reason = fmt::format("{} paired {}, {} are needed", logRatios.size(),
                                      logRatios.size() == 1 ? "run" : "runs", minimumPairs);
     if (order == Order::batch) {
         verdict.result.verdict = Verdict::unresolved;
         verdict.reason = "the runs were not interleaved";
     }
-    if (!leftOut.empty()) verdict.reason += (verdict.reason.empty() ? "" : "; ") + leftOut;
+    if (const std::string text = leftOut.text(); !text.empty())
+        verdict.reason += (verdict.reason.empty() ? "" : "; ") + text;
     return verdict;
 }
 
@@ -77,14 +104,17 @@ ColumnVerdict judgeColumn(const Suite& suite, const MatchedCells& matched, const
     std::vector<double> sums(rounds, 0);
     std::vector<std::size_t> counts(rounds, 0);
     std::size_t measured = 0;
-    std::string leftOutOfAny;
+    LeftOut leftOutOfAny;
     for (const CellPair& pair : matched.pairs) {
         std::vector<double> logRatios;
-        std::string leftOut;
+        LeftOut leftOut;
         for (std::size_t round = 0; round < rounds; ++round) {
             const int repetition = static_cast<int>(round) + 1;
             if (std::string why = otherMachine(pair, repetition, runs); !why.empty()) {
-                leftOut = leftOutOfAny = std::move(why);
+                leftOut.machines = leftOutOfAny.machines = std::move(why);
+            } else if (why = invalidIn(pair, repetition, runs); !why.empty()) {
+                leftOut.addInvalid(why);
+                leftOutOfAny.addInvalid(why);
             } else if (const auto x = logRatio(pair, repetition, column, runs)) {
                 logRatios.push_back(*x);
                 sums[round] += *x;

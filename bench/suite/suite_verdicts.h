@@ -3,7 +3,8 @@
 // Two cells are paired if scene, drive, size and the world's parameters are equal, and so are the methods' own
 // parameters that the suite varies on both sides. Parameters named by a side (`octree_search layout=morton`) are
 // exempt. Repetition k of one is paired with repetition k of the other; both ran in the same round, so a suite in
-// batches resolves nothing. Runs from different machines, possible in merged folders, are not paired.
+// batches resolves nothing. Runs from different machines, possible in merged folders, are not paired, nor
+// are invalid runs; the reason counts them.
 #pragma once
 
 #include <string>

@@ -103,6 +103,26 @@ TEST(SuiteComparison, RunsOfDifferentMachinesAreNoPair) {
     EXPECT_THAT(column.overall.reason, HasSubstr("'another'"));
 }
 
+TEST(SuiteComparison, AnInvalidRunIsNoPairAndIsCounted) {
+    const Suite suite = parseSuite(twoSorts, "s", false);
+    StoredRuns runs = runsOf(suite, ratioIs(0.5));
+    for (const int repetition : {2, 5})
+        runs.at(runId(inRepetition(suite.cells.front().spec, repetition))).cells["invalid"] = "particles_median is 9";
+    const ColumnVerdict column = suiteVerdicts(suite, runs).at(0).columns.at(0);
+    int touched = 0;
+    for (const CellVerdict& cell : column.cells) {
+        if (cell.result.pairs == 6) continue;
+        ++touched;
+        EXPECT_EQ(cell.result.pairs, 4u);
+        EXPECT_EQ(cell.result.verdict, Verdict::unresolved);
+        EXPECT_EQ(cell.reason,
+                  "4 paired runs, 6 are needed; 2 pairs with an invalid run were left out (particles_median is 9)");
+    }
+    EXPECT_EQ(touched, 1);
+    EXPECT_EQ(column.overall.result.pairs, 4u);
+    EXPECT_THAT(conclusions(suiteVerdicts(suite, runs).at(0)).front(), HasSubstr("2 pairs with an invalid run"));
+}
+
 TEST(SuiteComparison, ASettingThatOneSideAloneVariesIsComparedForEachOfItsValues) {
     // As methods do that lack each other's parameters: the one is at `texture` all the time.
     Suite suite = parseSuite(twoSorts, "s", false);

@@ -49,10 +49,13 @@ class Teller : public ExecutionListener {
 };
 
 std::string timesOf(const PlannedRun& cell, const Suite& suite, const StoredRuns& runs) {
-    const auto times = numbersIn(doneRuns(cell, suite.repetitions, runs), "frame_ms_median");
+    const auto done = doneRuns(cell, suite.repetitions, runs);
+    const auto times = numbersIn(done, "frame_ms_median");
     if (times.empty()) return fmt::format("{}: no times", sideOf(cell).label);
-    return fmt::format("frame_ms_median: {} takes {:.3f} ms, {:.3f} to {:.3f} in {} runs", sideOf(cell).label,
-                       median(times), minimum(times), maximum(times), times.size());
+    const std::string invalid = saysInvalid(done);
+    return fmt::format("frame_ms_median: {} takes {:.3f} ms, {:.3f} to {:.3f} in {} runs{}{}", sideOf(cell).label,
+                       median(times), minimum(times), maximum(times), times.size(), invalid.empty() ? "" : "; ",
+                       invalid);
 }
 
 }  // namespace

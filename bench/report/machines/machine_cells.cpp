@@ -37,8 +37,9 @@ bool MachineCells::haveSomethingInCommon() const {
 MachineCells cellsOf(const MachineSet& set) {
     std::map<CellIdentity, MachineCell, decltype(&identityLess)> found(&identityLess);
     MachineCells result;
+    std::map<std::string, std::vector<const StoredRun*>> placed;  // by run id, of the sides before
     for (std::size_t side = 0; side < set.sides.size(); ++side) {
-        std::size_t unplaced = 0;
+        std::size_t unplaced = 0, copied = 0;
         for (const StoredRun* run : set.sides[side].runs) {
             CellIdentity identity;
             try {
@@ -50,8 +51,19 @@ MachineCells cellsOf(const MachineSet& set) {
             MachineCell& cell = found[identity];
             cell.identity = std::move(identity);
             cell.sides.resize(set.sides.size());
+            std::vector<const StoredRun*>& before = placed[run->runId];
+            if (std::ranges::any_of(before,
+                                    [run](const StoredRun* other) { return areOneMeasurement(*other, *run); })) {
+                cell.sides[side].copied.push_back(run);
+                ++copied;
+                continue;
+            }
+            before.push_back(run);
             add(cell.sides[side], *run);
         }
+        if (copied > 0)
+            result.unplaced.push_back(fmt::format("{}: {} of {} runs are copies of another folder's, and left out",
+                                                  set.sides[side].label, copied, set.sides[side].runs.size()));
         if (unplaced > 0)
             result.unplaced.push_back(fmt::format("{}: {} of {} runs do not say what was measured (provenance.key)",
                                                   set.sides[side].label, unplaced, set.sides[side].runs.size()));

@@ -22,9 +22,10 @@ struct MachineCell {
 };
 
 struct MachineCells {
-    std::vector<MachineCell> cells;     ///< sorted by identity, numbers numerically
-    std::vector<std::string> names;     ///< the fields that tell cells of a method apart
-    std::vector<std::string> unplaced;  ///< a sentence for each machine with runs that do not say what they are
+    std::vector<MachineCell> cells;  ///< sorted by identity, numbers numerically
+    std::vector<std::string> names;  ///< the fields that tell cells of a method apart
+    std::vector<std::string>
+        unplaced;  ///< a sentence for each machine with copied runs or runs that do not say what they are
     [[nodiscard]] std::string labelOf(const MachineCell& cell) const { return bench::labelOf(cell.identity, names); }
     /// True if a cell is done on two machines and is the same work there.
     [[nodiscard]] bool haveSomethingInCommon() const;

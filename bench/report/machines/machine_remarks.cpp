@@ -56,6 +56,7 @@ class Remarks {
         sayMixedPrograms();
         sayKinds();
         for (std::size_t folder = 0; folder < set_.folders.size(); ++folder) sayProblems(folder);
+        sayInvalid();
         for (const std::string& sentence : cells_.unplaced) result_.notes.push_back(sentence);
         listMissing();
         return std::move(result_);
@@ -182,6 +183,16 @@ class Remarks {
                         fmt::format("{}: its runs differ in {}: {}", side.label, field, valuesText(found->second)));
     }
 
+    void sayInvalid() {
+        for (const MachineSide& side : set_.sides) {
+            std::vector<const StoredRun*> done;
+            for (const StoredRun* run : side.runs)
+                if (run->status == RunStatus::done) done.push_back(run);
+            if (const std::string said = saysInvalid(done); !said.empty())
+                result_.notes.push_back(fmt::format("{}: {}", side.label, said));
+        }
+    }
+
     void sayKinds() {
         for (std::size_t a = 0; a < sides(); ++a)
             for (std::size_t b = a + 1; b < sides(); ++b)
@@ -234,6 +245,10 @@ class Remarks {
                 const CellRuns& runs = cell.sides[side];
                 if (!runs.done.empty())
                     missing.on.push_back(side);
+                else if (!runs.invalid.empty())
+                    missing.lacking.emplace_back(side, "invalid: " + whyInvalid(*runs.invalid.front()));
+                else if (!runs.copied.empty())
+                    missing.lacking.emplace_back(side, "copied from another folder");
                 else if (!runs.failed.empty())
                     missing.lacking.emplace_back(side, "failed: " + runs.failed.front()->reason);
                 else if (!runs.skipped.empty())

@@ -13,7 +13,7 @@ namespace dustbench::bench {
 struct MissingCell {
     std::string cell;             ///< `billboard particles=500`
     std::vector<std::size_t> on;  ///< machines on which it is done
-    /// The others, with the reason: `not measured`, `failed: …`, `skipped: …`.
+    /// The others, with the reason: `not measured`, `invalid: …`, `copied …`, `failed: …`, `skipped: …`.
     std::vector<std::pair<std::size_t, std::string>> lacking;
 };
 

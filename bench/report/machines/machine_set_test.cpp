@@ -80,6 +80,14 @@ TEST(MachineSet, RefusesLabelsThatDoNotTellFoldersApart) {
                 HasSubstr("got the same folder twice"));
 }
 
+TEST(MachineSet, CopiedRunsAreNoMeasurementsOfAnotherMachine) {
+    StoredRuns runs = storedRuns(session(1, 0.5, {200}), "A");
+    for (auto& [id, run] : runs) run.provenance["started_utc"] = "2026-01-02T03:04:05Z";
+    const MachineComparison comparison = compared({{"a", runs}, {"b", runs}});
+    EXPECT_FALSE(comparison.isComparable());
+    EXPECT_THAT(comparison.remarks.notes, Contains("b: 12 of 12 runs are copies of another folder's, and left out"));
+}
+
 TEST(MachineSet, NamesADamagedRunAndAFolderWithoutRuns) {
     const Folder folder;
     for (const char* name : {"a", "b"}) writeRuns(folder, name, storedRuns(session(1, 0.5, {200}), name));

@@ -8,6 +8,8 @@
 #include <optional>
 #include <set>
 
+#include "bench/results/measured_on.h"
+
 namespace dustbench::bench {
 namespace {
 
@@ -27,6 +29,19 @@ bool valueLess(const std::string& a, const std::string& b) {
     return a < b;
 }
 
+/// Moves runs that are one measurement in both folders aside.
+void setCopiesAside(FolderCell& cell) {
+    std::erase_if(cell.a.done, [&cell](const StoredRun* mine) {
+        const auto theirs =
+            std::ranges::find_if(cell.b.done, [mine](const StoredRun* run) { return areOneMeasurement(*mine, *run); });
+        if (theirs == cell.b.done.end()) return false;
+        cell.a.copied.push_back(mine);
+        cell.b.copied.push_back(*theirs);
+        cell.b.done.erase(theirs);
+        return true;
+    });
+}
+
 }  // namespace
 
 bool identityLess(const CellIdentity& a, const CellIdentity& b) {
@@ -38,7 +53,7 @@ bool identityLess(const CellIdentity& a, const CellIdentity& b) {
 void add(CellRuns& runs, const StoredRun& run) {
     switch (run.status) {
         case RunStatus::done:
-            runs.done.push_back(&run);
+            (whyInvalid(run).empty() ? runs.done : runs.invalid).push_back(&run);
             break;
         case RunStatus::skipped:
             runs.skipped.push_back(&run);
@@ -73,7 +88,10 @@ std::vector<FolderCell> cellsOf(const ResultsSide& a, const ResultsSide& b) {
         }
     std::vector<FolderCell> list;
     list.reserve(cells.size());
-    for (auto& [identity, cell] : cells) list.push_back(std::move(cell));
+    for (auto& [identity, cell] : cells) {
+        setCopiesAside(cell);
+        list.push_back(std::move(cell));
+    }
     return list;
 }
 

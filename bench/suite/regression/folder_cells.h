@@ -16,10 +16,14 @@ struct ResultsSide {
 
 /// One cell's runs in one folder. Points into it.
 struct CellRuns {
-    std::vector<const StoredRun*> done;
+    std::vector<const StoredRun*> done;     ///< and valid
+    std::vector<const StoredRun*> invalid;  ///< done, but no verdict may use them
+    std::vector<const StoredRun*> copied;   ///< the same measurement as one of the other folder
     std::vector<const StoredRun*> failed;   ///< including timeouts
     std::vector<const StoredRun*> skipped;  ///< the method does not support the scene
-    [[nodiscard]] std::size_t count() const { return done.size() + failed.size() + skipped.size(); }
+    [[nodiscard]] std::size_t count() const {
+        return done.size() + invalid.size() + copied.size() + failed.size() + skipped.size();
+    }
 };
 
 /// The fields that distinguish a cell, in the order of the run's key: `method`, `scene`, `drive`, `p.particles`,
@@ -30,7 +34,7 @@ using CellIdentity = KeyFields;
 /// Field by field; numbers numerically.
 [[nodiscard]] bool identityLess(const CellIdentity& a, const CellIdentity& b);
 
-/// Adds a run to those of its status.
+/// Adds a run to those of its status and validity.
 void add(CellRuns& runs, const StoredRun& run);
 
 struct FolderCell {
@@ -44,7 +48,7 @@ struct FolderCell {
 /// repetition only. Throws InputError if a run does not contain its key.
 [[nodiscard]] CellIdentity identityOf(const StoredRun& run);
 
-/// Sorted by identityLess.
+/// Sorted by identityLess. A run and its copy in the other folder are `copied`, not `done`.
 [[nodiscard]] std::vector<FolderCell> cellsOf(const ResultsSide& a, const ResultsSide& b);
 
 /// The fields needed besides the method to distinguish cells: those with several values within one method.

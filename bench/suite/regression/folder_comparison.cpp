@@ -88,10 +88,18 @@ FolderComparison compareFolders(const ResultsSide& a, const ResultsSide& b, cons
     for (std::string& sentence : remarks.rest()) comparison.remarks.push_back(std::move(sentence));
 
     for (const FolderCell& cell : comparison.cells)
-        if (!cell.a.done.empty() && cell.a.failed.empty() && !cell.b.failed.empty()) comparison.broken.push_back(&cell);
+        if (!cell.a.done.empty() && cell.a.failed.empty() && cell.a.invalid.empty() && !whyBroken(cell).empty())
+            comparison.broken.push_back(&cell);
     if (comparison.obstacles.empty())
         for (const std::string& column : columns) judgeColumn(comparison.cells, column, comparison.judged);
     return comparison;
+}
+
+std::string whyBroken(const FolderCell& cell) {
+    if (!cell.b.failed.empty())
+        return fmt::format("{}: {}", cell.b.failed.front()->status == RunStatus::timeout ? "timed out" : "failed",
+                           cell.b.failed.front()->reason);
+    return cell.b.invalid.empty() ? "" : "invalid: " + whyInvalid(*cell.b.invalid.front());
 }
 
 bool isSlowerBy(const JudgedCell& judged, double percent) {

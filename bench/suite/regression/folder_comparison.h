@@ -32,7 +32,7 @@ struct FolderComparison {
     std::vector<std::string> obstacles;  ///< why the folders cannot be compared, one sentence each; empty if they can
     std::vector<std::string> remarks;    ///< further notes: missing or failed runs, differences, disturbances
     std::vector<JudgedCell> judged;      ///< column by column: the cells in both folders, then all together
-    /// Cells that are done in A without a failure, and fail or time out in B.
+    /// Cells that are done in A without a failure and valid, and fail, time out or are invalid in B: whyBroken.
     std::vector<const FolderCell*> broken;
 };
 
@@ -40,6 +40,9 @@ struct FolderComparison {
 /// its key.
 [[nodiscard]] FolderComparison compareFolders(const ResultsSide& a, const ResultsSide& b,
                                               const std::vector<std::string>& columns, bool acrossMachines);
+
+/// `failed: …`, `timed out: …` or `invalid: …` of the first such run in B.
+[[nodiscard]] std::string whyBroken(const FolderCell& cell);
 
 /// True if there are enough runs and the whole interval lies above 1 + percent/100.
 [[nodiscard]] bool isSlowerBy(const JudgedCell& judged, double percent);

@@ -161,6 +161,55 @@ TEST(FolderComparison, NothingIsSilent) {
     EXPECT_EQ(result.broken.size(), 1u);
 }
 
+TEST(FolderComparison, InvalidRunsAreLeftOutWithTheirCountAndBreakACellThatWasValid) {
+    StoredRuns a = session(1), b = session(1.001);
+    for (int k = 1; k <= 6; ++k) {
+        for (StoredRuns* runs : {&a, &b}) runs->at(fmt::format("fog-200-r{}", k)).cells["invalid"] = "clipped is 4";
+        b.at(fmt::format("fog-200-r{}", k)).cells["frame_ms_median"] = "9999";
+    }
+    const FolderComparison both = compare(a, b);
+    EXPECT_EQ(both.judged.size(), 4u);  // three cells, and all of them
+    EXPECT_NEAR(both.judged.back().result.ratio, 1.001, 1e-4);
+    EXPECT_THAT(both.remarks,
+                Contains("B: 6 of 24 runs are invalid and left out of claims, fits and verdicts: clipped is 4"));
+    EXPECT_THAT(both.broken, IsEmpty());
+
+    const ResultsSide valid{"a/", session(1)}, invalid{"b/", b};
+    const FolderComparison newly = compareFolders(valid, invalid, {"frame_ms_median"}, false);
+    ASSERT_EQ(newly.broken.size(), 1u);
+    EXPECT_EQ(whyBroken(*newly.broken.front()), "invalid: clipped is 4");
+    EXPECT_THAT(comparisonCsv(newly, 5), HasSubstr("not valid in B"));
+}
+
+TEST(FolderComparison, ACopiedRunIsNoMeasurementOfItsOwn) {
+    const auto started = [](StoredRuns runs) {
+        for (auto& [id, run] : runs) run.provenance["started_utc"] = "2026-01-02T03:04:05Z";
+        return runs;
+    };
+    const StoredRuns a = started(session(1));
+    EXPECT_THAT(compare(a, a).obstacles, ElementsAre(HasSubstr("24 runs of B are copied from A")));
+    // Measured in the same second, with other numbers.
+    EXPECT_THAT(compare(a, started(session(1.001))).obstacles, IsEmpty());
+    StoredRuns b = started(session(1.1));
+    for (int k = 1; k <= 6; ++k) b[fmt::format("fog-200-r{}", k)] = a.at(fmt::format("fog-200-r{}", k));
+    const FolderComparison some = compare(a, b);
+    EXPECT_THAT(some.obstacles, IsEmpty());
+    EXPECT_THAT(some.remarks, Contains(HasSubstr("6 runs of B are copied from A")));
+    EXPECT_EQ(some.judged.size(), 4u);
+    EXPECT_NEAR(some.judged.back().result.ratio, 1.1, 1e-4);
+}
+
+TEST(FolderComparison, AnotherQuotaOrEnvironmentIsSaid) {
+    StoredRuns b = session(1.001);
+    for (auto& [id, run] : b) {
+        run.provenance["quota_cores"] = "0.5";
+        run.provenance["environment"] = "LP_NUM_THREADS=2";
+    }
+    const FolderComparison result = compare(session(1), b);
+    EXPECT_THAT(result.remarks, Contains("quota_cores: '' in A and '0.5' in B (4 cells)"));
+    EXPECT_THAT(result.remarks, Contains("environment: '' in A and 'LP_NUM_THREADS=2' in B (4 cells)"));
+}
+
 TEST(FolderComparison, TheCsvHasARowForEveryCellWhateverBecameOfIt) {
     const ResultsSide a{"a/", session(1)};
     ResultsSide b{"b/", session(1.2)};

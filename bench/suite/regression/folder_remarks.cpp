@@ -53,6 +53,13 @@ std::vector<std::string> withCounts(const std::map<std::string, std::size_t>& ce
     return sentences;
 }
 
+void addInvalid(const ResultsSide& side, char letter, std::vector<std::string>& list) {
+    std::vector<const StoredRun*> done;
+    for (const auto& [id, run] : side.runs)
+        if (run.status == RunStatus::done) done.push_back(&run);
+    if (const std::string said = saysInvalid(done); !said.empty()) list.push_back(fmt::format("{}: {}", letter, said));
+}
+
 void addBuildsAndWarnings(const ResultsSide& side, char letter, std::vector<std::string>& list) {
     std::map<std::string, std::size_t> builds;
     std::size_t done = 0, warned = 0;
@@ -78,7 +85,7 @@ void addBuildsAndWarnings(const ResultsSide& side, char letter, std::vector<std:
 }  // namespace
 
 std::string FolderRemarks::nothingInCommon() const {
-    std::string text = fmt::format("no cell is done in both: {} of {} in A, {} of {} in B",
+    std::string text = fmt::format("no cell is done and valid in both: {} of {} in A, {} of {} in B",
                                    quantity(static_cast<std::size_t>(std::ranges::count_if(
                                                 cells_, [](const auto& cell) { return cell.a.count() > 0; })),
                                             "cell"),
@@ -104,9 +111,21 @@ std::string FolderRemarks::nothingInCommon() const {
     return text;
 }
 
+std::string FolderRemarks::copies() const {
+    std::size_t count = 0;
+    for (const FolderCell& cell : cells_) count += cell.b.copied.size();
+    if (count == 0) return "";
+    return fmt::format(
+        "{} of B {} copied from A, or A's from B: one measurement, which shows no difference and is left out",
+        quantity(count, "run"), count == 1 ? "is" : "are");
+}
+
 std::vector<std::string> FolderRemarks::obstacles() const {
     std::vector<std::string> list;
-    if (std::ranges::none_of(cells_, isInBoth)) list.push_back(nothingInCommon());
+    if (std::ranges::none_of(cells_, isInBoth)) {
+        std::string copied = copies();
+        list.push_back(copied.empty() ? nothingInCommon() : std::move(copied));
+    }
     for (const FolderCell& cell : cells_) {
         if (!isInBoth(cell)) continue;
         const auto runs = doneRuns(cell);
@@ -131,6 +150,9 @@ std::vector<std::string> FolderRemarks::machines() const {
 
 std::vector<std::string> FolderRemarks::rest() const {
     std::vector<std::string> list = withCounts(differencesWithin(cells_, circumstanceFields()));
+    if (std::string copied = copies(); !copied.empty()) list.push_back(std::move(copied));
+    addInvalid(a_, 'A', list);
+    addInvalid(b_, 'B', list);
     addBuildsAndWarnings(a_, 'A', list);
     addBuildsAndWarnings(b_, 'B', list);
     for (const FolderCell& cell : cells_) {

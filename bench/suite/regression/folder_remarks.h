@@ -15,16 +15,19 @@ class FolderRemarks {
                   const std::vector<std::string>& tellingNames)
         : a_(a), b_(b), cells_(cells), tellingNames_(tellingNames) {}
 
-    /// No common cell, or cells whose runs did different work: other inputs, or a different final state.
+    /// No common cell, only copied runs, or cells whose runs did different work: other inputs, or a different final
+    /// state.
     [[nodiscard]] std::vector<std::string> obstacles() const;
     /// Cells whose runs are from different machines or builds.
     [[nodiscard]] std::vector<std::string> machines() const;
-    /// Runs in only one folder, failed runs, runs from debug builds or with warnings, and other differences between the
-    /// two programs.
+    /// Runs in only one folder, failed and invalid runs, runs from debug builds or with warnings, and other differences
+    /// between the two programs.
     [[nodiscard]] std::vector<std::string> rest() const;
 
  private:
     [[nodiscard]] std::string nothingInCommon() const;
+    /// How many runs are in both folders by copying, as a sentence; empty if none are.
+    [[nodiscard]] std::string copies() const;
     [[nodiscard]] std::string nameOf(const FolderCell& cell) const { return labelOf(cell, tellingNames_); }
 
     const ResultsSide& a_;

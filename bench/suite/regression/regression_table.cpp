@@ -100,8 +100,9 @@ std::string comparisonCsv(const FolderComparison& comparison, std::optional<doub
         for (const auto side : {&FolderCell::a, &FolderCell::b})
             row.push_back(fmt::format("{}", (cell.*side).failed.size()));
         row.emplace_back("");
-        row.push_back(
-            fmt::format("not done in {}", cell.a.done.empty() ? (cell.b.done.empty() ? "either" : "A") : "B"));
+        const bool isInvalid = !cell.a.invalid.empty() || !cell.b.invalid.empty();
+        row.push_back(fmt::format("not {} in {}", isInvalid ? "valid" : "done",
+                                  cell.a.done.empty() ? (cell.b.done.empty() ? "either" : "A") : "B"));
         const bool broken = std::ranges::find(comparison.broken, &cell) != comparison.broken.end();
         row.emplace_back(percent ? (broken ? "1" : "0") : "");
         addRow(row);
@@ -136,8 +137,7 @@ std::string comparisonMarkdown(const FolderComparison& comparison, std::string_v
         count, comparison.judged.size(), b, a);
     if (count > 0) text += "\n" + head + slower;
     for (const FolderCell* cell : comparison.broken)
-        text +=
-            fmt::format("\n- {}: fails in B: {}\n", labelOf(*cell, comparison.axes), cell->b.failed.front()->reason);
+        text += fmt::format("\n- {}: in B {}\n", labelOf(*cell, comparison.axes), whyBroken(*cell));
     return text + fmt::format("\n<details><summary>All {} comparisons</summary>\n\n", comparison.judged.size()) + head +
            rows + "\n</details>\n";
 }
