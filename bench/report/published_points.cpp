@@ -129,6 +129,7 @@ class PublishedReader {
         const auto found = loads.find(name);
         if (found == loads.end()) {
             std::vector<std::string> names;
+            names.reserve(loads.size());
             for (const auto& [each, values] : loads) names.push_back(each);
             fail("axis", name,
                  names.empty() ? std::string("nothing: the suite has no load")
