@@ -34,8 +34,7 @@ struct ChartOfSuite {
 
 class PublishedReader {
  public:
-    PublishedReader(const std::string& paper, const CsvTable& table)
-        : table_(table), suites_(loadPaper(paper).suites) {
+    PublishedReader(const std::string& paper, const CsvTable& table) : table_(table), suites_(loadPaper(paper).suites) {
         if (const std::filesystem::path numbers = paperFile(paper, "numbers.csv"); !numbers.empty())
             numbers_ = CsvTable::parseFile(numbers);
     }
