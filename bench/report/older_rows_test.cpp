@@ -39,7 +39,7 @@ std::string adopted(const StoredRun& row) {
 TEST(OlderRows, AParameterThatWasAddedSinceIsAtItsDefault) {
     const RunSpec spec = inRepetition(loadSuite("carr2006-depth", true).cells.front().spec, 1);
     StoredRun row = rowOf(spec);
-    ASSERT_EQ(spec.parameters.at("layout"), "faithful");
+    ASSERT_EQ(spec.parameters.at("sort"), "quicksort");
     EXPECT_EQ(adopted(row), row.runId) << "it lacks nothing: what differs is not said";
     row.parameters.erase("crossfade");
     EXPECT_EQ(adopted(row), runId(spec));
@@ -48,8 +48,8 @@ TEST(OlderRows, AParameterThatWasAddedSinceIsAtItsDefault) {
     other.parameters["depth"] = "9";
     EXPECT_EQ(adopted(other), row.runId) << "no suite has it";
     other = row;
-    other.parameters.erase("layout");
-    EXPECT_EQ(adopted(other), row.runId) << "the suite has another layout than the default";
+    other.parameters.erase("sort");
+    EXPECT_EQ(adopted(other), row.runId) << "the suite sorts otherwise than by default";
     other = row;
     other.parameters["gone"] = "1";
     EXPECT_EQ(adopted(other), row.runId) << "a parameter that no longer exists";

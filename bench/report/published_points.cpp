@@ -34,8 +34,7 @@ struct ChartOfSuite {
 
 class PublishedReader {
  public:
-    PublishedReader(const std::string& paper, const CsvTable& table)
-        : table_(table), suites_(loadPaper(paper).suites) {
+    PublishedReader(const std::string& paper, const CsvTable& table) : table_(table), suites_(loadPaper(paper).suites) {
         if (const std::filesystem::path numbers = paperFile(paper, "numbers.csv"); !numbers.empty())
             numbers_ = CsvTable::parseFile(numbers);
     }
@@ -129,6 +128,7 @@ class PublishedReader {
         const auto found = loads.find(name);
         if (found == loads.end()) {
             std::vector<std::string> names;
+            names.reserve(loads.size());
             for (const auto& [each, values] : loads) names.push_back(each);
             fail("axis", name,
                  names.empty() ? std::string("nothing: the suite has no load")

@@ -75,7 +75,9 @@ const chartKit = (() => {
             return machines.length > 1 ? `machine ${index + 1}, ${said}` : said;
         });
     };
-    /// Sentences in lines of this width.
+    /// Node has no fonts: Vega takes a letter to be this wide there, in sizes of the font.
+    const letterWidth = 0.8, captionSize = 11;
+    /// A sentence in lines of so many letters.
     const wrapped = (text, letters) => text.split(' ').reduce((lines, word) => {
         const last = lines[lines.length - 1];
         if (last !== undefined && last.length + 1 + word.length <= letters) lines[lines.length - 1] = `${last} ${word}`;
@@ -89,8 +91,8 @@ const chartKit = (() => {
         const lines = [...(built.key || []), ...(devices.length ? [`Measured on ${devices.join('; ')}.`] : [])];
         if (lines.length)
             built.spec.title = {
-                text: lines.flatMap(line => wrapped(line, Math.max(Math.floor(asked.width / 6.6), 30))), orient: 'bottom', anchor: 'start', frame: 'bounds',
-                offset: 12, fontSize: 11, fontWeight: 400, lineHeight: 15, color: themes[asked.theme].muted,
+                text: lines.flatMap(line => wrapped(line, Math.max(Math.floor(asked.width / (letterWidth * captionSize)), 28))), orient: 'bottom', anchor: 'start', frame: 'bounds',
+                offset: 12, fontSize: captionSize, fontWeight: 400, lineHeight: 15, color: themes[asked.theme].muted,
             };
         return { ...built, caption: lines };
     };
