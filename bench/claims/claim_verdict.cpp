@@ -189,9 +189,11 @@ void judgeSamples(const Rule& rule, const ClaimSamples& samples, ClaimResult& re
     measureAll(rule, samples, scale, result);
     decide(rule, result);
     if (isPartly(result)) result.note = openCells(rule, result.cells);
-    if (samples.undefined > 0)
-        result.note +=
-            fmt::format("{}{} pairs without a ratio: both are 0", result.note.empty() ? "" : "; ", samples.undefined);
+    const auto add = [&](const std::string& more) { result.note += (result.note.empty() ? "" : "; ") + more; };
+    if (samples.undefined > 0) add(fmt::format("{} pairs without a ratio: both are 0", samples.undefined));
+    if (samples.unmatched > 0)
+        add(fmt::format("{} runs left out: no {} of {} is equal to theirs", samples.unmatched, rule.match,
+                        textOf(rule.with)));
 }
 
 void judgeCurves(const Rule& rule, const CostCurves& curves, ClaimResult& result) {
