@@ -384,6 +384,13 @@ TEST(ClaimRules, CounterexamplesRefuteAlthoughACellIsOpen) {
     EXPECT_GT(half.low, 1.3);
     // Nor do three of four cells whose mean is open.
     EXPECT_EQ(judged(faster, openAt({800}, 50)).verdict, ClaimVerdict::unresolved);
+    // Nor, where the open cell rather holds.
+    const auto leaning = ratioBy([](int particles, int repetition) {
+        return particles < 800 ? 1.4 : 0.9 * (repetition % 2 == 0 ? 1.5 : 1 / 1.5);
+    });
+    const ClaimResult undecided = judged(faster, leaning);
+    EXPECT_EQ(undecided.verdict, ClaimVerdict::unresolved);
+    EXPECT_GT(undecided.low, 1);
     // Whatever is open, nothing but all cells confirms.
     const auto quicker = ratioBy([](int particles, int repetition) {
         return 0.7 * (particles < 800 ? 1 : repetition % 2 == 0 ? 2 : 0.5);
