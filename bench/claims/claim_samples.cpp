@@ -170,6 +170,8 @@ void addMatched(const Rule& rule, const ResultRows& rows, SampleTable& table, Cl
         if (!match || *match == 0) continue;  // at 0 any sufficient load matches
         if (const auto value = valueAtMatch(std::move(curve), *match))
             table.add(table.keyOf(a), table.turnOf(a), *valueOf(rule, rows, a) / *value);
+        else
+            ++samples.unmatched;
     }
     if (table.empty() && samples.missing.empty())
         samples.missing =

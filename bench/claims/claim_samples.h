@@ -28,6 +28,7 @@ struct ClaimSamples {
     std::vector<ClaimSample> list;
     std::vector<std::size_t> rows;  ///< that were used, sorted
     std::size_t undefined = 0;      ///< pairs without a ratio, since both columns are 0
+    std::size_t unmatched = 0;      ///< rows whose matched column the other side does not reach
     std::string missing;            ///< why there are no values
 };
 

@@ -136,15 +136,29 @@ std::size_t countOf(const std::vector<ClaimCell>& cells, ClaimVerdict verdict) {
     return static_cast<std::size_t>(std::ranges::count(cells, verdict, &ClaimCell::verdict));
 }
 
+/// The cells that are not refuted, taken together, lie outside the range too: by their mean, geometric where all values
+/// are above 0.
+bool othersAreFalse(const Rule& rule, const std::vector<ClaimCell>& cells) {
+    double sum = 0, logarithms = 0, count = 0;
+    for (const ClaimCell& cell : cells) {
+        if (cell.verdict == ClaimVerdict::refuted) continue;
+        sum += cell.measured;
+        logarithms += std::log(cell.measured);  // of 0 or less: no finite number
+        ++count;
+    }
+    return !rule.isTrueAt(std::isfinite(logarithms) ? std::exp(logarithms / count) : sum / count);
+}
+
 /// `mean`: the verdict on the mean over all cells.
-ClaimVerdict verdictOfAll(const std::vector<ClaimCell>& cells, ClaimVerdict mean) {
+ClaimVerdict verdictOfAll(const Rule& rule, const std::vector<ClaimCell>& cells, ClaimVerdict mean) {
     for (const ClaimVerdict all : {ClaimVerdict::confirmed, ClaimVerdict::refuted})
         if (countOf(cells, all) == cells.size()) return all;
     const bool somewhereTrue = std::ranges::count(cells, ClaimVerdict::confirmed, &ClaimCell::ofAll) > 0;
     const bool somewhereFalse = std::ranges::count(cells, ClaimVerdict::refuted, &ClaimCell::ofAll) > 0;
     if (somewhereTrue && somewhereFalse) return ClaimVerdict::depends;
     const bool mostlyFalse = somewhereFalse && 2 * countOf(cells, ClaimVerdict::refuted) > cells.size();
-    if (mostlyFalse && !somewhereTrue && mean == ClaimVerdict::refuted) return ClaimVerdict::refuted;
+    if (mostlyFalse && !somewhereTrue && mean == ClaimVerdict::refuted && othersAreFalse(rule, cells))
+        return ClaimVerdict::refuted;
     return ClaimVerdict::unresolved;
 }
 
@@ -160,7 +174,7 @@ std::string openCells(const Rule& rule, const std::vector<ClaimCell>& cells) {
 }
 
 void decide(const Rule& rule, ClaimResult& result) {
-    result.verdict = verdictOfAll(result.cells, verdictOf(rule, result.low, result.high));
+    result.verdict = verdictOfAll(rule, result.cells, verdictOf(rule, result.low, result.high));
     if (countOf(result.cells, ClaimVerdict::confirmed) > 0 && countOf(result.cells, ClaimVerdict::refuted) > 0)
         result.condition = conditionOf(result.cells, rule.along);
 }
@@ -189,9 +203,11 @@ void judgeSamples(const Rule& rule, const ClaimSamples& samples, ClaimResult& re
     measureAll(rule, samples, scale, result);
     decide(rule, result);
     if (isPartly(result)) result.note = openCells(rule, result.cells);
-    if (samples.undefined > 0)
-        result.note +=
-            fmt::format("{}{} pairs without a ratio: both are 0", result.note.empty() ? "" : "; ", samples.undefined);
+    const auto add = [&](const std::string& more) { result.note += (result.note.empty() ? "" : "; ") + more; };
+    if (samples.undefined > 0) add(fmt::format("{} pairs without a ratio: both are 0", samples.undefined));
+    if (samples.unmatched > 0)
+        add(fmt::format("{} runs left out: no {} of {} is equal to theirs", samples.unmatched, rule.match,
+                        textOf(rule.with)));
 }
 
 void judgeCurves(const Rule& rule, const CostCurves& curves, ClaimResult& result) {

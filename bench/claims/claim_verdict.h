@@ -4,9 +4,9 @@
 // outside, else unresolved. All cells together:
 //
 //     confirmed    in every cell
-//     refuted      in every cell; or in more than half of them, if the mean over all cells lies outside too and no cell
-//     is
-//                  confirmed by an interval that holds for all cells together
+//     refuted      in every cell; or in more than half of them, if the mean over all cells lies outside too, the mean
+//                  of the other cells as well, and no cell is confirmed by an interval that holds for all cells
+//                  together
 //     depends      confirmed in some cells and refuted in others, each by an interval that holds for all cells together
 //     unresolved   anything else
 //     untestable   a control gave another verdict than is known for it

@@ -140,8 +140,9 @@ TEST_F(JudgedRun, HasNoPoppingInAShortRunAndNoMetricsWithoutDust) {
     const std::string method = methods().front().id;
     EXPECT_FALSE(judged(method, {{"particles", "100"}}, 30).contains("popping"));
     const auto empty = judged(method, {{"preroll", "0"}}, 31, "stop_and_go");  // it stands at first
-    for (const char* name : {"popping", "gaps", "components", "cutoff", "self_similarity", "quads_per_pixel", "psnr_db",
-                             "psnr_mask_db", "ssim_mask", "flip_mask", "rmse_linear_mask", "error_max", "banding"})
+    for (const char* name :
+         {"popping", "gaps", "spill", "components", "cutoff", "self_similarity", "quads_per_pixel", "psnr_db",
+          "psnr_mask_db", "ssim_mask", "flip_mask", "rmse_linear_mask", "error_max", "banding"})
         EXPECT_FALSE(empty.contains(name)) << name;
     EXPECT_EQ(empty.at("identical"), 1);
     EXPECT_EQ(empty.at("ssim"), 1);

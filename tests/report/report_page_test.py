@@ -67,7 +67,7 @@ class ReportPage(page_case.PageCase):
 
     def test_a_claim_reads_like_a_review(self):
         said = self.browser.evaluate("document.querySelector('[data-claim=R2a]').innerText")
-        for part in ("Build time, octree_recursive / octree_search (layout faithful): 0.8", "×]; true if 0.98× or less", "octree_recursive / octree_search",
+        for part in ("Build time, octree_recursive / octree_search (mode paper): 0.8", "×]; true if 0.98× or less", "octree_recursive / octree_search",
                      "95\u00a0% interval over 6 repetitions", "320×240 pixels", "Control", "would change it", "would refute it"):
             self.assertIn(part, said)
         ticks = self.browser.evaluate("[...document.querySelectorAll('[data-claim=R2a] .claim-range text')].map(text => text.textContent)")

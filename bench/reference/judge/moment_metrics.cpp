@@ -126,19 +126,31 @@ std::optional<double> PoppingJudge::add(const DrawnMoment& drawn, const ExactMom
         const DustFrame here{now.image, now.reference, now.alpha, now.referenceAlpha};
         value = popping(then, here).value;
         summary_.add(value);
-        PoppingBySize bySize;
-        if (before_->depths && now.depths) bySize = poppingBySize(then, here, *before_->depths, *now.depths);
-        small_.add(bySize.small);
-        large_.add(bySize.large);
-        smallPart_.add(bySize.smallPart);
-        largePart_.add(bySize.largePart);
+        if (value && before_->depths && now.depths) {
+            const PoppingBySize bySize = poppingBySize(then, here, *before_->depths, *now.depths);
+            small_.add(bySize.small);
+            large_.add(bySize.large);
+            smallPart_.add(bySize.smallPart.value_or(0));
+            largePart_.add(bySize.largePart.value_or(0));
+        }
     }
     before_ = std::move(now);
     return value;
 }
 
+void PoppingJudge::Mean::add(const std::optional<double>& value) {
+    if (!value) return;
+    sum += *value;
+    ++count;
+}
+
+std::optional<double> PoppingJudge::Mean::value() const {
+    return count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt;
+}
+
 PoppingBySize PoppingJudge::bySize() const {
-    return {small_.mean(), large_.mean(), smallPart_.mean(), largePart_.mean()};
+    if (!summary_.mean()) return {};
+    return {small_.value(), large_.value(), smallPart_.value(), largePart_.value()};
 }
 
 }  // namespace dustbench::bench

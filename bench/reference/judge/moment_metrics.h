@@ -53,7 +53,7 @@ class PoppingJudge {
     std::optional<double> add(const DrawnMoment& drawn, const ExactMoment& exact,
                               std::span<const SizedPrimitive> primitives = {});
     [[nodiscard]] const PoppingSummary& summary() const { return summary_; }
-    /// Means over the pairs, as of `summary`.
+    /// Means over the pairs, as of `summary`; over those in which a side has a pixel. Without one it adds nothing.
     [[nodiscard]] PoppingBySize bySize() const;
 
  private:
@@ -62,8 +62,16 @@ class PoppingJudge {
         Plane alpha, referenceAlpha;
         std::optional<SizeDepths> depths;
     };
+    struct Mean {
+        double sum = 0;
+        std::int64_t count = 0;
+
+        void add(const std::optional<double>& value);
+        [[nodiscard]] std::optional<double> value() const;
+    };
     std::optional<Kept> before_;
-    PoppingSummary summary_, small_, large_, smallPart_, largePart_;
+    PoppingSummary summary_;
+    Mean small_, large_, smallPart_, largePart_;
 };
 
 }  // namespace dustbench::bench
