@@ -16,7 +16,7 @@ namespace dustbench::particles::interaction {
 /// rms_angle_0.3 … rms_angle_1.2: root mean square error of the tree's force relative to the force, 20,000 bodies.
 /// rms_ignored_0.6: the same with distant bodies ignored; ignored_over_together_0.6: over rms_angle_0.6.
 /// together_over_together_0.6: rms_angle_0.6 over itself, a control.
-/// rms_cube_angle_0.6, rms_cube_ignored_0.6: both for a force that falls like 1/d³.
+/// rms_cube_angle_0.6, rms_cube_ignored_0.1 … _0.6: both for a force that falls like 1/d³.
 /// error_exponent: of that error as a function of the angle.
 /// rms_100k, speedup_100k: for 100,000 bodies at an angle of 0.65, the error, and the time of all pairs over the
 /// tree's, including its construction.

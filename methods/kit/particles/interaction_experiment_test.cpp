@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <string>
 
 namespace dustbench::particles::interaction {
 namespace {
@@ -21,6 +22,9 @@ TEST(InteractionExperiment, ErrorGrowsWithTheAngleAndWorkLessThanItsSquare) {
         EXPECT_GT(found.at("rms_ignored_0.6").low, 0.3);
         // A force that falls faster has its error nearer by: those taken together matter less, and so do those ignored.
         EXPECT_LT(found.at("rms_cube_ignored_0.6").high, found.at("rms_ignored_0.6").low);
+        EXPECT_LT(found.at("rms_cube_ignored_0.1").high, found.at("rms_cube_ignored_0.6").low);
+        for (const char* name : {"rms_cube_ignored_0.1", "rms_cube_ignored_0.3", "rms_cube_ignored_0.6"})
+            RecordProperty(std::string(name) + "_seed_" + std::to_string(seed), std::to_string(found.at(name).value));
         EXPECT_LT(found.at("rms_cube_angle_0.6").high, found.at("rms_cube_ignored_0.6").low);
         EXPECT_EQ(found.at("together_over_together_0.6").value, 1);
         EXPECT_EQ(found.at("ignored_over_together_0.6").value,

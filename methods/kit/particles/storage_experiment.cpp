@@ -170,8 +170,8 @@ std::vector<Finding> measureStorage(std::uint64_t seed, std::size_t particles, i
     findings.push_back({"bytes_list_over_array", bytes, bytes, bytes, 1});
     findings.push_back({"bytes_list_over_array_of_places", bytesOfLinkedPlace / bytesOfPlace,
                         bytesOfLinkedPlace / bytesOfPlace, bytesOfLinkedPlace / bytesOfPlace, 1});
-    measureGrowth(seed, particles, repetitions, findings);
-    measureErasure(seed, particles / 5, std::min(repetitions, 9), findings);
+    measureGrowth(seed, particles, std::min(repetitions, 9), findings);
+    measureErasure(seed, particles / 10, std::min(repetitions, 9), findings);
     for (const auto& [name, measured] : times) {
         findings.push_back(medianOf("scan_ns_" + name, measured.scan));
         findings.push_back(medianOf("churn_ns_" + name, measured.churn));

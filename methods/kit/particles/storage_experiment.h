@@ -16,7 +16,7 @@ namespace dustbench::particles::storage {
 /// allocation_without_over_with_list: the same without the walk that finds the dead: time of freeing and allocating
 /// nodes, over that of taking them from the pool.
 /// churn_aos_over_list: the same of the array over that of the list, both with the pool.
-/// churn_erased_array_over_list: of 20,000 particles, of an array from whose middle each of the dead is erased.
+/// churn_erased_array_over_list: of 10,000 particles, of an array from whose middle each of the dead is erased.
 /// growth_array_over_list: time to grow from nothing to 100,000 particles in 200 steps: of an array that doubles its
 /// room, over that of a list; growth_moved_array_over_list: of an array that is moved whole at each step.
 /// bytes_list_over_array: bytes of a particle with its link over those of the particle; …_of_places: of a particle that
