@@ -15,7 +15,10 @@
 #include "bench/measure/image/heat_map.h"
 #include "bench/measure/image/picture_error.h"
 #include "bench/measure/image/ssim.h"
+#include "bench/measure/provenance.h"
 #include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
+#include "methods/kit/files/printable.h"
 
 namespace dustbench::cli {
 namespace {
@@ -67,7 +70,10 @@ void printTable(const Differences& found, double pixelsPerDegree) {
 int diff(const DiffOptions& options) {
     if (!options.out.empty() && std::filesystem::path(options.out).extension() != ".png")
         throw InputError("--out: got '" + options.out + "', allowed: a file that ends in .png");
+    const files::InputLog read;
     const bench::Picture reference = pictureOf(options.reference), image = pictureOf(options.image);
+    if (const std::string said = bench::saysIgnored(bench::ignoredParts(read.ignored())); !said.empty())
+        std::cerr << "note: ignored: " << files::printable(said) << "\n";
     const Differences found{bench::pictureError(reference, image), bench::ssim(reference, image),
                             bench::flip(reference, image, options.pixelsPerDegree)};
     if (!options.out.empty()) pictures::writeImage(bench::heatMap(found.flip.map), options.out);
@@ -82,19 +88,21 @@ int diff(const DiffOptions& options) {
 
 Command diffCommand() {
     auto options = std::make_shared<DiffOptions>();
-    return {
-        "diff", "PSNR, SSIM, FLIP and RMSE of an image file against a reference, and a heat map",
-        "Reads all formats of OpenImageIO; 8-bit files are sRGB, .exr is linear. Both must be opaque and of one size.\n"
-        "reports/METRICS.md defines the metrics.",
-        [options](Arguments& arguments) {
-            arguments.required("reference", "FILE", "the reference image", options->reference);
-            arguments.required("image", "FILE", "the image to judge", options->image);
-            arguments.flag("--json", "an object with psnr_db, ssim, flip, rmse_linear, identical", options->json);
-            arguments.text("--out", "FILE.png", "write FLIP's map: black for 0, pale yellow for 1", options->out);
-            arguments.number("--pixels-per-degree", "resolution at which the viewer sees the pixels, for FLIP",
-                             options->pixelsPerDegree, bench::minimumPixelsPerDegree, bench::maximumPixelsPerDegree);
-        },
-        [options] { return diff(*options); }};
+    return {"diff", "PSNR, SSIM, FLIP and RMSE of an image file against a reference, and a heat map",
+            "Reads all formats of OpenImageIO; integers are sRGB, floats linear, unless the file says otherwise. Both "
+            "must be\n"
+            "opaque and of one size. What of a file is ignored is said on stderr.\n"
+            "reports/METRICS.md defines the metrics.",
+            [options](Arguments& arguments) {
+                arguments.required("reference", "FILE", "the reference image", options->reference);
+                arguments.required("image", "FILE", "the image to judge", options->image);
+                arguments.flag("--json", "an object with psnr_db, ssim, flip, rmse_linear, identical", options->json);
+                arguments.text("--out", "FILE.png", "write FLIP's map: black for 0, pale yellow for 1", options->out);
+                arguments.number("--pixels-per-degree", "resolution at which the viewer sees the pixels, for FLIP",
+                                 options->pixelsPerDegree, bench::minimumPixelsPerDegree,
+                                 bench::maximumPixelsPerDegree);
+            },
+            [options] { return diff(*options); }};
 }
 
 }  // namespace dustbench::cli

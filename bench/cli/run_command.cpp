@@ -69,6 +69,8 @@ void printRun(const bench::PlannedRun& run, const bench::ResultsFolder& results)
                              number("particles_median"), number("primitives_median"));
     if (const std::string why = bench::whyInvalid(stored); !why.empty())
         std::cout << "  invalid: " << files::printable(why) << " (left out of claims, fits and verdicts)\n";
+    if (const std::string said = bench::saysIgnored(stored.ignored); !said.empty())
+        std::cout << "  ignored: " << files::printable(said) << "\n";
     for (const std::string& warning : stored.warnings) std::cout << "  warning: " << files::printable(warning) << "\n";
 }
 

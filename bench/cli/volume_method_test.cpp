@@ -126,6 +126,32 @@ TEST_F(VolumeMethod, InputsAreInTheRecordAndWhatEndsTooEarlyIsInvalid) {
     EXPECT_NE(files::CsvTable::parseFile(beyond + "/summary.csv").cell(0, "invalid"), "");
 }
 
+TEST_F(VolumeMethod, WhatOfItsFilesNobodyUsesIsSaidOnceAndRecorded) {
+    for (const char* name : {"s_1.vti", "s_2.vti"})
+        std::ofstream(folder_ / name)
+            << "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\"><ImageData WholeExtent=\"0 2 0 "
+               "1 0 1\""
+               " Origin=\"0 1 0\" Spacing=\"1 1 1\"><FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" "
+               "NumberOfTuples=\"1\" format=\"ascii\">"
+            << name[2]
+            << "</DataArray></FieldData><Piece Extent=\"0 2 0 1 0 1\"><CellData><DataArray type=\"Float32\" "
+               "Name=\"density\" format=\"ascii\">1 2</DataArray><DataArray type=\"Int32\" Name=\"material\" "
+               "format=\"ascii\">7 7</DataArray><DataArray type=\"UInt8\" Name=\"vtkGhostType\" format=\"ascii\">0 0"
+               "</DataArray></CellData></Piece></ImageData></VTKFile>";
+    std::ofstream(folder_ / "dust.csv") << "x,y,z,radius,opacity,note\n0,1.5,0,1,0.8,a\n";
+    const Called called = call("run --method volume -P volume=" + (folder_ / "s_*.vti").string() + " --dust " +
+                               (folder_ / "dust.csv").string() + " --frames 1" + world + "--out " + out());
+    ASSERT_EQ(called.code, 0) << called.err;
+    EXPECT_THAT(called.out,
+                HasSubstr("\n  ignored: dust.csv: column 'note'; s_1.vti and 1 other file: array 'material' at "
+                          "cells\n"));
+    const std::string record = contentOf(runs(out()).front() / "run.json");
+    EXPECT_THAT(record, AllOf(HasSubstr("\"ignored\": ["), HasSubstr("s_2.vti\",\n        \"parts\": ["),
+                              HasSubstr("\"array 'material' at cells\"")));
+    const Called clean = call("run --method billboard --frames 1" + std::string(world) + "--out " + out() + "/clean");
+    EXPECT_EQ(clean.out.find("ignored"), std::string::npos);
+}
+
 TEST_F(VolumeMethod, BadFilesAreOneLine) {
     std::ofstream(folder_ / "bad.vdb") << "no volume";
     std::ofstream(folder_ / "bad.vti") << "<VTKFile type=\"ImageData\">";

@@ -7,10 +7,10 @@
 #include <vtkNew.h>
 #include <vtkXMLImageDataReader.h>
 
-#include "bench/export/python_test.h"
 #include "bench/export/test_clouds.h"
 #include "bench/export/vdb_writer.h"
 #include "bench/export/vti_writer.h"
+#include "methods/kit/testing/python_script.h"
 
 namespace dustbench::bench {
 namespace {

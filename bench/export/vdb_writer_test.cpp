@@ -7,8 +7,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "bench/export/python_test.h"
 #include "bench/export/test_clouds.h"
+#include "methods/kit/testing/python_script.h"
 
 namespace dustbench::bench {
 namespace {

@@ -112,6 +112,28 @@ std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& inpu
     return hashes;
 }
 
+std::vector<IgnoredParts> ignoredParts(const std::map<std::filesystem::path, std::vector<std::string>>& ofFiles) {
+    std::vector<IgnoredParts> list;
+    list.reserve(ofFiles.size());
+    for (const auto& [file, parts] : ofFiles) list.push_back({nameOfInput(file), parts});
+    return list;
+}
+
+std::string saysIgnored(const std::vector<IgnoredParts>& ignored) {
+    std::string line;
+    std::vector<std::vector<std::string>> said;
+    for (const IgnoredParts& each : ignored) {
+        if (std::ranges::find(said, each.parts) != said.end()) continue;
+        said.push_back(each.parts);
+        const auto others = std::ranges::count(ignored, each.parts, &IgnoredParts::parts) - 1;
+        line +=
+            fmt::format("{}{}{}: {}", line.empty() ? "" : "; ", std::filesystem::path(each.file).filename().string(),
+                        others == 0 ? "" : fmt::format(" and {} other {}", others, others == 1 ? "file" : "files"),
+                        fmt::join(each.parts, ", "));
+    }
+    return line;
+}
+
 std::string hashOfFoundNames(const std::filesystem::path& path) {
     std::string names;
     for (const std::filesystem::path& file : files::foundFiles(path)) names += file.filename().string() + '\n';

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,12 @@ struct InputHash {
     std::string sha256;
 };
 
+/// What of an input file nothing uses: `array 'material' at cells`.
+struct IgnoredParts {
+    std::string file;
+    std::vector<std::string> parts;
+};
+
 struct Provenance {
     std::vector<std::string> argv;
     BuildFacts build;
@@ -38,6 +45,7 @@ struct Provenance {
     ClockCost clock;
     std::vector<InputHash> inputs;
     std::vector<InputHash> searches;  ///< what was looked for, with the hash of the names that were found
+    std::vector<IgnoredParts> ignored;
     /// Variables of the environment that change drawing or threads, `NAME=value` in order of their names, by blanks.
     std::string environment;
     std::string startedUtc;  ///< ISO 8601, to the second
@@ -53,6 +61,12 @@ struct Provenance {
 
 /// Paths inside the data folder are stored relative to it, so that results from two checkouts compare equal.
 [[nodiscard]] std::vector<InputHash> hashInputs(const std::vector<std::filesystem::path>& files);
+
+/// Named likewise.
+[[nodiscard]] std::vector<IgnoredParts> ignoredParts(
+    const std::map<std::filesystem::path, std::vector<std::string>>& ofFiles);
+/// As one line: the parts of a file, and how many other files lack the same; empty if nothing is ignored.
+[[nodiscard]] std::string saysIgnored(const std::vector<IgnoredParts>& ignored);
 
 /// What these paths stand for now: a pattern for its files, another path for itself if it is there.
 [[nodiscard]] std::vector<InputHash> hashSearches(const std::vector<std::filesystem::path>& paths);

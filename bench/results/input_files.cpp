@@ -21,6 +21,7 @@ void recordInputs(const World& world, const ParameterValues& ofMethod, const fil
     for (std::filesystem::path& file : dataFilesOf(ofMethod)) all.push_back(std::move(file));
     for (std::filesystem::path& file : read.files()) all.push_back(std::move(file));
     provenance.inputs = hashInputs(all);
+    provenance.ignored = ignoredParts(read.ignored());
     provenance.searches = hashSearches(read.searches());
 }
 

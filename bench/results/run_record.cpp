@@ -65,6 +65,8 @@ Json provenanceObject(const Provenance& provenance) {
     Json searches = Json::array();
     for (const InputHash& search : provenance.searches)
         searches.push_back({{"path", search.file}, {"names_sha256", search.sha256}});
+    Json ignored = Json::array();
+    for (const IgnoredParts& each : provenance.ignored) ignored.push_back({{"file", each.file}, {"parts", each.parts}});
     const BuildFacts& build = provenance.build;
     const Machine& machine = provenance.machine;
     return {
@@ -98,7 +100,8 @@ Json provenanceObject(const Provenance& provenance) {
         {"clock_reading_ns", provenance.clock.readingNs},
         {"clock_stage_ns", provenance.clock.stageNs},
         {"inputs", inputs},
-        {"searches", searches}};
+        {"searches", searches},
+        {"ignored", ignored}};
 }
 
 Json outputsArray(const std::optional<std::vector<OutputFile>>& outputs) {

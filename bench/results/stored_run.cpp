@@ -101,7 +101,10 @@ std::string saysInvalid(const std::vector<const StoredRun*>& runs) {
     if (count == 0) return "";
     const auto most = std::ranges::max_element(reasons, {}, [](const auto& entry) { return entry.second; });
     return fmt::format("{} of {} {} invalid and left out of claims, fits and verdicts: {}{}", count, runs.size(),
-                       runs.size() == 1 ? "run is" : count == 1 ? "runs is" : "runs are", most->first,
+                       runs.size() == 1 ? "run is"
+                       : count == 1     ? "runs is"
+                                        : "runs are",
+                       most->first,
                        reasons.size() == 1   ? std::string()
                        : reasons.size() == 2 ? std::string(" (and another reason)")
                                              : fmt::format(" (and {} other reasons)", reasons.size() - 1));
@@ -127,6 +130,11 @@ StoredRun readRunFile(const std::filesystem::path& file) {
         if (array searches; json["provenance"]["searches"].get(searches) == simdjson::SUCCESS)
             for (const element search : searches)
                 run.searches.push_back({textOf(search["path"]), textOf(search["names_sha256"])});
+        if (array ignored; json["provenance"]["ignored"].get(ignored) == simdjson::SUCCESS)
+            for (const element each : ignored) {
+                IgnoredParts& parts = run.ignored.emplace_back(IgnoredParts{textOf(each["file"]), {}});
+                for (const element part : each["parts"].get_array()) parts.parts.push_back(shortened(textOf(part)));
+            }
         run.outputs = readOutputs(json);
         requireSoundCells(run);
         return run;

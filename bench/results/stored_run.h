@@ -24,7 +24,8 @@ struct StoredRun {
     /// By field: `cpu`, `build_type`, `key` …, without the inputs.
     std::map<std::string, std::string, std::less<>> provenance{};
     std::vector<InputHash> inputs{};
-    std::vector<InputHash> searches{};  ///< none in results of older builds
+    std::vector<InputHash> searches{};    ///< none in results of older builds
+    std::vector<IgnoredParts> ignored{};  ///< likewise
     /// Empty in results of older builds, which recorded none: whether their files were altered cannot be told.
     std::optional<std::vector<OutputFile>> outputs{};
 };

@@ -48,10 +48,11 @@ std::vector<std::string> split(std::string_view text, char separator) {
 std::vector<std::vector<std::string>> spellings(const std::string& name) {
     if (name.find('+') != std::string::npos) return {split(name, '+')};
     std::vector<std::vector<std::string>> all;
-    for (const char* separator : {":", "_", ".", ""})
-        for (const char* letters : {"012", "xyz", "XYZ"}) {
+    for (const auto& [before, after] :
+         {std::pair(":", ""), std::pair("_", ""), std::pair(".", ""), std::pair("", ""), std::pair("[", "]")})
+        for (const char* letters : {"012", "xyz", "XYZ", "rgb", "RGB"}) {
             std::vector<std::string>& three = all.emplace_back();
-            for (int i = 0; i < 3; ++i) three.push_back(name + separator + letters[i]);
+            for (int i = 0; i < 3; ++i) three.push_back(name + before + letters[i] + after);
         }
     return all;
 }

@@ -11,6 +11,7 @@
 #include "methods/kit/files/input_log.h"
 #include "methods/kit/files/limits.h"
 #include "methods/kit/files/matching_files.h"
+#include "methods/kit/files/printable.h"
 #include "methods/kit/volumes/file_series.h"
 #include "methods/kit/volumes/vdb_process.h"
 #include "methods/kit/volumes/volume_series.h"
@@ -36,6 +37,8 @@ void readCsv(const fs::path& file, const DustColumns& columns, std::vector<DustM
     for (const std::string& name : csv.header()) {
         volumes::PointColumn& column = whole.columns.emplace_back(volumes::PointColumn{name, 1, {}});
         if (!columns.wants(name)) continue;
+        if (std::ranges::count(csv.header(), name) > 1)
+            throw InputError(fmt::format("{}:1: the column '{}' is there twice, expected once", file.string(), name));
         column.values.reserve(csv.rows());
         for (std::size_t row = 0; row < csv.rows(); ++row) column.values.push_back(csv.number(row, name));
     }
@@ -58,6 +61,7 @@ void readCsv(const fs::path& file, const DustColumns& columns, std::vector<DustM
         const std::string name =
             time && part.timeSeconds ? fmt::format("{} at {} s", file.string(), *part.timeSeconds) : file.string();
         moments.push_back(dustMoment(part, columns, name));
+        if (time) std::erase(moments.back().unused, files::namedPart("column", time->name));
         if (whole.points == 0) break;
     }
 }
@@ -82,6 +86,7 @@ bool readOne(const volumes::SeriesEntry& entry, const DustColumns& columns, std:
         throw InputError(fmt::format("dust: got '{}', expected a file that ends in {}", entry.file.string(), endings));
     }
     if (entry.timeSeconds) moments.back().timeSeconds = entry.timeSeconds;
+    for (std::size_t i = before; i < moments.size(); ++i) files::noteIgnored(entry.file, moments[i].unused);
     return true;
 }
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/printable.h"
 #include "methods/kit/maths/srgb.h"
 
 namespace dustbench::bench {
@@ -25,8 +27,27 @@ class Reader {
     Reader(const volumes::PointTable& table, const DustColumns& columns, const std::string& file)
         : table_(table), columns_(columns), file_(file) {}
 
-    [[nodiscard]] std::optional<ColumnNumbers> find(std::string_view key) const {
-        return columns_.find(table_, key, file_);
+    [[nodiscard]] std::optional<ColumnNumbers> find(std::string_view key) {
+        auto found = columns_.find(table_, key, file_);
+        if (found)
+            for (const ColumnNumbers::Part& part : found->parts) used_[part.values] += 1;
+        return found;
+    }
+
+    /// The table's columns that were not found, and numbers of a colour after the third.
+    [[nodiscard]] std::vector<std::string> unused() const {
+        std::vector<std::string> parts;
+        const bool hasPlaces = table_.find(volumes::pointsColumn) != nullptr;
+        for (const volumes::PointColumn& column : table_.columns) {
+            if (hasPlaces && column.name == "P") continue;  // OpenVDB's places within a cell: part of Points
+            const auto found = used_.find(&column.values);
+            if (found == used_.end())
+                parts.push_back(files::namedPart("column", column.name));
+            else if (column.components == 4 && found->second == 3)
+                parts.push_back(files::namedPart("fourth number of", column.name));
+        }
+        parts.insert(parts.end(), table_.ignored.begin(), table_.ignored.end());
+        return parts;
     }
 
     [[nodiscard]] double checked(const ColumnNumbers& numbers, std::size_t point, std::size_t part, double minimum,
@@ -64,6 +85,7 @@ class Reader {
     const volumes::PointTable& table_;
     const DustColumns& columns_;
     const std::string& file_;
+    std::map<const std::vector<double>*, int> used_;  ///< numbers of a particle that are taken, by column
 };
 
 void readIds(const ColumnNumbers& numbers, const Reader& reader, DustMoment& moment) {
@@ -118,7 +140,7 @@ void readDustColours(const ColumnNumbers& colour, const Reader& reader, DustMome
 }  // namespace
 
 DustMoment dustMoment(const volumes::PointTable& table, const DustColumns& columns, const std::string& file) {
-    const Reader reader(table, columns, file);
+    Reader reader(table, columns, file);
     const double scale = columns.metresPerUnit();
     DustMoment moment;
     moment.file = file;
@@ -157,6 +179,7 @@ DustMoment dustMoment(const volumes::PointTable& table, const DustColumns& colum
     if (const auto colour = reader.find("colour")) {
         readDustColours(*colour, reader, moment);
     }
+    moment.unused = reader.unused();
     return moment;
 }
 

@@ -20,8 +20,9 @@ struct DustMoment {
     std::vector<std::uint64_t> id;
     std::vector<float> x, y, z, velocityX, velocityY, velocityZ, age, lifetime, radius, opacity, red, green, blue;
     bool hasIds = false, hasVelocity = false, hasAge = false, hasLifetime = false, hasColour = false;
-    bool depthsChange = false;        ///< evenly to the next moment, not opacities: so does mass
-    std::vector<std::uint32_t> next;  ///< the same particle in the next moment, or `none`
+    std::vector<std::string> unused{};  ///< columns of the table that mean nothing here: `column 'density'`
+    bool depthsChange = false;          ///< evenly to the next moment, not opacities: so does mass
+    std::vector<std::uint32_t> next;    ///< the same particle in the next moment, or `none`
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
 };

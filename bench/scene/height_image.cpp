@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
 #include "methods/kit/files/limits.h"
 #include "methods/kit/pictures/picture_files.h"
 
@@ -23,6 +24,7 @@ scene::Terrain readHeightImage(const std::filesystem::path& file, double spacing
                          std::to_string(image.height) + " pixels, expected 2.." +
                          std::to_string(files::limits::heightEdge) + " a side");
     if (const std::string reason = pictures::readPicture(file, image); !reason.empty()) fail(reason);
+    files::noteIgnored(file, pictures::unusedParts(image, 1, false));
     std::vector<float> heights(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     for (std::size_t i = 0; i < heights.size(); ++i) {
         const float share = image.values[i * static_cast<std::size_t>(image.channels)];

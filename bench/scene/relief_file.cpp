@@ -5,6 +5,7 @@
 #include <string>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
 #include "methods/kit/files/limits.h"
 #include "methods/kit/files/toml_reader.h"
 #include "methods/kit/pictures/picture_files.h"
@@ -48,6 +49,7 @@ void forEachTexel(const pictures::StoredPicture& picture, const Visit& visit) {
 
 void readDepths(const std::filesystem::path& file, scene::Relief& relief) {
     const pictures::StoredPicture heights = readPicture(file);
+    files::noteIgnored(file, pictures::unusedParts(heights, 1, false));
     relief.columns = heights.width;
     relief.rows = heights.height;
     relief.depth.resize(static_cast<std::size_t>(heights.width) * static_cast<std::size_t>(heights.height));
@@ -65,6 +67,7 @@ void readColours(const std::filesystem::path& file, scene::Relief& relief) {
     if (colours.width != relief.columns || colours.height != relief.rows)
         throw InputError(file.string() + ": the colours have " + sizeOf(colours) + " texels, expected those of the " +
                          "heights, " + std::to_string(relief.columns) + "x" + std::to_string(relief.rows));
+    files::noteIgnored(file, pictures::unusedParts(colours, colours.channels >= 3 ? 3 : 1, false));
     const auto green = static_cast<std::size_t>(colours.channels >= 3 ? 1 : 0), blue = 2 * green;
     forEachTexel(colours, [&](std::size_t texel, const float* value) {
         const glm::vec3 stored(value[0], value[green], value[blue]);

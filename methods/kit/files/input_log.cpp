@@ -1,5 +1,6 @@
 #include "methods/kit/files/input_log.h"
 
+#include <algorithm>
 #include <mutex>
 #include <stdexcept>
 
@@ -33,6 +34,19 @@ std::vector<std::filesystem::path> InputLog::files() const {
 std::vector<std::filesystem::path> InputLog::searches() const {
     const std::scoped_lock lock(guard);
     return {searches_.begin(), searches_.end()};
+}
+
+std::map<std::filesystem::path, std::vector<std::string>> InputLog::ignored() const {
+    const std::scoped_lock lock(guard);
+    return ignored_;
+}
+
+void noteIgnored(const std::filesystem::path& file, const std::vector<std::string>& parts) {
+    const std::scoped_lock lock(guard);
+    if (!current || parts.empty()) return;
+    std::vector<std::string>& known = current->ignored_[std::filesystem::absolute(file).lexically_normal()];
+    for (const std::string& part : parts)
+        if (std::ranges::find(known, part) == known.end()) known.push_back(part);
 }
 
 void noteSearch(const std::filesystem::path& path) {

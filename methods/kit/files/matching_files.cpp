@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/csv.h"
 #include "methods/kit/files/data_folder.h"
 #include "methods/kit/files/input_log.h"
 
@@ -63,6 +64,34 @@ std::vector<fs::path> foundFiles(const fs::path& path) {
         if (fnmatch(name.c_str(), entry.path().filename().c_str(), FNM_PERIOD) == 0) found.push_back(entry.path());
     std::ranges::sort(found, isBefore);
     return found;
+}
+
+std::string unevenStep(const std::vector<fs::path>& files) {
+    std::vector<std::vector<double>> numbers;  // of each name
+    for (const fs::path& file : files) {
+        const std::string name = file.filename().string();
+        std::vector<double>& ofName = numbers.emplace_back();
+        for (std::string_view rest = name; !rest.empty();)
+            if (isDigit(rest.front()))
+                ofName.push_back(numberOf(takeDigits(rest)).value_or(0));
+            else
+                rest.remove_prefix(1);
+        if (ofName.size() != numbers.front().size()) return "";
+    }
+    std::vector<double> counted;
+    for (std::size_t place = 0; !files.empty() && place < numbers.front().size(); ++place) {
+        std::vector<double> column;
+        for (const std::vector<double>& ofName : numbers) column.push_back(ofName[place]);
+        if (std::ranges::all_of(column, [&column](double number) { return number == column.front(); })) continue;
+        if (!counted.empty()) return "";  // several numbers count
+        counted = std::move(column);
+    }
+    for (std::size_t i = 2; i < counted.size(); ++i)
+        if (counted[i] - counted[i - 1] != counted[1] - counted[0])
+            return "the numbers in the names step by " + csvNumber(counted[1] - counted[0]) + ", and by " +
+                   csvNumber(counted[i] - counted[i - 1]) + " from '" + files[i - 1].filename().string() + "' to '" +
+                   files[i].filename().string() + "'";
+    return "";
 }
 
 std::vector<fs::path> matchingFiles(const fs::path& pattern) {

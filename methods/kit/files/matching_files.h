@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace dustbench::files {
@@ -15,5 +16,9 @@ namespace dustbench::files {
 
 /// The same, noted as inputs, as is the pattern. Throws InputError if there is none.
 [[nodiscard]] DUSTBENCH_API std::vector<std::filesystem::path> matchingFiles(const std::filesystem::path& pattern);
+
+/// Of files whose names differ in one number: a clause that names the first two between which the number takes another
+/// step than between the first two of all, as where a file is missing; empty if the steps are even, or cannot be told.
+[[nodiscard]] DUSTBENCH_API std::string unevenStep(const std::vector<std::filesystem::path>& files);
 
 }  // namespace dustbench::files

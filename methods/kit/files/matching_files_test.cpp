@@ -32,6 +32,19 @@ TEST(MatchingFiles, NumbersInNamesAreOrderedAsNumbers) {
                 ElementsAre("f09", "f9", "f0010", "f18446744073709551616", "f18446744073709551617"));
 }
 
+TEST(MatchingFiles, AStepThatIsNotEvenIsSaid) {
+    EXPECT_EQ(unevenStep({"s.8.vti", "s.9.vti", "s.10.vti"}), "");
+    EXPECT_EQ(unevenStep({"v2/s_000.vdb", "v2/s_010.vdb", "v2/s_020.vdb"}), "");
+    EXPECT_EQ(unevenStep({"take2_008.vdb", "take2_009.vdb", "take2_011.vdb"}),
+              "the numbers in the names step by 1, and by 2 from 'take2_009.vdb' to 'take2_011.vdb'");
+    EXPECT_EQ(unevenStep({"s_1.vti", "s_01.vti", "s_2.vti"}),
+              "the numbers in the names step by 0, and by 1 from 's_01.vti' to 's_2.vti'");
+    // Which number counts cannot be told.
+    EXPECT_EQ(unevenStep({"a1_2.vti", "a2_3.vti", "a4_9.vti"}), "");
+    EXPECT_EQ(unevenStep({"a.vti", "b.vti", "d.vti"}), "");
+    EXPECT_EQ(unevenStep({}), "");
+}
+
 TEST(MatchingFiles, ThePatternIsNotedAndAPlainNameIsNot) {
     const TestFolder folder;
     (void)folder.write("a1.csv", "");

@@ -74,4 +74,9 @@ bool isUtf8(std::string_view text) {
     return true;
 }
 
+std::string namedPart(std::string_view kind, std::string_view name) {
+    constexpr std::size_t maximumName = 60;
+    return fmt::format("{} '{}'", kind, printable(name, maximumName));
+}
+
 }  // namespace dustbench::files

@@ -18,4 +18,7 @@ inline constexpr std::size_t maximumMessageBytes = 950;
 /// Whether all of it is UTF-8, as what is written to JSON must be.
 [[nodiscard]] DUSTBENCH_API bool isUtf8(std::string_view text);
 
+/// `array 'material'`, one line whatever the name is; at most 60 bytes of it.
+[[nodiscard]] DUSTBENCH_API std::string namedPart(std::string_view kind, std::string_view name);
+
 }  // namespace dustbench::files

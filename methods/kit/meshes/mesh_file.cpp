@@ -45,7 +45,9 @@ Polygons readPolygons(const std::filesystem::path& file) {
         throw InputError(file.string() + ": unknown kind of mesh '" + extension + "', expected .obj, .ply or .stl");
     const std::string text = files::wholeText(file, "a mesh", files::limits::geometryBytes);
     files::noteInput(file);
-    return read(text, file);
+    Polygons mesh = read(text, file);
+    files::noteIgnored(file, mesh.ignored);
+    return mesh;
 }
 
 /// Cuts polygons into n − 2 triangles each: a concave one by its ears, one without area into a fan.

@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <random>
 
 #include "methods/kit/files/data_folder.h"
+#include "methods/kit/files/input_log.h"
 #include "methods/kit/files/whole_text.h"
 #include "methods/kit/maths/srgb.h"
 #include "methods/kit/meshes/obj_file.h"
@@ -44,6 +46,40 @@ std::string refusal(const std::filesystem::path& file) {
 
 std::string tetrahedronObj() {
     return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+}
+
+TEST(MeshFile, WhatNobodyUsesIsNoted) {
+    const TestFolder folder;
+    const auto ignoredOf = [&](const std::string& name, const std::string& text) {
+        const auto file = folder.write(name, text);
+        const files::InputLog log;
+        (void)readMesh(file, {});
+        const auto ignored = log.ignored();
+        return ignored.contains(file) ? ignored.at(file) : std::vector<std::string>();
+    };
+    using ::testing::ElementsAre;
+    EXPECT_THAT(ignoredOf("a.obj", tetrahedronObj()), ElementsAre());
+    // As Blender writes it.
+    EXPECT_THAT(ignoredOf("b.obj",
+                          "# Blender 3.6\nmtllib b.mtl\no Cube\nv 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nvt 0 0\n"
+                          "s 1\nusemtl Red\nf 1/1 2/1 3/1\nl 1 2\n"),
+                ElementsAre("colours of vertices (v x y z r g b)", "lines and points (l, p)",
+                            "materials (mtllib, usemtl)", "smoothing groups (s)", "texture coordinates (vt)"));
+    EXPECT_THAT(
+        ignoredOf("a.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+                  "z\nproperty float s\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty "
+                  "uchar alpha\nelement face 1\nproperty list uchar int vertex_indices\nelement edge 1\nproperty "
+                  "int vertex1\nend_header\n0 0 0 9 255 0 0 255\n1 0 0 9 255 0 0 255\n0 1 0 9 255 0 0 255\n"
+                  "3 0 1 2\n0\n"),
+        ElementsAre("property 's' of vertex", "property 'alpha' of vertex", "element 'edge'"));
+    std::string stl(84 + 50, '\0');
+    stl[80] = 1;
+    const float corners[]{0, 0, 0, 1, 0, 0, 0, 1, 0};
+    std::memcpy(&stl[84 + 12], corners, sizeof corners);
+    EXPECT_THAT(ignoredOf("a.stl", stl), ElementsAre());
+    stl[84 + 48] = 31;  // red, as some programs keep it there
+    EXPECT_THAT(ignoredOf("b.stl", stl), ElementsAre("attributes of triangles, such as colours"));
 }
 
 TEST(MeshFile, ReadsEveryFormatOfTheBuiltInSolids) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 
 #include "methods/contract/errors.h"
@@ -66,7 +67,10 @@ class ObjReader {
         if (ends_.empty()) throw InputError(file_.string() + ": the mesh has no faces ('f 1 2 3')");
         requireDeclared('v', vertices_.size());
         requireDeclared('f', ends_.size());
-        return normalsEverywhere_ ? withNormals() : withoutNormals();
+        if (!normalsEverywhere_ && !normals_.empty()) ignored_.insert("normals (vn), which not every corner has");
+        Polygons mesh = normalsEverywhere_ ? withNormals() : withoutNormals();
+        mesh.ignored.assign(ignored_.begin(), ignored_.end());
+        return mesh;
     }
 
  private:
@@ -80,6 +84,10 @@ class ObjReader {
         if (key == "vt") return readTexture(words);
         if (key == "f") return readFace(words);
         if (key == "#" && words.size() > 1 && words[1] == "counts:") return readCounts(words);
+        if (key == "mtllib" || key == "usemtl") ignored_.insert("materials (mtllib, usemtl)");
+        if (key == "l" || key == "p") ignored_.insert("lines and points (l, p)");
+        if (key == "s" && words.size() > 1 && words[1] != "off" && words[1] != "0")
+            ignored_.insert("smoothing groups (s)");
         if (key.starts_with('#') || std::ranges::find(passedOver, key) != passedOver.end()) return;
         lines_.fail(fmt::format("got {}, expected v, vt, vn, f or another keyword of polygons", inQuotes(key)));
     }
@@ -100,6 +108,7 @@ class ObjReader {
     void readVertex(const ObjWords& words) {
         requireNumbers(words, 3, 7);
         requireRoom(vertices_.size());
+        if (words.size() > 5) ignored_.insert("colours of vertices (v x y z r g b)");
         vertices_.push_back(lines_.vector(words, 1));
     }
     void readNormal(const ObjWords& words) {
@@ -110,6 +119,7 @@ class ObjReader {
     void readTexture(const ObjWords& words) {
         requireNumbers(words, 1, 3);
         ++textures_;
+        ignored_.insert("texture coordinates (vt)");
     }
 
     void readFace(const ObjWords& words) {
@@ -208,6 +218,7 @@ class ObjReader {
     std::vector<std::size_t> ends_;
     bool normalsEverywhere_ = true;
     std::map<char, std::size_t> declared_;
+    std::set<std::string> ignored_;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "methods/contract/errors.h"
 #include "methods/kit/files/limits.h"
+#include "methods/kit/files/printable.h"
 #include "methods/kit/meshes/mesh_text.h"
 #include "methods/kit/meshes/ply_header.h"
 
@@ -185,6 +186,7 @@ class PlyReader {
             const bool isVertex = element.name == "vertex", isFace = element.name == "face";
             if (isVertex) columns_ = Places(file_).ofVertex(element);
             if (isFace) columns_ = Places(file_).ofFace(element);
+            noteIgnored(element, isVertex || isFace);
             for (std::int64_t i = 0; i < element.count; ++i) {
                 readValues(element, isFace);
                 if (isVertex) addVertex();
@@ -212,6 +214,17 @@ class PlyReader {
                 for (auto rest = listLength(property); rest > 0; --rest) (void)body_.value(property.type);
         }
         body_.end();
+    }
+
+    void noteIgnored(const PlyElement& element, bool isUsed) {
+        if (!isUsed) return mesh_.ignored.push_back(files::namedPart("element", element.name));
+        for (int place = 0; place < static_cast<int>(element.properties.size()); ++place) {
+            const auto has = [place](const Triple& triple) { return std::ranges::find(triple, place) != triple.end(); };
+            if (place == columns_.corners || has(columns_.position) || has(columns_.normal) || has(columns_.colour))
+                continue;
+            const std::string& name = element.properties[static_cast<std::size_t>(place)].name;
+            mesh_.ignored.push_back(files::namedPart("property", name) + " of " + element.name);
+        }
     }
 
     std::int64_t listLength(const PlyProperty& property) {

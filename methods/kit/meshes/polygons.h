@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace dustbench::meshes {
@@ -20,6 +21,7 @@ struct Polygons {
     std::vector<Colour8> faceColours;    ///< one per polygon, or none
     std::vector<std::uint32_t> corners;  ///< positions of all polygons, one polygon after the other
     std::vector<std::size_t> ends;       ///< of each polygon within `corners`
+    std::vector<std::string> ignored;    ///< what the file holds besides: `property 's' of vertex`
 
     [[nodiscard]] std::size_t size() const { return ends.size(); }
     [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t polygon) const {

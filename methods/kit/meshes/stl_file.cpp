@@ -57,7 +57,9 @@ std::uintmax_t binaryBytes(std::string_view text) {
 
 Polygons readBinary(std::string_view text, const std::filesystem::path& file) {
     Joined joined;
-    for (std::size_t at = headerBytes; at < text.size(); at += facetBytes)
+    bool hasAttributes = false;
+    for (std::size_t at = headerBytes; at < text.size(); at += facetBytes) {
+        hasAttributes = hasAttributes || text[at + facetBytes - 2] != 0 || text[at + facetBytes - 1] != 0;
         for (std::size_t corner = 1; corner <= 3; ++corner) {
             glm::vec3 point;
             for (std::size_t k = 0; k < 3; ++k)
@@ -67,7 +69,10 @@ Polygons readBinary(std::string_view text, const std::filesystem::path& file) {
                                              joined.triangles() + 1));
             joined.add(point);
         }
-    return joined.take();
+    }
+    Polygons mesh = joined.take();
+    if (hasAttributes) mesh.ignored.emplace_back("attributes of triangles, such as colours");
+    return mesh;
 }
 
 /// Keywords are also written in capitals.

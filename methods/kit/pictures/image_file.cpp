@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <span>
@@ -9,7 +10,9 @@
 #include <system_error>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
 #include "methods/kit/files/machine_error.h"
+#include "methods/kit/files/printable.h"
 #include "methods/kit/pictures/image.h"
 #include "methods/kit/pictures/picture_files.h"
 #include "methods/kit/pictures/picture_limits.h"
@@ -65,6 +68,23 @@ glm::vec4 toRgba(std::span<const float> channels, int alphaChannel) {
 
 }  // namespace
 
+std::vector<std::string> unusedParts(const StoredPicture& picture, int colours, bool usesAlpha) {
+    static constexpr std::array usual{"R", "G", "B"};
+    std::vector<std::string> parts;
+    int colour = 0;
+    for (int channel = 0; channel < picture.channels; ++channel) {
+        const bool isAlpha = channel == picture.alphaChannel;
+        if (isAlpha ? usesAlpha : colour++ < colours) continue;
+        const auto place = static_cast<std::size_t>(channel);
+        parts.push_back(files::namedPart("channel", place < picture.channelNames.size() ? picture.channelNames[place]
+                                                    : isAlpha                           ? "A"
+                                                    : place < usual.size()              ? usual[place]
+                                                                                        : std::to_string(channel + 1)));
+    }
+    parts.insert(parts.end(), picture.ignored.begin(), picture.ignored.end());
+    return parts;
+}
+
 void writeImage(const Image& image, const fs::path& file) {
     const std::string extension = file.extension().string();
     if (extension != ".png" && extension != ".exr")
@@ -106,6 +126,8 @@ Image readImage(const fs::path& file) {
         throw InputError("cannot read image '" + file.string() + "': " + reason);
     if (const std::string reason = tooLarge(stored.width, stored.height, 4); !reason.empty())
         throw InputError("cannot read image '" + file.string() + "': " + reason);
+    const int hues = stored.channels - (stored.alphaChannel >= 0 ? 1 : 0);
+    files::noteIgnored(file, unusedParts(stored, hues < 3 ? 1 : 3, true));
     const auto pixels = static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height);
     const auto channels = static_cast<std::size_t>(stored.channels);
     Image image{stored.width, stored.height, std::vector<glm::vec4>(pixels)};

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "methods/kit/pictures/picture_library.h"
 
@@ -18,6 +19,10 @@ namespace dustbench::pictures {
 [[nodiscard]] DUSTBENCH_API std::string readPicture(const std::filesystem::path& file, StoredPicture& picture);
 /// Width and height alone, which is quick however large the picture is; the rest of `picture` stays as it is.
 [[nodiscard]] DUSTBENCH_API std::string readPictureSize(const std::filesystem::path& file, StoredPicture& picture);
+/// The file's parts that no one uses who takes the first `colours` channels other than alpha, and alpha if he wants it:
+/// `channel 'Z'`.
+[[nodiscard]] DUSTBENCH_API std::vector<std::string> unusedParts(const StoredPicture& picture, int colours,
+                                                                 bool usesAlpha);
 /// sRGB; four channels include straight alpha, else three.
 [[nodiscard]] std::string writePng(const std::filesystem::path& file, int width, int height, int channels,
                                    std::span<const std::uint8_t> bytes);

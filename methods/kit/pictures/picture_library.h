@@ -19,10 +19,12 @@ namespace dustbench::pictures {
 /// A 2D picture as stored in its file, values as floats (0..1 for integer formats).
 struct StoredPicture {
     int width = 0, height = 0, channels = 0;
-    int alphaChannel = -1;         ///< -1: none
-    ColourEncoding encoding;       ///< of the colours; the values are as stored
-    bool isPremultiplied = false;  ///< by alpha
-    std::vector<float> values;     ///< pixel by pixel
+    int alphaChannel = -1;                    ///< -1: none
+    ColourEncoding encoding;                  ///< of the colours; the values are as stored
+    bool isPremultiplied = false;             ///< by alpha
+    std::vector<float> values;                ///< pixel by pixel
+    std::vector<std::string> channelNames{};  ///< empty: grey or RGB, and alpha
+    std::vector<std::string> ignored{};       ///< what the file holds besides: `layers`
 };
 
 class PictureLibrary {

@@ -33,13 +33,14 @@ bool isPng(const std::filesystem::path& file) {
     return png_sig_cmp(start.data(), 0, start.size()) == 0;
 }
 
-/// True if the file says which power its samples are encoded by. libpng's simple reader would apply it to them.
-bool hasGamma(const std::filesystem::path& file) {
+/// True if the file says which power its samples are encoded by, which libpng's simple reader would apply to them, or
+/// has a profile of its colours, which it would ignore.
+bool saysColours(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     stream.seekg(8);
     for (std::array<char, 8> head{}; stream.read(head.data(), head.size());) {
         const std::string_view type(head.data() + 4, 4);
-        if (type == "gAMA" || type == "IDAT") return type == "gAMA";
+        if (type == "gAMA" || type == "iCCP" || type == "IDAT") return type != "IDAT";
         const png_uint_32 bytes = png_get_uint_32(reinterpret_cast<const png_byte*>(head.data()));
         if (bytes > PNG_UINT_31_MAX) return false;
         stream.seekg(std::streamoff{bytes} + 4, std::ios::cur);  // and its checksum
@@ -64,7 +65,7 @@ std::string readPicture(const std::filesystem::path& file, StoredPicture& pictur
     const bool begun = png_image_begin_read_from_file(image.get(), file.c_str()) != 0;
     if (!begun && isPng(file)) return image.message();
     if (!begun || (image->format & (PNG_FORMAT_FLAG_LINEAR | PNG_FORMAT_FLAG_COLORMAP)) != 0 ||
-        image->warning_or_error != 0 || hasGamma(file))
+        image->warning_or_error != 0 || saysColours(file))
         return pictureLibrary().read(file, picture);
     const int channels = static_cast<int>(PNG_IMAGE_SAMPLE_CHANNELS(image->format));
     if (std::string reason = tooLarge(image->width, image->height, channels); !reason.empty()) return reason;
@@ -78,7 +79,9 @@ std::string readPicture(const std::filesystem::path& file, StoredPicture& pictur
                hasAlpha ? channels - 1 : -1,
                ColourEncoding(),
                false,
-               std::vector<float>(bytes.begin(), bytes.end())};
+               std::vector<float>(bytes.begin(), bytes.end()),
+               {},
+               {}};
     for (float& value : picture.values) value *= 1.0f / 255;
     return "";
 }

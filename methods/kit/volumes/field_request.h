@@ -69,6 +69,19 @@ struct PresentField {
     std::string kind;    ///< for messages, what tells it from others: `at points`, `int32`
 };
 
+/// The fields that are none of those chosen, as `grid 'heat'`, or with their kinds `grid 'heat' (grid 2 of float)`.
+[[nodiscard]] inline std::vector<std::string> restOf(std::span<const PresentField> present,
+                                                     std::span<const std::size_t> chosen) {
+    std::vector<std::string> rest;
+    for (std::size_t i = 0; i < present.size(); ++i)
+        if (std::ranges::find(chosen, i) == chosen.end())
+            rest.push_back("grid '" + present[i].name.substr(0, 60) + "'" +
+                           (std::ranges::count(present, present[i].name, &PresentField::name) > 1
+                                ? " (" + present[i].kind + ")"
+                                : ""));
+    return rest;
+}
+
 /// What VTK and VisIt keep for themselves, as ghosts: never a field of the volume.
 [[nodiscard]] inline bool isBookkeeping(std::string_view name) {
     return name.starts_with("vtk") || name.starts_with("avtGhost");

@@ -24,6 +24,7 @@ struct PointTable {
     std::size_t points = 0;
     std::vector<PointColumn> columns;
     std::optional<double> timeSeconds;
+    std::vector<std::string> ignored{};  ///< what the file holds besides its columns: `grid 'density'`
 
     /// Null if there is none of that name.
     [[nodiscard]] const PointColumn* find(std::string_view name) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/matching_files.h"
 
 namespace dustbench::volumes {
 
@@ -25,6 +26,11 @@ SeriesPlaces::SeriesPlaces(std::vector<GridPlace> places, const std::vector<std:
     if (places_.empty()) throw InputError("a series of volumes: got no file, expected one or more");
     const bool haveNone =
         std::ranges::none_of(places_, [](const GridPlace& place) { return place.timeSeconds.has_value(); });
+    if (const std::string uneven = secondsPerFile && haveNone ? files::unevenStep(names) : ""; !uneven.empty())
+        throw InputError(
+            fmt::format("{}: {}; expected even steps where seconds_per_file gives the times, else a .pvd or "
+                        ".series that says them",
+                        names.front().parent_path().string(), uneven));
     if (secondsPerFile && haveNone)
         for (std::size_t i = 0; i < places_.size(); ++i)
             places_[i].timeSeconds = static_cast<double>(i) * *secondsPerFile;

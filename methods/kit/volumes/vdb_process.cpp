@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
 #include "methods/kit/files/limits.h"
 #include "methods/kit/files/printable.h"
 #include "methods/kit/files/whole_text.h"
@@ -22,6 +23,19 @@ std::string readReason(VdbPipe& pipe, std::uint64_t bytes) {
     return pipe.read(reason.data(), reason.size()) ? reason : notWhole;
 }
 
+/// What the file holds besides: false if it does not arrive whole.
+bool readIgnored(VdbPipe& pipe, const VdbMessage& message, std::vector<std::string>& ignored) {
+    if (message.ignoredBytes < 0 || message.ignoredBytes > maximumIgnoredBytes) return false;
+    std::string lines(static_cast<std::size_t>(message.ignoredBytes), ' ');
+    if (!pipe.read(lines.data(), lines.size())) return false;
+    for (std::size_t at = 0; at < lines.size();) {
+        const std::size_t end = std::min(lines.find('\n', at), lines.size());
+        ignored.push_back(files::printable(std::string_view(lines).substr(at, end - at)));
+        at = end + 1;
+    }
+    return true;
+}
+
 /// Memory grows with what arrives.
 template <typename Value>
 bool readValues(VdbPipe& pipe, std::size_t count, std::vector<Value>& values) {
@@ -35,12 +49,12 @@ bool readValues(VdbPipe& pipe, std::size_t count, std::vector<Value>& values) {
 }
 
 /// The reason why there are no points, or an empty text.
-std::string readTable(VdbPipe& pipe, const WantsColumn& wants, PointTable& table) {
+std::string readTable(VdbPipe& pipe, const WantsColumn& wants, PointTable& table, std::vector<std::string>& ignored) {
     VdbMessage message;
     if (!pipe.read(&message, sizeof message)) return notWhole;
     if (message.reasonBytes > 0) return readReason(pipe, message.reasonBytes);
     if (message.points > static_cast<std::uint64_t>(files::limits::dustParticles) || message.columns < 1 ||
-        message.columns > maximumColumns)
+        message.columns > maximumColumns || !readIgnored(pipe, message, ignored))
         return notWhole;
     table.points = static_cast<std::size_t>(message.points);
     if (message.hasTime) table.timeSeconds = message.timeSeconds;
@@ -57,7 +71,8 @@ std::string readTable(VdbPipe& pipe, const WantsColumn& wants, PointTable& table
 }
 
 /// The reason why there is no grid, or an empty text.
-std::string readPlace(VdbPipe& pipe, std::int64_t maximumCells, VdbMessage& message, GridPlace& place) {
+std::string readPlace(VdbPipe& pipe, std::int64_t maximumCells, VdbMessage& message, GridPlace& place,
+                      std::vector<std::string>& ignored) {
     if (!pipe.read(&message, sizeof message)) return notWhole;
     if (message.reasonBytes > 0) return readReason(pipe, message.reasonBytes);
     for (int axis = 0; axis < 3; ++axis) {
@@ -65,7 +80,7 @@ std::string readPlace(VdbPipe& pipe, std::int64_t maximumCells, VdbMessage& mess
         place.cells[axis] = message.cells[axis];
         place.origin[axis] = message.origin[axis];
     }
-    if (cellsOf(place) > static_cast<double>(maximumCells)) return notWhole;
+    if (cellsOf(place) > static_cast<double>(maximumCells) || !readIgnored(pipe, message, ignored)) return notWhole;
     place.spacing = message.spacing;
     if (message.hasTime) place.timeSeconds = message.timeSeconds;
     place.sparse = true;
@@ -76,7 +91,9 @@ std::string readPlace(VdbPipe& pipe, std::int64_t maximumCells, VdbMessage& mess
 std::string readAnswer(const std::filesystem::path& file, const VolumeFields& fields, VolumeGrid& grid) {
     VdbPipe pipe = startVdbReader(volumeMode + textOf(fields), file);
     VdbMessage message;
-    if (const std::string why = readPlace(pipe, maximumCells(fields), message, grid); !why.empty()) return why;
+    std::vector<std::string> ignored;
+    if (const std::string why = readPlace(pipe, maximumCells(fields), message, grid, ignored); !why.empty()) return why;
+    files::noteIgnored(file, ignored);
     if (message.columns < 1 || message.columns > 3) return notWhole;
     for (std::int32_t i = 0; i < message.columns; ++i) {
         VdbColumn header;
@@ -96,7 +113,10 @@ std::string streamAnswer(const std::filesystem::path& file, const VolumeFields& 
     VdbPipe pipe = startVdbReader(volumeMode + textOf(fields), file);
     VdbMessage message;
     GridPlace place;
-    if (const std::string why = readPlace(pipe, maximumCells(fields), message, place); !why.empty()) return why;
+    std::vector<std::string> ignored;
+    if (const std::string why = readPlace(pipe, maximumCells(fields), message, place, ignored); !why.empty())
+        return why;
+    files::noteIgnored(file, ignored);
     if (message.columns < 1 || message.columns > 3) return notWhole;
     sink.begin(place);
     constexpr std::uint64_t atOnce = 1 << 18;
@@ -124,7 +144,10 @@ std::string streamAnswer(const std::filesystem::path& file, const VolumeFields& 
 std::string readVdb(const std::filesystem::path& file, const std::string& field, VectorGrid& grid) {
     VdbPipe pipe = startVdbReader(file, field);
     VdbMessage message;
-    if (const std::string why = readPlace(pipe, files::limits::sparseCells, message, grid); !why.empty()) return why;
+    std::vector<std::string> ignored;
+    if (const std::string why = readPlace(pipe, files::limits::sparseCells, message, grid, ignored); !why.empty())
+        return why;
+    files::noteIgnored(file, ignored);
     return readValues(pipe, grid.cellCount(), grid.values) && pipe.ended() ? "" : notWhole;
 }
 
@@ -143,7 +166,7 @@ std::optional<PointTable> findVdbPoints(const std::filesystem::path& file, const
     PointTable table;
     if (why.empty()) {
         VdbPipe pipe = startVdbReader(pointsMode, file);
-        why = readTable(pipe, wants, table);
+        why = readTable(pipe, wants, table, table.ignored);
     }
     if (why == noPoints) return std::nullopt;
     if (!why.empty()) throw InputError(file.string() + ": " + files::printable(why));

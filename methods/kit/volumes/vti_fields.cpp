@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "methods/contract/errors.h"
+#include "methods/kit/files/input_log.h"
 #include "methods/kit/files/printable.h"
 
 namespace dustbench::volumes {
@@ -65,6 +66,23 @@ VtiFields::VtiFields(const VtiFile& vti, std::span<const WantedField> wanted, co
     }
     place_.timeSeconds = vti.fieldNumber("TimeValue");
     hide();
+    noteRest(file);
+}
+
+/// All but the chosen, the time, and what VTK marks cells by.
+void VtiFields::noteRest(const std::filesystem::path& file) const {
+    std::vector<std::string> rest;
+    const auto note = [&](const std::vector<VtiArray>& arrays, const char* where) {
+        for (const VtiArray& array : arrays)
+            if (!isBookkeeping(array.name) && std::ranges::find(chosen_, &array, &Chosen::array) == chosen_.end())
+                rest.push_back(files::namedPart("array", array.name) + where);
+    };
+    note(vti_.cellArrays(), " at cells");
+    note(vti_.pointArrays(), " at points");
+    for (const VtiArray& array : vti_.fieldArrays())
+        if (array.name != "TimeValue") rest.push_back(files::namedPart("field data", array.name));
+    std::ranges::copy(vti_.unreadArrays(), std::back_inserter(rest));
+    files::noteIgnored(file, rest);
 }
 
 void VtiFields::choose(std::span<const WantedField> wanted, const std::filesystem::path& file) {

@@ -37,6 +37,7 @@ class VtiFields {
  private:
     void choose(std::span<const WantedField> wanted, const std::filesystem::path& file);
     void hide();
+    void noteRest(const std::filesystem::path& file) const;
     [[nodiscard]] std::vector<char> markedIn(const std::vector<VtiArray>& arrays, unsigned marks) const;
 
     const VtiFile& vti_;

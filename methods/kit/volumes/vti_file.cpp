@@ -151,7 +151,8 @@ class VtiParser {
 
     void openRoot(const Tag& tag) {
         seenRoot_ = true;
-        if (tag["type"] != "ImageData") throw VolumeFault{"it is no image data"};
+        if (tag["type"] != "ImageData")
+            throw VolumeFault{fmt::format("it is no image data but '{}'", tag["type"].substr(0, 40))};
         const std::string_view version = tag["version"];
         if (!version.empty() && !version.starts_with("0.") && !version.starts_with("1.") && !version.starts_with("2."))
             throw VolumeFault{fmt::format("its version is '{}', allowed: 0.1 to 2.x", version.substr(0, 40))};
@@ -230,7 +231,7 @@ class VtiParser {
     }
 
     void keep() {
-        if (!array_->stored.type) return;
+        if (!array_->stored.type) return file_.unreadArrays_.push_back(files::namedPart("array", array_->name));
         std::vector<VtiArray>& arrays = inside() == "CellData"    ? file_.cellArrays_
                                         : inside() == "PointData" ? file_.pointArrays_
                                                                   : file_.fieldArrays_;

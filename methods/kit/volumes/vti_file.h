@@ -47,6 +47,10 @@ class DUSTBENCH_API VtiFile {
     [[nodiscard]] std::vector<float> numbersOf(const VtiArray& array) const;
     /// The same, a piece after the other. Also throws what `take` throws.
     void streamNumbers(const VtiArray& array, const std::function<void(std::span<const float>)>& take) const;
+    /// Numbers of the whole, as a time.
+    [[nodiscard]] const std::vector<VtiArray>& fieldArrays() const { return fieldArrays_; }
+    /// Arrays of text and of bits, which are not read: `array 'names'`.
+    [[nodiscard]] const std::vector<std::string>& unreadArrays() const { return unreadArrays_; }
     /// The number of a field array that holds just one.
     [[nodiscard]] std::optional<double> fieldNumber(std::string_view name) const;
 
@@ -59,6 +63,7 @@ class DUSTBENCH_API VtiFile {
     glm::ivec3 cells_{0};
     glm::dvec3 origin_{0}, spacing_{1};
     std::vector<VtiArray> cellArrays_, pointArrays_, fieldArrays_;
+    std::vector<std::string> unreadArrays_;
 };
 
 }  // namespace dustbench::volumes

@@ -28,6 +28,8 @@ std::int64_t wholeNumberOf(const Tag& tag, std::string_view attribute, std::int6
     return count;
 }
 
+constexpr std::string_view ghostArray = "vtkGhostType";
+
 bool isCells(std::string_view name) {
     return name == "Verts" || name == "Lines" || name == "Strips" || name == "Polys" || name == "CellData";
 }
@@ -67,12 +69,17 @@ class VtpParser {
         PointTable table;
         table.points = points_;
         for (const StoredArray& array : pointArrays_) {
+            if (array.name == ghostArray && array.components == 1) continue;
             PointColumn& column = table.columns.emplace_back(PointColumn{array.name, array.components, {}});
             column.isByte = array.stored.type->name == "UInt8";
             if (wants(column.name)) column.values = numbersOf(array);
         }
+        leaveOutGhosts(table);
         for (const StoredArray& array : fieldArrays_)
             if (array.name == "TimeValue" && array.stored.count == 1) table.timeSeconds = numbersOf(array).front();
+        for (const StoredArray& array : fieldArrays_)
+            if (array.name != "TimeValue") table.ignored.push_back(files::namedPart("field data", array.name));
+        table.ignored.insert(table.ignored.end(), unread_.begin(), unread_.end());
         return table;
     }
 
@@ -108,7 +115,8 @@ class VtpParser {
 
     void openRoot(const Tag& tag) {
         seenRoot_ = true;
-        if (tag["type"] != "PolyData") throw VolumeFault{"it is no poly data"};
+        if (tag["type"] != "PolyData")
+            throw VolumeFault{fmt::format("it is no poly data but '{}'", tag["type"].substr(0, 40))};
         form_.isBigEndian = choice(tag, "byte_order", {"LittleEndian", "BigEndian"}) == 1;
         form_.wordBytes = choice(tag, "header_type", {"UInt32", "UInt64"}) == 1 ? 8 : 4;
         if (tag.has("compressor") && !tag["compressor"].empty())
@@ -166,6 +174,8 @@ class VtpParser {
     }
 
     void keep() {
+        if (inside() == "CellData") unread_.push_back(files::namedPart("array", array_->name) + " at cells");
+        if (!array_->stored.type && !isCells(inside())) unread_.push_back(files::namedPart("array", array_->name));
         if (!array_->stored.type || isCells(inside())) return;
         std::vector<StoredArray>& arrays = inside() == "FieldData" ? fieldArrays_ : pointArrays_;
         if (std::ranges::find(arrays, array_->name, &StoredArray::name) != arrays.end())
@@ -203,6 +213,30 @@ class VtpParser {
             throw VolumeFault{"it has no points"};
     }
 
+    /// Points that VTK marks as duplicate (1) or hidden (2) are another piece's, or nobody's.
+    void leaveOutGhosts(PointTable& table) const {
+        const auto ghosts = std::ranges::find(pointArrays_, ghostArray, &StoredArray::name);
+        if (ghosts == pointArrays_.end() || ghosts->components != 1) return;
+        const std::vector<double> marks = numbersOf(*ghosts);
+        const auto isLeftOut = [&marks](std::size_t point) {
+            return marks[point] > 0 && marks[point] < 256 && (static_cast<unsigned>(marks[point]) & 3u) != 0;
+        };
+        for (PointColumn& column : table.columns) {
+            if (column.values.empty()) continue;
+            const auto components = static_cast<std::size_t>(column.components);
+            std::size_t kept = 0;
+            for (std::size_t point = 0; point < points_; ++point) {
+                if (isLeftOut(point)) continue;
+                for (std::size_t i = 0; i < components; ++i)
+                    column.values[kept * components + i] = column.values[point * components + i];
+                ++kept;
+            }
+            column.values.resize(kept * components);
+        }
+        table.points = 0;
+        for (std::size_t point = 0; point < points_; ++point) table.points += isLeftOut(point) ? 0 : 1;
+    }
+
     [[nodiscard]] std::vector<double> numbersOf(const StoredArray& array) const {
         if (array.stored.count == 0) return {};
         try {
@@ -219,6 +253,7 @@ class VtpParser {
     std::size_t points_ = 0;
     std::optional<StoredArray> array_;  ///< the one that is open
     std::vector<StoredArray> pointArrays_, fieldArrays_;
+    std::vector<std::string> unread_;  ///< arrays at cells and of text
     StoredNumbers::Form appendedForm_ = StoredNumbers::Form::base64;
     bool seenRoot_ = false, seenData_ = false, seenPiece_ = false;
 };

@@ -5,7 +5,9 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
 #include <initializer_list>
 #include <set>
 #include <string_view>
@@ -34,9 +36,26 @@ int alphaChannelOf(const OIIO::ImageSpec& spec) {
     return -1;
 }
 
+/// Colours of a profile that is not sRGB, or of other primaries than its, are others than they seem.
+std::string otherColours(const OIIO::ImageSpec& spec) {
+    if (spec.find_attribute("ICCProfile")) {
+        const std::string name = spec.get_string_attribute("ICCProfile:profile_description");
+        if (!OIIO::Strutil::icontains(name, "sRGB")) return name.empty() ? "an ICC profile" : name.substr(0, 60);
+    }
+    constexpr std::array<float, 8> ofSrgb{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f};
+    const auto* const primaries = spec.find_attribute("chromaticities");
+    if (primaries && primaries->type().basetype == OIIO::TypeDesc::FLOAT &&
+        static_cast<std::size_t>(primaries->datasize()) == sizeof ofSrgb)
+        for (std::size_t i = 0; i < ofSrgb.size(); ++i)
+            if (!(std::abs(static_cast<const float*>(primaries->data())[i] - ofSrgb[i]) < 0.01f))
+                return "other primaries (chromaticities)";
+    return "";
+}
+
 /// What the file says of its colours; if nothing, integers are encoded and floats are linear.
 ColourEncoding encodingOf(const OIIO::ImageSpec& spec, std::string_view format) {
     using Kind = ColourEncoding::Kind;
+    if (std::string other = otherColours(spec); !other.empty()) return {Kind::unknown, 1, std::move(other)};
     const std::string space = spec.get_string_attribute("oiio:ColorSpace");
     // Of PNM the library says Rec709 whatever the file is, as also of the floats of a .pfm.
     if (space.empty() || format == "pnm") return {spec.format.is_floating_point() ? Kind::linear : Kind::srgb};
@@ -92,8 +111,16 @@ std::string severalParts(const std::filesystem::path& file) {
     return "it has several parts, expected one" + names;
 }
 
-/// Empty unless all channels belong to layers, and to more than one: then a reason with their names.
+/// True for a `.psd` with layers after its whole.
+bool hasMore(const std::filesystem::path& file) {
+    const auto input = OIIO::ImageInput::open(file.string());
+    return input && input->seek_subimage(1, 0);
+}
+
+/// Empty unless all channels belong to layers, and to more than one, or are no colours: then a reason with their names.
 std::string severalLayers(const OIIO::ImageSpec& spec) {
+    if (std::ranges::find(spec.channelnames, "RY") != spec.channelnames.end())
+        return "its channels are luminance and chroma (Y, RY, BY), expected red, green and blue";
     std::set<std::string> layers;
     for (const std::string& channel : spec.channelnames) {
         const std::size_t end = channel.rfind('.');
@@ -138,7 +165,10 @@ class OpenImageIo final : public PictureLibrary {
                    alphaChannelOf(spec),
                    encodingOf(spec, input->format_name()),
                    !integers && spec.get_int_attribute("oiio:UnassociatedAlpha") == 0,
-                   std::vector<float>(spec.image_pixels() * static_cast<std::size_t>(channels))};
+                   std::vector<float>(spec.image_pixels() * static_cast<std::size_t>(channels)),
+                   spec.channelnames,
+                   {}};
+        if (std::string_view(input->format_name()) == "psd" && hasMore(file)) picture.ignored.emplace_back("layers");
         if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, picture.values.data()))
             return oneLine(input->geterror());
         if (window.x != spec.x || window.y != spec.y || window.width != spec.width || window.height != spec.height)

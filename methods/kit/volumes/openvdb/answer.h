@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "methods/kit/volumes/vdb_message.h"
 
@@ -23,6 +24,16 @@ inline void put(const void* data, std::size_t bytes) {
 template <typename Header>
 void put(const Header& header) {
     put(&header, sizeof header);
+}
+
+/// The first header, with what is ignored.
+inline void putMessage(VdbMessage message, const std::vector<std::string>& ignored) {
+    std::string lines;
+    for (const std::string& part : ignored)
+        if (lines.size() + part.size() < maximumIgnoredBytes) lines += part + '\n';
+    message.ignoredBytes = static_cast<std::int32_t>(lines.size());
+    put(message);
+    put(lines.data(), lines.size());
 }
 
 /// Ends the process: what the file left in memory is not taken apart.

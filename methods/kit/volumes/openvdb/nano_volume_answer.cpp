@@ -97,6 +97,17 @@ Lattice latticeOf(const Grid& grid) {
     return lattice;
 }
 
+/// False for another lattice, a turned one too.
+bool liesOn(const Lattice& lattice, const Handle& handle) {
+    bool isThere = false;
+    try {
+        visit(handle, [&](const auto& grid) { isThere = latticeOf(grid) == lattice; });
+    } catch (const Refusal&) {
+        return false;
+    }
+    return isThere;
+}
+
 double countOf(const nanovdb::CoordBBox& box) {
     double cells = 1;
     for (int axis = 0; axis < 3; ++axis)
@@ -160,16 +171,32 @@ void putValues(const Grid& grid, const nanovdb::CoordBBox& box, bool isDensity) 
             }
 }
 
-std::vector<NanoChoice> choose(const std::string& file, const std::array<WantedField, 3>& wanted) {
+/// An optional field is one of those on the density's lattice: another lattice is as good as another file.
+std::vector<NanoChoice> choose(const std::string& file, const std::array<WantedField, 3>& wanted,
+                               std::vector<std::string>& ignored) {
     std::vector<PresentField> present;
     for (const auto& each : nanovdb::io::readGridMetaData(file))
         present.push_back({each.gridName, componentsOf(each.gridType),
                            "grid " + std::to_string(present.size() + 1) + " of " + nanovdb::toStr(each.gridType)});
     if (present.empty()) throw Refusal{notWholeOf(file)};
     std::vector<NanoChoice> chosen;
-    for (const WantedField& each : wanted)
-        if (const int at = chosenField<Refusal>(each, present); at >= 0)
-            chosen.push_back({&each, nanovdb::io::readGrid(file, static_cast<std::uint64_t>(at))});
+    std::vector<std::size_t> places;
+    for (const WantedField& each : wanted) {
+        std::vector<PresentField> shown = present;
+        for (std::size_t i = 0; i < shown.size() && !chosen.empty() && !each.isRequired; ++i) {
+            if (std::ranges::find(each.names, shown[i].name) == each.names.end() ||
+                shown[i].components != each.components)
+                continue;
+            Lattice lattice;
+            visit(chosen[0].handle, [&](const auto& grid) { lattice = latticeOf(grid); });
+            if (!liesOn(lattice, nanovdb::io::readGrid(file, i))) shown[i].components = 0;
+        }
+        const int at = chosenField<Refusal>(each, shown);
+        if (at < 0) continue;
+        places.push_back(static_cast<std::size_t>(at));
+        chosen.push_back({&each, nanovdb::io::readGrid(file, places.back())});
+    }
+    ignored = restOf(present, places);
     return chosen;
 }
 
@@ -177,7 +204,8 @@ std::vector<NanoChoice> choose(const std::string& file, const std::array<WantedF
 
 void answerNanoVolume(const std::string& file, const VolumeFields& fields) {
     const auto wanted = wantedFields(fields);
-    std::vector<NanoChoice> chosen = choose(file, wanted);
+    std::vector<std::string> ignored;
+    const std::vector<NanoChoice> chosen = choose(file, wanted, ignored);
     Lattice lattice;
     visit(chosen[0].handle, [&](const auto& grid) {
         lattice = latticeOf(grid);
@@ -190,13 +218,9 @@ void answerNanoVolume(const std::string& file, const VolumeFields& fields) {
     const double cells = countOf(lattice.box);
     if (!(cells >= 1)) throw Refusal{"its density is zero everywhere"};
     if (cells > static_cast<double>(maximumCells(fields))) throw Refusal{tooManyCells(fields)};
-    std::erase_if(chosen, [&](const NanoChoice& each) {
-        bool isThere = true;
-        visit(each.handle, [&](const auto& grid) { isThere = latticeOf(grid) == lattice; });
-        if (!isThere && each.wanted->isRequired)
+    for (const NanoChoice& each : chosen)
+        if (!liesOn(lattice, each.handle))
             throw Refusal{"its field of " + std::string(each.wanted->what) + " lies on another grid than its density"};
-        return !isThere;
-    });
     VdbMessage message;
     message.spacing = lattice.spacing;
     message.columns = static_cast<std::int32_t>(chosen.size());
@@ -204,7 +228,7 @@ void answerNanoVolume(const std::string& file, const VolumeFields& fields) {
         message.cells[axis] = lattice.box.max()[axis] - lattice.box.min()[axis] + 1;
         message.origin[axis] = lattice.origin[axis] + (lattice.box.min()[axis] - 0.5) * lattice.spacing;
     }
-    put(message);
+    putMessage(message, ignored);
     for (const NanoChoice& each : chosen) {
         put(columnOf(*each.wanted));
         visit(each.handle, [&](const auto& grid) { putValues(grid, lattice.box, each.wanted->what == "density"); });

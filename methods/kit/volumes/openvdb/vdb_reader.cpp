@@ -27,7 +27,7 @@
 namespace dustbench::volumes {
 namespace {
 
-openvdb::Vec3SGrid::Ptr readGrid(const std::string& file, const std::string& field) {
+openvdb::Vec3SGrid::Ptr readGrid(const std::string& file, const std::string& field, std::vector<std::string>& ignored) {
     // OpenVDB does not detect a truncated file and continues with what is in memory; the stream detects the end.
     std::ifstream stream(file, std::ios::binary);
     stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
@@ -38,7 +38,9 @@ openvdb::Vec3SGrid::Ptr readGrid(const std::string& file, const std::string& fie
         present.push_back({each->getName(), each->isType<openvdb::Vec3SGrid>() ? 3 : 0,
                            "grid " + std::to_string(present.size() + 1) + " of " + each->valueType()});
     const int at = chosenField<Refusal>(WantedField{"velocity", 3, {field}, true, false}, present);
-    return openvdb::gridPtrCast<openvdb::Vec3SGrid>((*grids)[static_cast<std::size_t>(at)]);
+    const auto place = static_cast<std::size_t>(at);
+    ignored = restOf(present, {&place, 1});
+    return openvdb::gridPtrCast<openvdb::Vec3SGrid>((*grids)[place]);
 }
 
 openvdb::CoordBBox boxOfVectors(const openvdb::Vec3SGrid& grid) {
@@ -98,7 +100,8 @@ bool appendAttribute(const openvdb::points::AttributeArray& array, const PointDa
     return true;
 }
 
-PointDataGrid::Ptr readPointGrid(const std::string& file, double& timeSeconds, bool& hasTime) {
+PointDataGrid::Ptr readPointGrid(const std::string& file, double& timeSeconds, bool& hasTime,
+                                 std::vector<std::string>& ignored) {
     std::ifstream stream(file, std::ios::binary);
     stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
     openvdb::io::Stream stored(stream, /*delayLoad=*/false);
@@ -106,7 +109,10 @@ PointDataGrid::Ptr readPointGrid(const std::string& file, double& timeSeconds, b
     for (const openvdb::GridBase::Ptr& each : *stored.getGrids()) {
         const auto found = openvdb::gridPtrCast<PointDataGrid>(each);
         if (found && points) throw Refusal{"it has more than one grid of points"};
-        if (found) points = found;
+        if (found)
+            points = found;
+        else
+            ignored.push_back("grid '" + each->getName().substr(0, 60) + "'");
     }
     if (!points) throw Refusal{noPoints};
     if (const std::optional<double> time = timeOf(*points)) {
@@ -116,7 +122,8 @@ PointDataGrid::Ptr readPointGrid(const std::string& file, double& timeSeconds, b
     return points;
 }
 
-std::vector<Column> columnsOf(const PointDataGrid& grid) {
+/// Attributes that are no number, or several for a point, are named in `ignored`.
+std::vector<Column> columnsOf(const PointDataGrid& grid, std::vector<std::string>& ignored) {
     std::vector<Column> columns{{"Points", 3, {}}};
     const auto first = grid.tree().cbeginLeaf();
     if (!first) return columns;
@@ -125,7 +132,10 @@ std::vector<Column> columnsOf(const PointDataGrid& grid) {
     for (const auto& [name, place] : names.map()) {
         const openvdb::points::AttributeArray& array = first->constAttributeArray(place);
         Column column{name, 1, {}};
-        if (openvdb::points::isGroup(array) || array.stride() != 1 || !appendAttribute(array, *first, column)) continue;
+        if (openvdb::points::isGroup(array) || array.stride() != 1 || !appendAttribute(array, *first, column)) {
+            ignored.push_back((openvdb::points::isGroup(array) ? "group '" : "attribute '") + name.substr(0, 60) + "'");
+            continue;
+        }
         column.values.clear();
         places.emplace_back(place, columns.size());
         columns.push_back(std::move(column));
@@ -148,9 +158,10 @@ std::vector<Column> columnsOf(const PointDataGrid& grid) {
 }
 
 [[noreturn]] void runVectors(const std::string& file, const std::string& field) {
-    const openvdb::Vec3SGrid::Ptr grid = readGrid(file, field);
+    std::vector<std::string> ignored;
+    const openvdb::Vec3SGrid::Ptr grid = readGrid(file, field, ignored);
     const openvdb::CoordBBox box = boxOfVectors(*grid);
-    put(messageOf(*grid, box));
+    putMessage(messageOf(*grid, box), ignored);
     forgetInactive(*grid);
     putVectors(*grid, box);
     finish();
@@ -159,11 +170,12 @@ std::vector<Column> columnsOf(const PointDataGrid& grid) {
 [[noreturn]] void runPoints(const std::string& file) {
     double timeSeconds = 0;
     bool hasTime = false;
-    const PointDataGrid::Ptr grid = readPointGrid(file, timeSeconds, hasTime);
+    std::vector<std::string> ignored;
+    const PointDataGrid::Ptr grid = readPointGrid(file, timeSeconds, hasTime, ignored);
     const openvdb::Index64 count = openvdb::points::pointCount(grid->tree());
     if (count > static_cast<openvdb::Index64>(files::limits::dustParticles))
         throw Refusal{"it has more than 10 million particles"};
-    const std::vector<Column> columns = columnsOf(*grid);
+    const std::vector<Column> columns = columnsOf(*grid, ignored);
     VdbMessage message;
     message.points = columns[0].values.size() / 3;
     message.columns = static_cast<std::int32_t>(columns.size());
@@ -172,7 +184,7 @@ std::vector<Column> columnsOf(const PointDataGrid& grid) {
     for (const Column& column : columns)
         if (column.values.size() != message.points * static_cast<std::size_t>(column.components))
             throw Refusal{"an attribute has not a value for each point"};
-    put(message);
+    putMessage(message, ignored);
     for (const Column& column : columns) {
         VdbColumn header;
         column.name.copy(header.name, sizeof header.name - 1);

@@ -88,13 +88,16 @@ void answerVolume(const std::string& file, const VolumeFields& fields) {
                        "grid " + std::to_string(all.size() + 1) + " of " + grid->valueType()});
     const auto wanted = wantedFields(fields);
     std::vector<Chosen> chosen;
+    std::vector<std::size_t> places;
     for (const WantedField& each : wanted) {
         std::vector<PresentField> present = all;
         if (!chosen.empty() && !each.isRequired)  // another lattice is as good as another file
             for (std::size_t i = 0; i < grids.size(); ++i)
                 if (grids[i]->transform() != chosen[0].grid->transform()) present[i].components = 0;
-        if (const int at = chosenField<Refusal>(each, present); at >= 0)
-            chosen.push_back({&each, grids[static_cast<std::size_t>(at)]});
+        const int at = chosenField<Refusal>(each, present);
+        if (at < 0) continue;
+        places.push_back(static_cast<std::size_t>(at));
+        chosen.push_back({&each, grids[places.back()]});
     }
 
     const FloatGrid::Ptr density = inFloats(chosen[0].grid);
@@ -111,7 +114,7 @@ void answerVolume(const std::string& file, const VolumeFields& fields) {
     const openvdb::CoordBBox box = boxOf(*density, fields);
     VdbMessage message = messageOf(*density, box);
     message.columns = static_cast<std::int32_t>(chosen.size());
-    put(message);
+    putMessage(message, restOf(all, places));
     for (const Chosen& each : chosen) putField(*each.wanted, each.grid, box);
     finish();
 }

@@ -11,7 +11,7 @@
 
 #include "methods/kit/testing/test_folder.h"
 
-namespace dustbench::bench {
+namespace dustbench {
 
 /// Runs the script with Debian's own interpreter and returns its output. A non-zero exit (including a missing module)
 /// is a test failure that shows the error output.
@@ -31,4 +31,4 @@ inline std::string python(const TestFolder& folder, const std::string& script, c
     return text;
 }
 
-}  // namespace dustbench::bench
+}  // namespace dustbench
