@@ -33,9 +33,9 @@ MethodHost::MethodHost(const World& world, gpu::Device& device, const MethodInfo
       maxima_(info.facts.size()) {
     const gpu::LedgerScope booked(device_, ledger_);
     method_ = info.create(parameters);
-    scene_ = std::make_unique<draw::OpaqueScene>(
-        world.scene(), device, width, height, info.drawsPanels ? draw::ScenePanels::hidden : draw::ScenePanels::flat,
-        world.isSceneDrawn() ? draw::Scenery::drawn : draw::Scenery::hidden);
+    scene_ = std::make_unique<draw::OpaqueScene>(world.scene(), device, width, height,
+                                                 info.drawsPanels ? draw::ScenePanels::hidden : draw::ScenePanels::flat,
+                                                 world.isSceneDrawn() ? draw::Scenery::drawn : draw::Scenery::hidden);
     layer_ = std::make_unique<gpu::Layer>(device, scene_->depth());
     composite_ = std::make_unique<draw::Composite>(device, width, height);
     method_->prepare(world.scene(), world.setup(), device);

@@ -1,5 +1,6 @@
 #include "methods/kit/particles/formulae_experiment.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -79,11 +80,27 @@ std::array<float, 6> sixControlsOf(std::uint64_t seed, std::int64_t draw) {
     return {a[0], a[1], a[2], a[3], b[0], b[1]};
 }
 
+/// Each step's points have names of their own for the compiler, which then keeps them in registers.
 template <std::size_t count>
-float casteljau(std::array<float, count> left, float t) {
-    for (std::size_t n = count - 1; n > 0; --n)
-        for (std::size_t i = 0; i < n; ++i) left[i] = maths::interpolate(left[i], left[i + 1], t);
-    return left[0];
+float casteljau(const std::array<float, count>& points, float t) {
+    if constexpr (count == 1) {
+        return points[0];
+    } else {
+        std::array<float, count - 1> left;
+        for (std::size_t i = 0; i + 1 < count; ++i) left[i] = maths::interpolate(points[i], points[i + 1], t);
+        return casteljau(left, t);
+    }
+}
+
+// One call for each particle, as in the thesis's program: else the compiler evaluates many particles at once by the one
+// and not by the other.
+template <std::size_t count>
+[[gnu::noinline]] float callCasteljau(const std::array<float, count>& points, float t) {
+    return casteljau(points, t);
+}
+template <std::size_t count>
+[[gnu::noinline]] float callSum(const std::array<float, count>& weights, float t) {
+    return maths::bernsteinSum(weights, t);
 }
 
 /// Time of de Casteljau's algorithm over that of the sum, for curves of `count` points at many moments; `again`: over
@@ -95,7 +112,8 @@ Finding timeRatio(std::string quantity, std::uint64_t seed, bool again) {
     std::array<float, count> points{};
     for (std::size_t i = 0; i < count; ++i)
         points[i] = static_cast<float>(uniform(seed, controlStream, static_cast<std::int64_t>(i)));
-    const std::vector<float> weights = maths::bernsteinWeights(points);
+    std::array<float, count> weights{};
+    std::ranges::copy(maths::bernsteinWeights(points), weights.begin());
     std::vector<float> times;
     for (std::int64_t i = 0; i < moments; ++i) times.push_back(static_cast<float>(uniform(seed, timeStream, i)));
     const auto secondsOfCurve = [&](const auto& curve) {
@@ -106,8 +124,8 @@ Finding timeRatio(std::string quantity, std::uint64_t seed, bool again) {
             static_cast<void>(needed);
         });
     };
-    const auto steps = [&](float t) { return casteljau(points, t); };
-    const auto sum = [&](float t) { return maths::bernsteinSum(weights, t); };
+    const auto steps = [&](float t) { return callCasteljau(points, t); };
+    const auto sum = [&](float t) { return callSum(weights, t); };
     std::vector<double> ratios;
     for (int k = 0; k < repetitions; ++k) {
         const double above = secondsOfCurve(steps);
