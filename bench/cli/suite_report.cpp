@@ -38,11 +38,13 @@ std::string textOf(bench::TextRows table) {
 }  // namespace
 
 std::string suiteReport(const bench::Suite& suite, const bench::StoredRuns& runs) {
+    const bool timed = bench::isTimed(suite, runs);
     std::string text =
-        fmt::format("{}\nframes per second; ms of a frame and of its stages; {}\n", files::printable(suite.title),
+        fmt::format("{}\n{}; {}\n", files::printable(suite.title),
+                    timed ? "frames per second; ms of a frame and of its stages" : "not timed: counts and bytes",
                     suite.repetitions == 1 ? std::string("one run each")
                                            : fmt::format("medians over {} runs each", suite.repetitions));
-    text += textOf(bench::tabulate(suite, runs));
+    text += textOf(timed ? bench::tabulate(suite, runs) : bench::tabulateCounts(suite, runs));
     std::vector<const bench::StoredRun*> all;
     for (const bench::PlannedRun& cell : suite.cells) {
         const auto done = bench::doneRuns(cell, suite.repetitions, runs);

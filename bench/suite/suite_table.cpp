@@ -38,13 +38,17 @@ Row timesOf(const std::vector<const StoredRun*>& done, bool withOwn) {
     return row;
 }
 
-/// Metrics of the first repetition, which is the judged one. Small numbers use three significant digits.
+std::string threeDigitsIfSmall(double value) {
+    return value != 0 && std::abs(value) < 0.0995 ? fmt::format("{:.3g}", value) : fourDigits(value);
+}
+
+/// Metrics of the first repetition, which is the judged one.
 Row metricsOf(const std::vector<const StoredRun*>& done) {
     Row row;
     for (const MetricInfo& metric : metricInfos()) {
         const auto values = numbersIn(done, metric.column);
         const double value = values.empty() ? std::numeric_limits<double>::quiet_NaN() : values.front();
-        row.push_back(value != 0 && std::abs(value) < 0.0995 ? fmt::format("{:.3g}", value) : fourDigits(value));
+        row.push_back(threeDigitsIfSmall(value));
     }
     return row;
 }
@@ -134,6 +138,28 @@ TextRows tabulate(const std::vector<MeasuredCell>& cells) {
         table.rows.push_back(joined({cell.label + invalidMark(cell.done), std::to_string(cell.done.size())},
                                     timesOf(cell.done, withOwn)));
     return table;
+}
+
+bool isTimed(const Suite& suite, const StoredRuns& runs) {
+    bool anyDone = false;
+    for (const PlannedRun& cell : suite.cells) {
+        const auto done = doneRuns(cell, suite.repetitions, runs);
+        anyDone = anyDone || !done.empty();
+        if (!numbersIn(done, "fps_avg").empty()) return true;
+    }
+    return !anyDone;
+}
+
+TextRows tabulateCounts(const Suite& suite, const StoredRuns& runs) {
+    Row columns{"particles_median", "primitives_median", "cpu_bytes", "gpu_bytes"};
+    if (const std::string& quantity = suite.chart.column;
+        !quantity.empty() && std::ranges::find(columns, quantity) == columns.end())
+        columns.insert(columns.begin(), quantity);
+    return tabulateRuns(suite, runs, columns, [&](const std::vector<const StoredRun*>& done) {
+        Row row;
+        for (const std::string& column : columns) row.push_back(threeDigitsIfSmall(median(numbersIn(done, column))));
+        return row;
+    });
 }
 
 TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs) {

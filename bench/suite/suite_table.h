@@ -24,6 +24,13 @@ struct TextRows {
 /// runs are marked: `billboard (4 of 6 runs)`, and those with invalid runs: `billboard (2 of 6 invalid)`.
 [[nodiscard]] TextRows tabulate(const Suite& suite, const StoredRuns& runs);
 
+/// True if any run that is done was timed, or none is done.
+[[nodiscard]] bool isTimed(const Suite& suite, const StoredRuns& runs);
+
+/// The same rows for runs that are not timed: the chart's quantity, particles, primitives and bytes, medians over the
+/// runs.
+[[nodiscard]] TextRows tabulateCounts(const Suite& suite, const StoredRuns& runs);
+
 /// The same rows with the metrics of judged runs (reports/METRICS.md); no rows if none were judged.
 [[nodiscard]] TextRows tabulateMetrics(const Suite& suite, const StoredRuns& runs);
 

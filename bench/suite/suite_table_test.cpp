@@ -132,6 +132,29 @@ TEST(SuiteFit, InvalidRunsAreNoPointsAndAreCounted) {
     EXPECT_EQ(cellAt(tabulate(result), 0, "note"), "4 invalid runs left out");
 }
 
+TEST(SuiteTable, RunsThatAreNotTimedHaveTheirCounts) {
+    Suite suite;
+    suite.cells.push_back(cellOf("haze", "100", {}));
+    suite.cells.push_back(cellOf("haze", "200", {}));
+    suite.chart.column = "mass_kept";
+    StoredRuns runs;
+    EXPECT_TRUE(isTimed(suite, runs)) << "nothing is known of them yet";
+    StoredRun run;
+    run.cells = {{"fps_avg", ""}, {"mass_kept", "0.01234"}, {"particles_median", "98.5"}, {"cpu_bytes", "123456789"}};
+    runs[runId(suite.cells[0].spec)] = run;
+    EXPECT_FALSE(isTimed(suite, runs));
+    const TextRows table = tabulateCounts(suite, runs);
+    EXPECT_THAT(table.header, ElementsAre("method", "particles", "mass_kept", "particles_median", "primitives_median",
+                                          "cpu_bytes", "gpu_bytes"));
+    ASSERT_EQ(table.rows.size(), 2u);
+    EXPECT_THAT(table.rows[0], ElementsAre("haze", "100", "0.0123", "98.50", "", "123456789", ""));
+    suite.chart.column = "cpu_bytes";
+    EXPECT_THAT(tabulateCounts(suite, runs).header,
+                ElementsAre("method", "particles", "particles_median", "primitives_median", "cpu_bytes", "gpu_bytes"));
+    store(runs, suite.cells[1], 1, "10");
+    EXPECT_TRUE(isTimed(suite, runs));
+}
+
 TEST(SuiteTable, NumbersKeepFourDigits) {
     EXPECT_EQ(fourDigits(0.04712), "0.047");
     EXPECT_EQ(fourDigits(9.9996), "10.00");

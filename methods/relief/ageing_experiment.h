@@ -5,7 +5,7 @@
 //     SEARCH_over_hits, SEARCH_over_texels  exponents of the time, over all cells (ageing_cost.h)
 //     SEARCH_ms_HITS_SIDE                   the time of a cell, in ms; empty with the reason if it was skipped
 //     scatter_in_a_corner_over_hits, …      of hits in a corner of 16² texels: memory is near on any surface
-//     frame_ms_HITS                         the time that `gather` takes of a frame with 100 to 100,000 hits, 512² texels
+//     frame_ms_HITS                         time of `gather` in a frame with 100 to 100,000 hits on 512² texels
 //     scattered_frame_ms_1000               the same of `scatter`, a control
 //     crossover_texels                      from how many texels on `scatter` takes less time, for 1,000 hits
 //     green_lowered                         share of steps in which y falls under the paper's motion

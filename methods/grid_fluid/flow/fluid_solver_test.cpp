@@ -1,4 +1,4 @@
-// The whole solver: known solutions, conserved quantities and bad input.
+// The whole solver: known solutions, conserved quantities and bad input. Over 400 lines: most tests share one plume.
 #include "methods/grid_fluid/flow/fluid_solver.h"
 
 #include <gtest/gtest.h>
