@@ -11,7 +11,6 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -81,10 +80,6 @@ struct PictureRow {
     const char* reason = "";
 };
 
-void PrintTo(const PictureRow& row, std::ostream* stream) {
-    *stream << row.name << ' ' << row.depth << ' ' << row.options << row.encoding;
-}
-
 TEST(PictureWall, ColoursAreWhatTheirFilesSay) {
     const TestFolder folder;
     const std::string gamma22 = pngChunk("gAMA", word32(45455)), gamma1 = pngChunk("gAMA", word32(100000)),
@@ -139,7 +134,7 @@ TEST(PictureWall, ColoursAreWhatTheirFilesSay) {
          })
         rows.push_back(row);
     for (const PictureRow& row : rows) {
-        SCOPED_TRACE(testing::PrintToString(row));
+        SCOPED_TRACE(std::string(row.name) + " " + row.depth + " " + row.options + " " + row.encoding);
         const auto file =
             drawn(folder, row.name,
                   "--pattern constant:color=0.6,0.3,0.15 32x32 3 -d " + std::string(row.depth) + " " + row.options);

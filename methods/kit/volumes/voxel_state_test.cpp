@@ -7,6 +7,7 @@
 
 #include <numeric>
 
+#include "methods/kit/files/input_log.h"
 #include "methods/kit/testing/test_folder.h"
 #include "methods/kit/volumes/vector_file.h"
 #include "methods/kit/volumes/volume_file.h"
@@ -83,6 +84,26 @@ TEST(VoxelState, LatticesThatDifferByRoundingAreOne) {
     for (const VolumeGrid& read : readBoth(folder, {density, heat})) EXPECT_EQ(read.temperature.size(), 64u);
     heat->setTransform(openvdb::math::Transform::createLinearTransform(0.101));
     for (const VolumeGrid& read : readBoth(folder, {density, heat})) EXPECT_TRUE(read.temperature.empty());
+}
+
+TEST(VoxelState, OfTwoTemperaturesTheOneInTheDensitysCellsIsTaken) {
+    const TestFolder folder;
+    const auto valued = [](const char* name, float value, double size) {
+        const auto grid =
+            cubeOf<openvdb::FloatGrid>(name, openvdb::GRID_UNKNOWN, [value](const openvdb::Coord&) { return value; });
+        grid->setTransform(openvdb::math::Transform::createLinearTransform(size));
+        return grid;
+    };
+    for (const VolumeGrid& read :
+         readBoth(folder, {evenDensity(), valued("heat", 700, 0.5), valued("temperature", 900, 1)})) {
+        ASSERT_EQ(read.temperature.size(), 64u);
+        EXPECT_EQ(read.temperature.front(), 900);
+    }
+    for (const char* file : {"a.vdb", "a.nvdb"}) {
+        const files::InputLog log;
+        (void)readVolume(folder.path() / file, {});
+        EXPECT_EQ(log.ignored().at(folder.path() / file), std::vector<std::string>{"grid 'heat'"}) << file;
+    }
 }
 
 /// Each component is linear along its own axis: 0.1, 0.2 and 0.3 a voxel.
