@@ -215,7 +215,7 @@ void readFlow(TomlReader& file, const std::filesystem::path& folder, Shape& shap
     }
     if (shape.flow.files.empty()) throw InputError(table.where("files") + "key 'files': expected at least one file");
     shape.flow.field = table.text("field", shape.flow.field);
-    shape.flow.followsShape = table.choice("follow", {"world", "shape"}) == "shape";
+    if (table.has("follow")) shape.flow.followsShape = table.choice("follow", {"world", "shape"}) == "shape";
     shape.flow.drawsPerSecond = number(table, "draws_per_second", 0, 1000, shape.flow.drawsPerSecond);
     if (table.has("from_seconds")) shape.flow.fromSeconds = table.number("from_seconds", -1e5, 1e5);
     table.finish();
