@@ -88,7 +88,8 @@ class Documents(unittest.TestCase):
             with self.subTest(paper=paper):
                 named = set(re.findall(r"`([A-Z]\w+\.[A-Z]\w+)`", text))
                 self.assertEqual(named - tests, set(), "no such test")
-                self.assertEqual(ids - set(re.findall(r"\b[A-Z]\d+[a-z]?\b", text)), set(), "entries without a sentence")
+                ours = {id for id in ids if id[-1] == "f" and id[:-1] in ids}  # a printed entry judged in our mode has its sentence
+                self.assertEqual(ids - ours - set(re.findall(r"\b[A-Z]\d+[a-z]?\b", text)), set(), "entries without a sentence")
                 mentioned = set(re.findall(r"\b[RP]\d+[a-z]\b", text))
                 self.assertEqual(mentioned - set().union(*claims.values()), set(), "no such entry")
 
