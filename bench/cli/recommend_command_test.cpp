@@ -22,7 +22,7 @@ class Recommend : public Dustbench {
 };
 
 TEST_F(Recommend, AnswersThreeBudgetsFromTheSample) {
-    const Called none = ask("--budget 0.1ms"), some = ask("--budget 10ms --where particles=2000"),
+    const Called none = ask("--budget 0.1ms"), some = ask("--budget 3ms --where particles=2000"),
                  all = ask("--budget '100 ms' --where particles=2000");
     EXPECT_EQ(none.code, 5);
     EXPECT_THAT(none.out, AllOf(HasSubstr("nothing fits 0.1 ms; the cheapest is"), Not(HasSubstr("recommended"))));
