@@ -14,7 +14,7 @@ namespace {
 constexpr const char* fontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
 struct FieldKey {
-    ImGuiKey_ imgui;
+    ImGuiKey imgui;
     Key key;
 };
 /// The keys by which ImGui edits text and walks through widgets.
@@ -56,12 +56,24 @@ void hand(const PanelInput& input, int width, int height) {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
     io.DeltaTime = static_cast<float>(input.seconds);
-    io.MousePos = input.mouse.x < 0 ? ImVec2(-FLT_MAX, -FLT_MAX) : ImVec2(input.mouse.x, input.mouse.y);
+    const ImVec2 mouse = input.mouse.x < 0 ? ImVec2(-FLT_MAX, -FLT_MAX) : ImVec2(input.mouse.x, input.mouse.y);
+#if IMGUI_VERSION_NUM >= 18700
+    io.AddMousePosEvent(mouse.x, mouse.y);
+    for (std::size_t i = 0; i < input.buttons.size(); ++i)
+        io.AddMouseButtonEvent(static_cast<int>(i), input.buttons[i]);
+    io.AddMouseWheelEvent(0, input.wheel);
+    for (const FieldKey& each : fieldKeys)
+        io.AddKeyEvent(each.imgui, input.keys[static_cast<std::size_t>(each.key)]);
+    io.AddKeyEvent(ImGuiMod_Ctrl, input.control);
+    io.AddKeyEvent(ImGuiMod_Shift, input.shift);
+#else
+    io.MousePos = mouse;
     for (std::size_t i = 0; i < input.buttons.size(); ++i) io.MouseDown[i] = input.buttons[i];
     io.MouseWheel = input.wheel;
     for (std::size_t i = 0; i < keyCount; ++i) io.KeysDown[i] = input.keys[i];
     io.KeyCtrl = input.control;
     io.KeyShift = input.shift;
+#endif
     io.AddInputCharactersUTF8(input.text.c_str());
 }
 
@@ -73,7 +85,11 @@ PanelCanvas::PanelCanvas(gpu::Device& device, float fontPixels) : device_(device
     io.IniFilename = nullptr;
     io.LogFilename = nullptr;
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+#if IMGUI_VERSION_NUM >= 18700
+    io.ConfigInputTrickleEventQueue = false;  // a frame gets all of its events, as it did before there was a queue
+#else
     for (const FieldKey& each : fieldKeys) io.KeyMap[each.imgui] = static_cast<int>(each.key);
+#endif
     io.ClipboardUserData = &clipboard_;
     io.GetClipboardTextFn = [](void* text) { return static_cast<std::string*>(text)->c_str(); };
     io.SetClipboardTextFn = [](void* text, const char* copied) { *static_cast<std::string*>(text) = copied; };

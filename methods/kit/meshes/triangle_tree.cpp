@@ -1,6 +1,10 @@
 #include "methods/kit/meshes/triangle_tree.h"
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -11,6 +15,21 @@
 #include "methods/contract/errors.h"
 
 namespace dustbench::meshes {
+
+namespace {
+
+/// The nearest triangle on a ray; Embree 3 wants a context for it.
+void intersect(RTCScene scene, RTCRayHit& query) {
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect1(scene, &query);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, &query);
+#endif
+}
+
+}  // namespace
 
 struct TriangleTree::Embree {
     Embree() {
@@ -85,9 +104,7 @@ std::optional<TriangleTree::Hit> TriangleTree::firstHit(const glm::vec3& from, c
     query.ray.tfar = 1;
     query.ray.mask = 0xffffffffu;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(embree_->scene, &context, &query);
+    intersect(embree_->scene, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
     // n·(from + s·way − v0) = 0
