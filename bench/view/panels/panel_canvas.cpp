@@ -62,8 +62,7 @@ void hand(const PanelInput& input, int width, int height) {
     for (std::size_t i = 0; i < input.buttons.size(); ++i)
         io.AddMouseButtonEvent(static_cast<int>(i), input.buttons[i]);
     io.AddMouseWheelEvent(0, input.wheel);
-    for (const FieldKey& each : fieldKeys)
-        io.AddKeyEvent(each.imgui, input.keys[static_cast<std::size_t>(each.key)]);
+    for (const FieldKey& each : fieldKeys) io.AddKeyEvent(each.imgui, input.keys[static_cast<std::size_t>(each.key)]);
     io.AddKeyEvent(ImGuiMod_Ctrl, input.control);
     io.AddKeyEvent(ImGuiMod_Shift, input.shift);
 #else
