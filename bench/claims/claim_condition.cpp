@@ -144,6 +144,7 @@ std::string mapAlong(const std::vector<ClaimCell>& cells, const std::string& col
             alike->second.push_back(where);
     }
     std::vector<std::string> texts;
+    texts.reserve(lines.size());
     for (const auto& [text, places] : lines)
         texts.push_back(places.front().empty() ? text : fmt::format("{} ({})", text, fmt::join(places, ", ")));
     return fmt::format("by {}: {}", nameOf(column), fmt::join(texts, "; "));

@@ -200,7 +200,10 @@ TEST(LegoExperiment, MeasuresTheJumpsAtBordersByTheCloudsOwnChange) {
     const pictures::Image exact = imageOf(edge, edge, [&](int x, int y) { return slope * (x + y); });
     EXPECT_EQ(lego::blocksOf(exact, exact), 0);
     // One value for each cell: a border adds the changes of the seven pixels before it.
-    const auto middle = [](int x) { return (x / lego::pixelsPerCell + 0.5) * lego::pixelsPerCell - 0.5; };
+    const auto middle = [](int x) {
+        const int cell = x / lego::pixelsPerCell;
+        return (cell + 0.5) * lego::pixelsPerCell - 0.5;
+    };
     const pictures::Image blocks = imageOf(edge, edge, [&](int x, int y) { return slope * (middle(x) + middle(y)); });
     EXPECT_NEAR(lego::blocksOf(blocks, exact), lego::pixelsPerCell - 1, 1e-4);
     // What is wrong elsewhere than at a border does not count.

@@ -75,6 +75,7 @@ void addFrameTimes(std::uint64_t seed, std::vector<Finding>& findings) {
     const auto add = [&](const std::string& name, const CostSweep& sweep) {
         for (const CostCell& cell : measureCost(sweep)) {
             std::vector<double> milliseconds;
+            milliseconds.reserve(cell.seconds.size());
             for (const double seconds : cell.seconds) milliseconds.push_back(1e3 * seconds);
             findings.push_back(meanOf(fmt::format("{}_ms_{}", name, cell.hits), milliseconds));
         }

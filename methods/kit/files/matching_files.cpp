@@ -81,6 +81,7 @@ std::string unevenStep(const std::vector<fs::path>& files) {
     std::vector<double> counted;
     for (std::size_t place = 0; !files.empty() && place < numbers.front().size(); ++place) {
         std::vector<double> column;
+        column.reserve(numbers.size());
         for (const std::vector<double>& ofName : numbers) column.push_back(ofName[place]);
         if (std::ranges::all_of(column, [&column](double number) { return number == column.front(); })) continue;
         if (!counted.empty()) return "";  // several numbers count

@@ -35,6 +35,7 @@ PointsColour::PointsColour(const ParameterValues& values) : ColourPart(values) {
     const auto count = static_cast<int>(values.integer("points"));
     for (std::size_t channel = 0; channel < weights_.size(); ++channel) {
         std::vector<float> points;
+        points.reserve(static_cast<std::size_t>(count));
         for (int i = 0; i < count; ++i)
             points.push_back(static_cast<float>(values.real(nameOf(i, channelNames[channel]))));
         weights_[channel] = maths::bernsteinWeights(points);
