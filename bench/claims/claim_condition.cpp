@@ -134,7 +134,7 @@ std::string mapAlong(const std::vector<ClaimCell>& cells, const std::string& col
         values.insert(*value);
     }
     const std::vector<double> axis(values.begin(), values.end());
-    std::vector<std::pair<std::string, std::vector<std::string>>> lines;  // what is true, and where
+    std::vector<std::pair<std::string, std::vector<std::string>>> lines;  // verdict, and where it holds
     for (const std::string& where : order) {
         const std::string text = rowText(rows[where], axis);
         const auto alike = std::ranges::find(lines, text, &decltype(lines)::value_type::first);

@@ -111,7 +111,7 @@ std::vector<std::size_t> rowsWith(const Rule& rule, const Selection& selection, 
 }
 
 /// Columns in which the two sides of a ratio differ by intention: those that a side names. What both name alike, as
-/// `speed=5|10`, is no difference: 5 is paired with 5.
+/// `speed=5|10`, does not count as a difference: 5 is paired with 5.
 std::set<std::string> namedColumns(const Rule& rule) {
     std::set<std::string> named;
     for (const Selection* side : {&rule.of, &rule.with})

@@ -111,7 +111,7 @@ TEST(Claims, StandBesideTheSentencesOfTheirPaper) {
         ids.insert(claim.id);
         numbers.insert(claim.id.substr(0, claim.id.find_first_not_of("0123456789", 1)));
         const bool isOurs = claim.id.ends_with("f");
-        EXPECT_TRUE(isOurs || named.contains(claim.id)) << claim.id << " stands beside no sentence of the paper";
+        EXPECT_TRUE(isOurs || named.contains(claim.id)) << claim.id << " belongs to no sentence of the paper";
         if (isOurs) {
             EXPECT_TRUE(ids.contains(claim.id.substr(0, claim.id.size() - 1)))
                 << claim.id << " has no entry as printed";

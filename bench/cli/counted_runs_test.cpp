@@ -1,4 +1,4 @@
-// Which runs count, end to end: invalid ones are said and left out, and a copy is no run of its own.
+// Which runs count, end to end: invalid runs are reported and left out, and copies do not count.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

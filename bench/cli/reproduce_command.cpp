@@ -90,7 +90,7 @@ void openFolders(const ReproduceOptions& options, std::vector<PaperWork>& work) 
     }
 }
 
-/// What would be measured, and how many published numbers stand beside it.
+/// Lists the runs that would be measured, and the number of published points on their charts.
 void printWork(const std::vector<PaperWork>& work) {
     const auto counted = [](std::size_t count, const std::string& one) {
         return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");

@@ -47,7 +47,7 @@ class Published : public testing::Test {
     void rows(const std::string& text) const {
         write("published.csv", "suite,of,axis,x,column,unit,min,max,hardware,what\n" + text);
     }
-    /// What is said of a file with this row as its second.
+    /// The error message for a file whose second row is this one.
     [[nodiscard]] std::string faultOf(const std::string& row) const {
         rows("mud-loads,billboard sort=none,particles,100,fps_avg,frames/s,40,40,a PC of 2006,puffs\n" + row + "\n");
         try {

@@ -118,7 +118,7 @@ struct RunWarnings {
 struct ReportData {
     std::string folder;       ///< its name, for the title
     std::string root;         ///< of links, relative to the page: empty, or ending in '/'
-    bool tablesOnly = false;  ///< there are no runs beside the tables
+    bool tablesOnly = false;  ///< the folder holds tables but no runs
     std::string writtenUtc;   ///< ISO 8601
     StoredRuns runs;
     std::vector<std::string> problems;  ///< missing or doubtful data, one sentence each

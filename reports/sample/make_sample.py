@@ -137,7 +137,7 @@ def block():
         f"{machine['cpu'].replace('(R)', '')} with {machine['gl_renderer']}.",
         "*Build* is the time to build the octree, *draw* the time to draw the dust; the rest is mostly the scene.", ""]
         + table() + ["", f"![Frame rate of the three methods against the number of particles, with intervals](reports/sample/{PAPER}/{SUITE}.png)", "",
-                     "Figures 5 and 7 of the paper, with all loads and speeds of their suites, at 640×480 pixels. The paper's text gives no\nnumbers for them: compare the shapes.", "",
+                     "Figures 5 and 7 of the paper, with all loads and speeds of their suites, at 640×480 pixels, measured in our own\nmode (`mode=fixed`); the models as printed have so far been measured in the short form only. The paper's text gives no\nnumbers for the figures: compare the shapes.", "",
                      f"![Frame rate of the billboard model against the number of particles, a curve for each speed](reports/sample/{PAPER}/{PAPER}-fig5.svg)", "",
                      f"![Frame rate of both octree models against the number of particles, a panel for each speed](reports/sample/{PAPER}/{PAPER}-fig7.svg)",
                      "", END.rstrip("\n"), ""])

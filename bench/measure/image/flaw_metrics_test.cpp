@@ -104,7 +104,7 @@ TEST(Spill, IsTheShareOfTheShownTrailThatIsNotThere) {
 }
 
 TEST(Spill, IsWhatABlanketPaysForHavingNoGaps) {
-    // A trail of 5 of 20 columns. A blanket covers all of it, and three quarters of the blanket lie beside it.
+    // A trail of 5 of 20 columns. A blanket covers all of it, and three quarters of the blanket lie outside it.
     const Plane trail = planeOf(20, 10, [](int x, int) { return x < 5 ? 0.8 : 0.0; });
     const Plane blanket = even(20, 10, 0.8), narrow = planeOf(20, 10, [](int x, int) { return x < 2 ? 0.8 : 0.0; });
     EXPECT_EQ(gaps(blanket, trail).value, 0);

@@ -7,7 +7,7 @@
 //
 //     small, large            popping over the pixels of that side alone: how much they jump
 //     small_part, large_part  √(Σ jump² over the side's pixels / number of all pixels with dust): what the side adds to
-//                             popping. What is far away covers few pixels, so this is weighted by distance.
+//                             popping. Distant primitives cover few pixels, so this is weighted by distance.
 //                             small_part² + large_part² = popping², but for dust that no primitive reaches
 //
 // Units: display-encoded values; range 0..2. Threads: pure.
