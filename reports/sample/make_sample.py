@@ -135,7 +135,7 @@ def block():
         BEGIN.rstrip("\n"),
         f"Dust behind the car at 320×240 pixels, medians of {repetitions} runs on {machine['cores']} cores of an",
         f"{machine['cpu'].replace('(R)', '')} with {machine['gl_renderer']}.",
-        "*Build* is the time to build the octree, *draw* the time to draw the dust; the rest is mostly the scene.", ""]
+        "The models are those that the paper printed (`mode=paper`). *Build* is the time to build the octree, *draw* the time to draw the dust; the rest is mostly the scene.", ""]
         + table() + ["", f"![Frame rate of the three methods against the number of particles, with intervals](reports/sample/{PAPER}/{SUITE}.png)", "",
                      "Figures 5 and 7 of the paper, with all loads and speeds of their suites, at 640×480 pixels, measured in our own\nmode (`mode=fixed`); the models as printed have so far been measured in the short form only. The paper's text gives no\nnumbers for the figures: compare the shapes.", "",
                      f"![Frame rate of the billboard model against the number of particles, a curve for each speed](reports/sample/{PAPER}/{PAPER}-fig5.svg)", "",
