@@ -133,11 +133,12 @@ def block():
     repetitions = max(int(row["repetition"]) for row in filter(is_of_suite, rows("summary.csv")))
     return "\n".join([
         BEGIN.rstrip("\n"),
-        f"Dust behind the car at 320×240 pixels, medians of {repetitions} runs on {machine['cores']} cores of an",
-        f"{machine['cpu'].replace('(R)', '')} with {machine['gl_renderer']}.",
-        "The models are those that the paper printed (`mode=paper`). *Build* is the time to build the octree, *draw* the time to draw the dust; the rest is mostly the scene.", ""]
+        f"Dust behind the car at 320×240 pixels: medians of {repetitions} runs on {machine['cores']} cores of an {machine['cpu'].replace('(R)', '')} with "
+        f"{machine['gl_renderer']}.",
+        "The models are as printed in the paper (`mode=paper`). *Build* is the time to build the octree and *draw* the time to draw the dust; most of the",
+        "remaining time is spent on the scene.", ""]
         + table() + ["", f"![Frame rate of the three methods against the number of particles, with intervals](reports/sample/{PAPER}/{SUITE}.png)", "",
-                     "Figures 5 and 7 of the paper, with all loads and speeds of their suites, at 640×480 pixels, measured in our own\nmode (`mode=fixed`); the models as printed have so far been measured in the short form only. The paper's text gives no\nnumbers for the figures: compare the shapes.", "",
+                     "Figures 5 and 7 of the paper, with all loads and speeds of their suites, at 640×480 pixels. They were measured with our corrected models\n(`mode=fixed`); the models as printed have only been measured in quick runs so far. The paper states no numbers for these figures, so compare the\nshapes of the curves.", "",
                      f"![Frame rate of the billboard model against the number of particles, a curve for each speed](reports/sample/{PAPER}/{PAPER}-fig5.svg)", "",
                      f"![Frame rate of both octree models against the number of particles, a panel for each speed](reports/sample/{PAPER}/{PAPER}-fig7.svg)",
                      "", END.rstrip("\n"), ""])
