@@ -11,6 +11,7 @@ CASES ?= 100000
 INPUTS ?= 10000
 SEED ?= 17
 KILLS ?= 1000
+RELEASE ?= trixie
 JOBS ?= $(shell nproc)
 LINT = $(if $(SINCE),--since $(SINCE)) $(if $(LINT_SECONDS),--seconds $(LINT_SECONDS)) $(FILES)
 PROGRAM := build/release/dustbench
@@ -32,7 +33,7 @@ packages: ## Install the Debian packages that are missing
 	@.ci/install view || echo "make: going on without the packages of the window (dustbench view)" >&2
 
 # The build folders of a tree that was moved or copied go before make looks at them.
-ifneq ($(filter-out help packages format format-check clean,$(or $(MAKECMDGOALS),help)),)
+ifneq ($(filter-out help packages format format-check elsewhere clean,$(or $(MAKECMDGOALS),help)),)
 DROPPED := $(shell .ci/drop-stale-builds build/*)
 endif
 
@@ -140,6 +141,10 @@ faults: build/release/build.ninja ## Every call of the system fails once, and 1,
 .PHONY: external
 external: build ## Our exact pictures against POV-Ray, vdb_render and Cycles, those that are here; figures in tests/external
 	@python3 -B tests/external/external.py $(PROGRAM) --write tests/external/figures.csv
+
+.PHONY: elsewhere
+elsewhere: ## Both commands of the README in a bare system of another Debian release, from nothing (RELEASE=trixie); needs root
+	@tests/elsewhere/bare_system.sh $(RELEASE)
 
 .PHONY: tsan
 tsan: build/tsan/build.ninja ## The unit tests that need no GPU under ThreadSanitizer

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <memory>
@@ -40,6 +41,9 @@ class Library {
  public:
     Library() {
         glfwSetErrorCallback([](int, const char* text) { lastProblem() = text; });
+#ifdef GLFW_PLATFORM  // 3.4 or newer: it asks Wayland first, whose library prints a line of its own without this variable
+        if (!std::getenv("XDG_RUNTIME_DIR")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
         if (glfwInit() != GLFW_TRUE) throw cannotOpen();
     }
     ~Library() { glfwTerminate(); }
