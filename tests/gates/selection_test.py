@@ -89,7 +89,7 @@ class ASmallTable(unittest.TestCase):
         self.assertEqual(self.table.below("nothing"), [])
         self.assertEqual(selection.unknown_names(self.table), [])
         self.assertEqual(selection.unknown_names(selection.read("test a FOR gone FILES\nplace b gone ALL\n")),
-                         ["place b: 'gone' is no module and no folder of modules", "test a: 'gone' is no module and no folder of modules"])
+                         ["place b: 'gone' is neither a module nor a folder of modules", "test a: 'gone' is neither a module nor a folder of modules"])
         with self.assertRaises(selection.BadTable):
             selection.read("modul base methods/base base_tests\n")
 
