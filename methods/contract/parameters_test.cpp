@@ -50,7 +50,7 @@ TEST(Parameters, TakeTheDefaultsOfAPresetUnlessTheyAreSet) {
     values.set("mode", "fixed");
     EXPECT_EQ(values.integer("depth"), 7);
     EXPECT_EQ(values.choice("sort"), "none");
-    EXPECT_EQ(withPreset().find("mode")->help, "which; paper has other defaults (sort=quicksort, depth=9)");
+    EXPECT_EQ(withPreset().find("mode")->help, "which; paper sets other defaults (sort=quicksort, depth=9)");
 }
 
 TEST(Parameters, TakeAPresetWhateverTheOrder) {

@@ -49,7 +49,7 @@ const std::vector<PartInfo>& partTable() {
 void requireNewPart(const PartInfo& info) {
     const auto same = std::ranges::find(allParts(), place(info), place);
     if (same != allParts().end())
-        throw InputError(std::string(kindName(info.kind)) + " part '" + info.name + "' is there already, " +
+        throw InputError(std::string(kindName(info.kind)) + " part '" + info.name + "' already exists, " +
                          (same->library.empty() ? "in this build" : "from " + same->library));
 }
 
