@@ -97,7 +97,7 @@ TEST_F(DataFolders, ThatAreMissingOrHoldNoDataAreRefused) {
         return inputError([&] { useDataFolders("--data", {folder}); });
     };
     EXPECT_EQ(refused(at("mime")), "--data: '" + at("mime") + "': no such folder (did you mean '" + at("mine") + "'?)");
-    EXPECT_THAT(refused(at("mine/scenes")), HasSubstr("holds no data, expected one or more of the folders scenes"));
+    EXPECT_THAT(refused(at("mine/scenes")), HasSubstr("contains no data, expected one or more of the folders scenes"));
     EXPECT_THAT(refused(at("mine/scenes/plain.toml")), HasSubstr("is a file"));
     (void)add("a:b", "scenes/plain.toml");
     EXPECT_THAT(refused(at("a:b")), HasSubstr("separates folders"));

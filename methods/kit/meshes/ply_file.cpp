@@ -141,7 +141,7 @@ class Places {
         if (columns.corners < 0) fail("its faces have no list vertex_indices");
         const PlyProperty& list = element.properties[static_cast<std::size_t>(columns.corners)];
         if (!list.isList || !list.type.isInteger())
-            fail(fmt::format("property {} is no list of integers, expected 'property list uchar int {}'",
+            fail(fmt::format("property {} is not a list of integers, expected 'property list uchar int {}'",
                              inQuotes(list.name), list.name.substr(0, 40)));
         columns.colour = colourOf(element);
         return columns;

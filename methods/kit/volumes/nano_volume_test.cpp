@@ -96,7 +96,7 @@ TEST(NanoVolume, PartsOfAFileAreRefused) {
     const std::string whole(std::istreambuf_iterator<char>(stream), {});
     for (std::size_t part = 0; part < 8; ++part) {
         const auto cut = folder.write("cut.nvdb", whole.substr(0, whole.size() * part / 8));
-        EXPECT_THAT(inputError([&] { (void)readVolume(cut, {}); }), HasSubstr("cut.nvdb: not a whole file of NanoVDB"));
+        EXPECT_THAT(inputError([&] { (void)readVolume(cut, {}); }), HasSubstr("cut.nvdb: not a complete NanoVDB file"));
     }
 }
 

@@ -190,9 +190,9 @@ TEST(VolumeWall, WhatOpenVdbsPythonWritesIsReadAsItsProgramsMeanIt) {
              {"smoke_and_density.vdb", "more than one field of numbers for its density: density, smoke"},
              {"twice.vdb", "density (grid 1 of float), density (grid 2 of float)"},
              {"rotated.vdb", "its grid is turned"},
-             {"oblong.vdb", "its cells are no cubes"},
+             {"oblong.vdb", "its cells are not cubes"},
              {"mirrored.vdb", "its grid is turned"},
-             {"frustum.vdb", "its cells are no cubes"},
+             {"frustum.vdb", "its cells are not cubes"},
              {"haze.vdb", "the background is 0.5"},
              {"vectors_alone.vdb", "it has no field of numbers 'density'"}})
         EXPECT_THAT(inputError([&] { (void)readVolume(folder.path() / file, {}); }), HasSubstr(reason)) << file;

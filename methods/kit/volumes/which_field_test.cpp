@@ -81,7 +81,7 @@ TEST(WhichField, TwoCandidatesAreRefusedAndNamed) {
     named.temperature = "heat";
     named.wantsTemperature = true;
     EXPECT_THAT(rowRefusal(folder, {cells}, {{"Float32", "heat", sixteen}}, named),
-                HasSubstr("its field 'heat' lies at points, its density at cells"));
+                HasSubstr("its field 'heat' is at points, but its density is at cells"));
 }
 
 TEST(WhichField, CellsAndPointsThatVtkMarksDoNotCount) {
