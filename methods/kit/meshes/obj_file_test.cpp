@@ -34,7 +34,7 @@ TEST(ObjFile, NamesTheLineAndWhatIsAllowed) {
     EXPECT_THAT(objRefusal(corners + "f 1 2 -4\n"), HasSubstr("names vertex '-4'"));
     EXPECT_THAT(objRefusal(corners + "f 1//1 2//1 3//9\n"), HasSubstr("names normal '1', expected 1..0"));
     EXPECT_THAT(objRefusal("v 0 0 nan\n"), HasSubstr("m.obj:1: got 'nan', expected a number"));
-    EXPECT_THAT(objRefusal("v 0 0 1e39\n"), HasSubstr("expected a number that a float holds"));
+    EXPECT_THAT(objRefusal("v 0 0 1e39\n"), HasSubstr("expected a number in the range of a float"));
     EXPECT_THAT(objRefusal("v 0 0\n"), HasSubstr("got 2 numbers after 'v', expected 3..7"));
     EXPECT_THAT(objRefusal(corners + "f 1 2\n"), HasSubstr("a face has 2 corners, allowed: 3..4096"));
     EXPECT_THAT(objRefusal(corners + "F 1 2 3\n"), HasSubstr("got 'F', expected v, vt, vn, f"));
