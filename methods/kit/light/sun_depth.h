@@ -19,8 +19,8 @@ namespace dustbench::light {
 
 class DUSTBENCH_API SunDepth {
  public:
-    /// τ = −ln(1 − α)·`opticalDepthShare`; a puff extends to where its depth falls to `neglected`. Puffs with non-finite
-    /// values are ignored. Throws as sunFrame() does.
+    /// τ = −ln(1 − α)·`opticalDepthShare`; a puff extends to where its depth falls to `neglected`. Puffs with values
+    /// that are not finite are ignored. Throws as sunFrame() does.
     SunDepth(const Puffs& store, const glm::dvec3& toSun, double opticalDepthShare, double neglected);
     /// Only the puffs with these indices, which must ascend.
     SunDepth(const Puffs& store, const glm::dvec3& toSun, double opticalDepthShare, double neglected,

@@ -16,7 +16,7 @@ std::pair<PartKind, std::string> place(const PartInfo& info) {
     return {info.kind, info.name};
 }
 
-/// Its parts know their name.
+/// Makes the parts that it creates know their name.
 PartInfo naming(PartInfo info) {
     info.create = [name = info.name, create = std::move(info.create)](const ParameterValues& values) {
         std::unique_ptr<Part> part = create(values);

@@ -165,7 +165,7 @@ TEST(PartToml, ErrorsOfSeveralSystemsNameFileAndLine) {
     const std::string one = named("smoke");
     EXPECT_THAT(systemsErrorOf(one + one), AllOf(HasSubstr("two.toml:"), HasSubstr("two systems are named 'smoke'")));
     EXPECT_THAT(systemsErrorOf(with(one, "smoke", "Smoke")), HasSubstr("two.toml:2: key 'name': got 'Smoke'"));
-    EXPECT_THAT(systemsErrorOf(with(one, "smoke", "size")), HasSubstr("no kind of part"));
+    EXPECT_THAT(systemsErrorOf(with(one, "smoke", "size")), HasSubstr("not a kind of part"));
     EXPECT_THAT(systemsErrorOf(with(one, "name", "nam")), HasSubstr("'system.name' is missing"));
     EXPECT_THAT(systemsErrorOf(with(one, "\"drag\"", "\"dragg\"")), HasSubstr("did you mean 'drag'"));
     EXPECT_THAT(systemsErrorOf("system = []"), HasSubstr("one or more"));
