@@ -4,7 +4,8 @@
 // (contacts.h). With restitution 1 and no friction it keeps its energy and retraces its path.
 // paper: tests positions, the current one x and the predicted one x + v·dt. If the surface lies between them, v is
 // mirrored and scaled by the restitution, at the current position, as if the surface did not move. On a disc:
-// d(x)·d(x + v·dt) < error, then |x − centre| < radius; so a fast particle misses it, and one that leaves it slowly is caught.
+// d(x)·d(x + v·dt) < error, then |x − centre| < radius. So a fast particle misses it, and one that leaves it slowly is
+// caught.
 #include <cmath>
 
 #include "methods/kit/particles/force_part.h"
