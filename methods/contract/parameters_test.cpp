@@ -56,13 +56,13 @@ TEST(Parameters, TakeTheDefaultsOfAPresetUnlessTheyAreSet) {
 TEST(Parameters, TakeAPresetWhateverTheOrder) {
     ParameterValues first(withPreset()), last(withPreset());
     first.set("mode", "paper");
-    first.set("depth", "7");  // the default of the other mode, but said
+    first.set("depth", "7");  // the default of the other mode, but set explicitly
     last.set("depth", "7");
     last.set("mode", "paper");
     EXPECT_EQ(first.canonical(), last.canonical());
     EXPECT_EQ(first.integer("depth"), 7);
     EXPECT_EQ(first.choice("sort"), "quicksort");
-    // The whole canonical form, read again, gives itself.
+    // The canonical form, read again, is unchanged.
     ParameterValues again(withPreset());
     for (const auto& [name, text] : first.canonical()) again.set(name, text);
     EXPECT_EQ(again.canonical(), first.canonical());

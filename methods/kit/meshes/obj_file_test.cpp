@@ -55,7 +55,7 @@ TEST(ObjFile, HoldsTheFileToItsOwnCounts) {
 }
 
 TEST(ObjFile, ReadsWhatOtherProgramsWrite) {
-    // Negative indices, lines that go on, comments, weights and colours, Windows' line ends, groups and materials.
+    // Negative indices, continued lines, comments, weights and colours, Windows' line ends, groups and materials.
     const Polygons mesh = readObj(
         "mtllib a\\b.mtl\r\no thing\r\nv 0 0 0 1\r\nv +1 0 0 0.5 0.5 0.5\r\nv 0 1e0 0 # three\r\ng a b\r\n"
         "usemtl red\r\ns off\r\nf -3 \\\r\n -2 -1\r\nl 1 2\r\n# ends in \\\r\nf 3 2 1\r\n",

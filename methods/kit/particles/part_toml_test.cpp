@@ -192,7 +192,7 @@ TEST(PartToml, FilesThatAFileNamesLieBesideItAndElseAmongTheData) {
     EXPECT_EQ(read("meshes/own.ply"), (folder / "meshes/own.ply").string());
     EXPECT_EQ(read("./meshes/../meshes/own.ply"), (folder / "meshes/own.ply").string());
     EXPECT_THAT(read("hare.ply"), testing::EndsWith("data/shapes/meshes/hare.ply"));
-    // Where the program was started does not count.
+    // The working directory has no influence.
     const fs::path before = fs::current_path();
     fs::current_path(folder / "meshes");
     EXPECT_THAT(
@@ -206,7 +206,7 @@ TEST(PartToml, FilesThatAFileNamesLieBesideItAndElseAmongTheData) {
         AllOf(HasSubstr("mine.toml:"), HasSubstr("no such file, tried " + (folder / "own.ply").string())));
     EXPECT_EQ(read("meshes/own.ply"), (folder / "meshes/own.ply").string());
     fs::current_path(before);
-    // Saved, it says the same from any other folder.
+    // Saved, it has the same meaning in any other folder.
     const auto system = systemsFromFile(folder / "mine.toml");
     const auto again = partsFromText(partsToToml(*system.front().parts), "elsewhere.toml");
     EXPECT_EQ(again->position()->values().choice("mesh"), (folder / "meshes/own.ply").string());

@@ -1,4 +1,4 @@
-// Files that OpenVDB's own functions wrote are read with all their points, wherever OpenVDB put them.
+// Tests that files written by OpenVDB's own functions are read with all their points, at any position.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>

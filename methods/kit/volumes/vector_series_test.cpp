@@ -23,7 +23,7 @@ VectorGrid sampled(const glm::ivec3& cells, const glm::dvec3& origin, double spa
     return grid;
 }
 
-/// A linear field of place and time.
+/// A field linear in position and time.
 struct Linear {
     glm::dmat3 slope;
     glm::dvec3 constant, perSecond;

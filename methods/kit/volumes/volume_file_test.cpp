@@ -1,5 +1,5 @@
-// Volumes that VTK's, OpenVDB's and NanoVDB's own functions made and wrote are read with all their values; what is none
-// is refused in one line.
+// Tests that volumes made and written by VTK's, OpenVDB's and NanoVDB's own functions are read with all their values,
+// and that other files are refused in one line.
 #include "methods/kit/volumes/volume_file.h"
 
 #include <gmock/gmock.h>
@@ -37,7 +37,7 @@ std::string written(const TestFolder& folder, const openvdb::GridPtrVec& grids) 
     return path;
 }
 
-/// A sphere of OpenVDB's, as the distance to its surface.
+/// A sphere from OpenVDB, as the distance to its surface.
 openvdb::FloatGrid::Ptr sphere() {
     openvdb::initialize();
     const auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(

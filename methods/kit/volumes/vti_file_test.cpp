@@ -43,7 +43,7 @@ std::vector<float> numbersIn(const std::string& text) {
     return file.numbersOf(file.cellArrays().front());
 }
 
-/// Why the file is refused; empty if it is not.
+/// The reason for the refusal; empty if the file is accepted.
 std::string faultOf(const std::string& text) {
     try {
         (void)numbersIn(text);
@@ -247,7 +247,7 @@ TEST(VtiFile, RefusesBlocksThatAreNotExactlyAsLongAsTheArray) {
     EXPECT_THAT(faultOf(inBlocks({1, 2, 3}, {5, 6})), HasSubstr("damaged"));
 }
 
-/// Blocks of which the lengths lie, which VTK takes for offsets, divisors and sizes.
+/// Blocks with false lengths, which VTK uses as offsets, divisors and sizes.
 TEST(VtiFile, RefusesForgedBlocks) {
     const std::string data(64, 'x');
     constexpr std::uint64_t huge = ~std::uint64_t{0};

@@ -1,4 +1,4 @@
-// Files that VTK's own writer wrote are read as VTK wrote them.
+// Tests that files written by VTK's own writer are read as VTK wrote them.
 #include "methods/kit/volumes/vtp_file.h"
 
 #include <gmock/gmock.h>
