@@ -45,7 +45,7 @@ struct SolidPose {
 
 /// The shape of a deforming solid at one moment.
 struct DeformedMesh {
-    Mesh mesh;                          ///< number of vertices and triangles as in Solid::mesh
+    Mesh mesh;                          ///< vertices in the same number, same triangles as Solid::mesh
     std::vector<glm::vec3> velocities;  ///< of the positions, in the object's frame
 };
 

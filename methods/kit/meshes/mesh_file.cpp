@@ -210,9 +210,8 @@ void requireSamePolygons(const Polygons& rest, const std::filesystem::path& rest
             target.positions.size(), target.size(), rest.positions.size(), rest.size(), restFile.string()));
     for (std::size_t face = 0; face < rest.size(); ++face)
         if (!std::ranges::equal(rest[face], target[face]))
-            throw InputError(
-                fmt::format("{}: face {} has different corners than in {}, its base mesh", targetFile.string(),
-                            face + 1, restFile.string()));
+            throw InputError(fmt::format("{}: face {} has different corners than in {}, its base mesh",
+                                         targetFile.string(), face + 1, restFile.string()));
 }
 
 }  // namespace

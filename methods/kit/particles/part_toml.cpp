@@ -90,7 +90,7 @@ std::unique_ptr<PartList> readParts(files::TomlReader& table, const std::filesys
     table.finish();
     if (parts->emission() && parts->emission()->neverEmits())
         throw InputError(table.where("emission") + "emission part '" + parts->emission()->name() +
-                         "': got rates of 0, allowed: a rate above 0, because no particle would be born");
+                         "': got rates of 0, allowed: a rate above 0, otherwise no particle is born");
     if (const std::string missing = parts->missing(); !missing.empty())
         throw InputError(table.where() + "particle system: " + missing);
     return parts;

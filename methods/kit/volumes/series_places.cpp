@@ -28,8 +28,7 @@ SeriesPlaces::SeriesPlaces(std::vector<GridPlace> places, const std::vector<std:
         std::ranges::none_of(places_, [](const GridPlace& place) { return place.timeSeconds.has_value(); });
     if (const std::string uneven = secondsPerFile && haveNone ? files::unevenStep(names) : ""; !uneven.empty())
         throw InputError(
-            fmt::format("{}: {}; expected even steps for seconds_per_file, or a .pvd or .series "
-                        "with the times",
+            fmt::format("{}: {}; expected even steps for seconds_per_file, or a .pvd or .series with the times",
                         names.front().parent_path().string(), uneven));
     if (secondsPerFile && haveNone)
         for (std::size_t i = 0; i < places_.size(); ++i)
