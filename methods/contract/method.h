@@ -91,7 +91,7 @@ struct MethodInfo {
     ParameterSet parameters;
     std::vector<FactInfo> facts;  ///< facts that `Method::report` reports
     bool drawsPanels = false;     ///< draws the scene's reliefs itself; for other methods the harness draws them flat
-    bool takesLights = false;     ///< draws dust that the scene's lights light (Lights::onDust)
+    bool takesLights = false;     ///< can draw dust lit by the scene's lights (Lights::onDust)
     std::function<std::unique_ptr<Method>(const ParameterValues&)> create;
     /// Returns why the method cannot draw this scene (`needs a vehicle`), or an empty text if it can. Unset: draws
     /// every scene.

@@ -106,7 +106,7 @@ std::size_t findAdapter(std::span<const Adapter> adapters, std::string_view aske
     if (found.size() == 1) return found.front();
     throw InputError(
         "--adapter: got '" + std::string(asked) + "', which " + (found.empty() ? "matches none" : "matches several") +
-        " of this machine's adapters; allowed: an index or a part of a name of " + listed(adapters));
+        " of this machine's adapters; allowed: an index or part of a name: " + listed(adapters));
 }
 
 std::string problemsOf(std::span<const Adapter> adapters) {

@@ -30,7 +30,7 @@ void forStages(std::size_t slabs, std::size_t stages, std::size_t maximumBlocks,
     const auto border = [&](std::size_t block) {
         return block == 0 ? 0 : block == blocks ? slabs : block * slabs / blocks - last / 2;
     };
-    // A wedge needs the end of the block before it and the start of the block after it; whichever block finishes
+    // A wedge needs the end of the block before it and the start of the block after it; whichever of the two comes
     // later processes it.
     const std::unique_ptr<std::atomic<int>[]> ready(new std::atomic<int>[blocks]());
     const auto sideIsDone = [&](std::size_t wedge) {

@@ -1,7 +1,8 @@
 // The wanted fields of a `.vti`, at its cells or at its points, and their grid.
 //
-// Points are the centres of cells. All fields are where the first one is. Cells that VTK marks as hidden, duplicate or
-// refined (`vtkGhostType`) are zero, and so are points whose cells are all marked, and cells with a hidden point.
+// Points are the centres of cells. All fields must be at cells or at points, like the first one. Cells that VTK marks
+// as hidden, duplicate or refined (`vtkGhostType`) are zero, and so are points whose cells are all marked, and cells
+// with a hidden point.
 // Source: Kitware2021, "XML file formats"; the marks are those of vtkDataSetAttributes.
 #pragma once
 
