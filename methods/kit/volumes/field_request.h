@@ -127,8 +127,8 @@ template <typename Refusal>
     if (!wanted.isRequired) return -1;
     const std::string reason = "it has no field of " + numbers + " '" + wanted.names.front() + "'";
     if (!others.empty())
-        throw Refusal{reason + "; '" + others[0].name + "' (" + others[0].kind + ") does not hold " +
-                      (wanted.components == 3 ? "vectors of floats" : "one floating-point number a cell")};
+        throw Refusal{reason + "; '" + others[0].name + "' (" + others[0].kind + ") does not contain " +
+                      (wanted.components == 3 ? "vectors of floats" : "one floating-point number per cell")};
     throw Refusal{reason + (fitting.empty() ? "" : "; it has: " + listOf(fitting))};
 }
 

@@ -34,7 +34,7 @@ class DUSTBENCH_API SeriesPlaces {
     [[nodiscard]] bool isStill() const { return places_.size() == 1; }
     /// From the first moment to the last.
     [[nodiscard]] double seconds() const;
-    /// So many seconds after the first moment; before it the first one, after the end the last one.
+    /// At a time in seconds after the first moment; before it the first one, after the end the last one.
     [[nodiscard]] Between at(double seconds) const;
 
  private:

@@ -32,8 +32,8 @@ class DUSTBENCH_API VolumeSeries {
     [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return names_; }
     [[nodiscard]] std::size_t bytes() const;
 
-    /// The volume so many seconds after the first moment; before it the first one, after the end the last one. Returns
-    /// a moment or `between`, filled with density and temperature, and with velocity if `wantsVelocity`.
+    /// The volume at a time in seconds after the first moment; before it the first one, after the end the last one.
+    /// Returns a moment or `between`, filled with density and temperature, and with velocity if `wantsVelocity`.
     [[nodiscard]] const VolumeGrid& at(double seconds, bool wantsVelocity, VolumeGrid& between) const;
 
  private:

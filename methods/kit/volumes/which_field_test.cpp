@@ -142,7 +142,7 @@ TEST(WhichField, TwoVdbGridsOfANameAreRefused) {
     EXPECT_THAT(refusal({gridOfOneCell<openvdb::FloatGrid>("", 1), gridOfOneCell<openvdb::FloatGrid>("", 1)}),
                 HasSubstr("it has: (no name) (grid 1 of float), (no name) (grid 2 of float)"));
     EXPECT_THAT(refusal({gridOfOneCell<openvdb::Int32Grid>("density", 1)}),
-                HasSubstr("'density' (grid 1 of int32) does not hold one floating-point number a cell"));
+                HasSubstr("'density' (grid 1 of int32) does not contain one floating-point number per cell"));
     openvdb::io::File(file).write(
         {gridOfOneCell<openvdb::Vec3SGrid>("wind", {1, 2, 3}), gridOfOneCell<openvdb::Vec3SGrid>("wind", {4, 5, 6})});
     EXPECT_THAT(inputError([&] { (void)readVectors(file, "wind"); }),

@@ -136,7 +136,7 @@ PartInfo describe() {
     info.source = "Thesis, 5.3 and 6.1";
     info.parameters.choice("mode", maths::SamplingMode::fixed, samplingModes,
                            "paper: tests the current and the predicted position, mirrors at the current one; fixed: "
-                           "tests the way between them, bounces where it meets the surface");
+                           "tests the path between them, bounces where it hits the surface");
     declareSurface(info.parameters);
     info.parameters
         .real("restitution", 0.6, 0, 1, "",
