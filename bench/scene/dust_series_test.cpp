@@ -200,7 +200,7 @@ TEST_F(DustIndex, DamagedOnesAreRefused) {
     EXPECT_THAT(refusalOf("d.series", "{\"files\": []}"), HasSubstr("names no files"));
     EXPECT_THAT(refusalOf("d.series", "{\"files\": [{\"name\": \"gone.csv\", \"time\": 0}]}"), HasSubstr("gone.csv"));
     EXPECT_THAT(refusalOf("d.pvd", "<VTKFile type=\"Collection\"><Collection>"), HasSubstr("ends within its XML"));
-    EXPECT_THAT(refusalOf("d.pvd", "<VTKFile type=\"PolyData\"></VTKFile>"), HasSubstr("it is no collection"));
+    EXPECT_THAT(refusalOf("d.pvd", "<VTKFile type=\"PolyData\"></VTKFile>"), HasSubstr("it is not a collection"));
     EXPECT_THAT(refusalOf("d.series", R"({"files": [{"name": "a.csv", "time": 1}, {"name": "b.csv", "time": 1}]})"),
                 HasSubstr("expected more than 1 s"));
     folder_.write("b.csv", "x,y,z,radius,opacity,age\n2,2,3,1,0.1,1\n");

@@ -195,7 +195,7 @@ def refuse(project):
     shutil.copy(project / "build/haze.dustmethod.so", twice)
     both = dustbench("list", "methods", "--method-path", project / "build", "--method-path", twice).stdout
     why = [line for line in both.splitlines() if f"{twice}/haze.dustmethod.so is not taken" in line]
-    expect(why and f"is there already, from {project}/build/haze.dustmethod.so" in why[0], f"twice: {why}")
+    expect(why and f"already exists, from {project}/build/haze.dustmethod.so" in why[0], f"twice: {why}")
     missing = dustbench("list", "--method-path", "nowhere", status=3).stderr
     expect("nowhere" in missing, missing)
     expect("is there already" in dustbench("new-method", "null_method", status=3).stderr, "new-method null_method")

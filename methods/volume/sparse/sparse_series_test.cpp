@@ -224,7 +224,7 @@ TEST(SparseSeries, RefusesWhatADenseOneRefuses) {
         return refusal(&grid == &*density ? openvdb::GridPtrVec{copy, heat} : openvdb::GridPtrVec{density, copy}, hot);
     };
     EXPECT_THAT(with(*density, -0.5f), HasSubstr("it has a density of -0.5, allowed: 0 or more"));
-    EXPECT_THAT(with(*density, NAN), HasSubstr("it has a density that is no number"));
+    EXPECT_THAT(with(*density, NAN), HasSubstr("it has a density that is not a number"));
     EXPECT_THAT(refusal({density}, true), HasSubstr("it has no field of numbers 'temperature'"));
     MemoryLedger ledger;
     EXPECT_EQ(inputError([&] { SparseSeries(setupOf(folder.write("a.raw", "1"), false), ledger); }),
@@ -265,7 +265,7 @@ TEST(SparseSeries, RefusesBoxesBeyondItsOwnLimits) {
         MemoryLedger ledger;
         return inputError([&] { SparseSeries(setup, ledger); });
     };
-    EXPECT_THAT(moment({0.4, 0, 0}), HasSubstr("s1.vdb: lies on another grid than s0.vdb"));
+    EXPECT_THAT(moment({0.4, 0, 0}), HasSubstr("s1.vdb: is on a different grid from s0.vdb"));
     EXPECT_THAT(moment({9e6, 0, 0}), HasSubstr("s1.vdb: it lies 9e+06 cells from the first of its series"));
     EXPECT_THAT(moment({2000, 2000, 2000}), HasSubstr("it has more than 2000000000 cells (limit of volumes)"));
 }
