@@ -5,7 +5,7 @@
 # copy of the tree below WORK, which is kept from one run to the next: only what changed is compiled again, the first
 # time from the compiler cache.
 #
-#   cmake -DSOURCE=tree -DWORK=folder [-DWITHOUT=grid_fluid] [-DOPTIONS=cmake options] -P add_a_method.cmake
+#   cmake -DSOURCE=tree -DWORK=folder [-DWITHOUT=grid_fluid] [-DDUSTBENCH_WERROR=ON …] -P add_a_method.cmake
 cmake_minimum_required(VERSION 3.25)
 
 if(NOT WITHOUT)
@@ -14,6 +14,14 @@ endif()
 if(NOT EXISTS ${SOURCE}/methods/${WITHOUT} OR WITHOUT MATCHES "^(contract|kit|null_method|README.md)$")
   message(FATAL_ERROR "WITHOUT: got '${WITHOUT}', expected a method's folder in methods/ other than null_method")
 endif()
+
+# The options of the build that runs this test: with others, the compiler cache would know none of the copy's files.
+set(OPTIONS "")
+foreach(OPTION DUSTBENCH_ARCH DUSTBENCH_WERROR CMAKE_CXX_COMPILER CMAKE_C_COMPILER)
+  if(DEFINED ${OPTION})
+    list(APPEND OPTIONS -D${OPTION}=${${OPTION}})
+  endif()
+endforeach()
 
 set(TREE ${WORK}/tree)
 set(BUILD ${TREE}/build/release) # as far below its tree as the real one, so that the compiler cache knows the files
