@@ -104,16 +104,16 @@ MethodInfo describe() {
     MethodInfo info;
     info.title = "Exact tiles";
     info.summary =
-        "The exact picture of the dust: closed-form optical depths of each tile's puffs, summed in a compute shader.";
+        "The ground truth on the GPU: a compute shader sums the closed-form optical depths of each tile's puffs.";
     info.source = "Olsson2011";
     info.takesLights = true;
     info.parameters
         .real("tolerated_depth", 1e-6, 1e-9, 0.01, "",
-              "optical depth of a pixel that may be neglected beyond the edges of puffs; more is faster")
+              "optical depth per pixel that may be neglected beyond the edges of puffs; larger is faster")
         .real(
             "slab", 0.5, 0.05, 4, "deviations",
-            "length of the steps through dust of several colours, by the standard deviation of the narrowest puff of a "
-            "tile; the error is of second order in it");
+            "step length through dust of several colours, in standard deviations of the narrowest puff of a tile; the "
+            "error grows with its square");
     info.create = [](const ParameterValues& values) {
         return std::make_unique<ExactTiles>(
             Settings{.toleratedDepth = values.real("tolerated_depth"), .slabDeviations = values.real("slab")});

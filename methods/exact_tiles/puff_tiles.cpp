@@ -31,7 +31,7 @@ struct Eye {
         up = glm::cross(right, ahead);
         pixelSlope = 2 * std::tan(view.camera.verticalFieldOfView / 2) / view.height;
         if (!std::isfinite(glm::length(position) + glm::length(ahead) + glm::length(up) + pixelSlope))
-            throw std::invalid_argument("exact tiles: the camera's eye, target, up or field of view is no number");
+            throw std::invalid_argument("exact tiles: the camera's eye, target, up or field of view is not finite");
     }
 
     [[nodiscard]] glm::dvec3 fromWorld(const glm::dvec3& world) const {

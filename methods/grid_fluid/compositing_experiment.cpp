@@ -200,7 +200,7 @@ std::vector<Finding> measureOrders(ExperimentContext& context) {
 ExperimentInfo describe() {
     ExperimentInfo info;
     info.summary =
-        "Whether rays composited from the front and from the back show the same, and what an early end saves.";
+        "Compares front-to-back with back-to-front compositing of rays, and measures what early termination saves.";
     info.source = "Senger2009";
     info.run = measureOrders;
     return info;

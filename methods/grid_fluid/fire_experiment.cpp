@@ -288,7 +288,7 @@ std::vector<Finding> measureAll(ExperimentContext& context) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "Whether a volume shows fire better than particles do, and particles single pieces.";
+    info.summary = "Tests whether volumes show fire better than particles, and particles show single pieces better.";
     info.source = "Senger2009";
     info.run = measureAll;
     return info;

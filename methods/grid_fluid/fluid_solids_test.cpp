@@ -339,7 +339,7 @@ TEST(FluidSolids, RefuseMoreThanTheyCanTellApart) {
     EXPECT_EQ(inputError([&] {
                   FluidSolids(scene, {8, 8, 8}, ledger.account("cells"));
               }),
-              "solids of scene 'crowd': got 250 that move, allowed in a fluid: 249");
+              "solids of scene 'crowd': got 250 that move, allowed in a fluid: at most 249");
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     const bool burns = !settings_.setup.look.fire.empty();
     if (settings_.scheme == FlowScheme::demo && scene.wind != glm::vec3(0))
         throw InputError("parameter scheme: got demo in scene '" + scene.id +
-                         "', which has wind, allowed: ours; the demo has still air");
+                         "', which has wind, allowed: ours, since the demo has no wind");
     if (settings_.setup.followsVehicle && settings_.trail) {
         solver.notesLeaving = true;
         trail_.emplace(solver, settings_.setup.look.extinctionPerMetre, ledger_);
@@ -95,10 +95,10 @@ void GridFluid::requireSourcesInside(const scene::SceneState& state) {
     });
     if (!sources.empty() && !any)
         throw InputError(
-            "fluid '" + settings_.setup.name + "': all of its sources lie outside the box, which goes from (" +
+            "fluid '" + settings_.setup.name + "': all of its sources lie outside the box, which extends from (" +
             std::to_string(box.originMetres.x) + ", " + std::to_string(box.originMetres.y) + ", " +
             std::to_string(box.originMetres.z) + ") to (" + std::to_string(maximum.x) + ", " +
-            std::to_string(maximum.y) + ", " + std::to_string(maximum.z) + "); allowed: one source or more within it");
+            std::to_string(maximum.y) + ", " + std::to_string(maximum.z) + "); expected at least one source in it");
 }
 
 void GridFluid::update(const Frame& frame) {
@@ -135,8 +135,8 @@ void GridFluid::simulate(const Frame& frame) {
     if (solvesPressure() && !isSolved) ++extremes_.unsolvedSteps;
     if (report.cellsPerStep > maximumCellsPerStep) {
         std::ostringstream text;
-        text << "fluid: got a flow that goes " << report.cellsPerStep << " cells in step " << solver_->steps()
-             << ", allowed: at most " << maximumCellsPerStep << ": shorter steps, larger cells or weaker forces";
+        text << "fluid: the flow moves " << report.cellsPerStep << " cells in step " << solver_->steps()
+             << ", allowed: at most " << maximumCellsPerStep << "; use shorter steps, larger cells or weaker forces";
         throw InputError(text.str());
     }
     framesDue_ = 0;

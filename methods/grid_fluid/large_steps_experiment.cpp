@@ -124,7 +124,7 @@ std::vector<Finding> measureAll() {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "Whether a flow stays bounded, and still flows, in steps of up to 20 cells.";
+    info.summary = "Tests whether a flow stays bounded, and keeps moving, in steps of up to 20 cells.";
     info.source = "Senger2009";
     info.run = [](ExperimentContext&) { return measureAll(); };
     return info;

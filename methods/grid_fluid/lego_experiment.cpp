@@ -148,7 +148,7 @@ std::vector<Finding> blocksByTreatment(ExperimentContext& context) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How much a grid's cells show as blocks in its picture, by filter, jitter and step.";
+    info.summary = "Measures how visible a grid's cells are as blocks in its picture, by filter, jitter and step.";
     info.source = "Senger2009";
     info.run = blocksByTreatment;
     return info;

@@ -58,7 +58,7 @@ int classesOf(bool withMirrors, bool withExchange) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How many ways there are for a surface to cross a cell.";
+    info.summary = "Counts the ways in which a surface can cross a cell.";
     info.source = "Senger2009";
     info.run = [](ExperimentContext&) {
         const auto counted = [](const char* quantity, bool withMirrors, bool withExchange) {

@@ -227,7 +227,7 @@ std::vector<Finding> measureBoth() {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "What flows into obstacles: air through a ball's surface, smoke into it and through a thin wall.";
+    info.summary = "Measures leaks into obstacles: air and smoke into a ball, smoke through a thin wall.";
     info.source = "Senger2009";
     info.run = [](ExperimentContext&) { return measureBoth(); };
     return info;

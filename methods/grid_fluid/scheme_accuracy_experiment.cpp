@@ -239,7 +239,7 @@ std::vector<Finding> measureAll(ExperimentContext& context) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How much finer a grid MacCormack advection is worth, and what it costs.";
+    info.summary = "Measures how much finer a grid MacCormack advection is equivalent to, and its cost.";
     info.source = "Senger2009";
     info.run = measureAll;
     return info;

@@ -146,7 +146,7 @@ std::vector<Finding> measureBoxErrors(gpu::Device& device) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "The ray caster's error against the exact picture of a homogeneous box, before and behind solids.";
+    info.summary = "Measures the ray caster's error in a homogeneous box, with and without solids.";
     info.source = "Senger2009";
     info.run = [](ExperimentContext& context) { return measureBoxErrors(context.device()); };
     return info;

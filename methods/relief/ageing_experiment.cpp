@@ -180,7 +180,7 @@ CostSweep wholeSweep(std::uint64_t seed) {
 ExperimentInfo describe() {
     ExperimentInfo info;
     info.summary =
-        "Measures how the cost of ageing a relief grows with hits and texels, and what a hit does to its texture.";
+        "Measures how the cost of ageing a relief grows with hits and texels, and how a hit changes its texture.";
     info.source = "Bergeron";
     info.run = [](ExperimentContext& context) {
         std::vector<Finding> findings;

@@ -187,7 +187,7 @@ double particlesUntilTaken(double share, const scene::Panel& panel, const Ageing
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How many particles it takes until a sign cannot be read.";
+    info.summary = "Counts the particles that make a sign illegible.";
     info.source = "Bergeron";
     info.run = measured;
     return info;

@@ -71,7 +71,7 @@ std::vector<Finding> measured(ExperimentContext& context) {
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "How far a particle is from its parabola after one second, under both laws of motion.";
+    info.summary = "Measures how far a particle is from its parabola after one second, under both laws of motion.";
     info.source = "Bergeron";
     info.run = measured;
     return info;

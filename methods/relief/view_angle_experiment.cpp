@@ -113,7 +113,7 @@ Seen seenAt(gpu::Device& device, const scene::Scene& scene, const scene::Panel& 
 
 ExperimentInfo describe() {
     ExperimentInfo info;
-    info.summary = "What a march over a relief misses, over the angle of view and its steps.";
+    info.summary = "Measures the pixels that a march over a relief misses, by viewing angle and number of steps.";
     info.source = "Bergeron";
     info.run = measured;
     return info;

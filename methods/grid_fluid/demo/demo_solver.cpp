@@ -250,7 +250,7 @@ void DemoSolver::addDensity(std::span<const flow::AddedDensity>) {
 }
 
 void DemoSolver::gather(flow::Lane, const gpu::Texture&) const {
-    throw std::logic_error("a fluid that is solved on the CPU lies in no texture");
+    throw std::logic_error("a fluid that is solved on the CPU has no textures");
 }
 
 std::vector<float> DemoSolver::pressuresM2PerS2() const {

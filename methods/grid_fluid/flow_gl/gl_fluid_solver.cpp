@@ -29,7 +29,7 @@ const flow::FluidSettings& checked(const flow::FluidSettings& settings, const gp
     const std::size_t all = padded * (3 * (CellsOnGpu::bytesMoving + CellsOnGpu::bytesCarried) + 4 + 20) +
                             AdvectionOnGpu::allBytes(layout, settings.advection);
     if (const auto free = device.driverFreeBytes(); free && static_cast<std::int64_t>(all) > *free)
-        throw InputError(text("in all", all, static_cast<std::size_t>(*free)));
+        throw InputError(text("in total", all, static_cast<std::size_t>(*free)));
     return settings;
 }
 

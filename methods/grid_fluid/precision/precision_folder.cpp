@@ -27,7 +27,7 @@ constexpr std::string_view pointColumns =
     "enstrophy_error,spectrum_error\n";
 
 [[noreturn]] void cannotWrite(const fs::path& file) {
-    throw InputError(file.string() + ": got a file that cannot be written, allowed: a place with room");
+    throw InputError(file.string() + ": cannot be written; check the folder and its free space");
 }
 
 void writeText(const fs::path& file, std::string_view text, std::ios::openmode mode = std::ios::out) {
@@ -117,7 +117,7 @@ StaggeredFlow flowOn(const Run& run, int coarseCells) {
     StaggeredFlow flow = readFlow(run.file);
     const int refinement = run.cells / coarseCells;
     if (refinement * coarseCells != run.cells || flow.cells % refinement != glm::ivec3(0))
-        throw InputError(fmt::format("{}: got {} cells across, allowed: a multiple of those of the coarsest grid, {}",
+        throw InputError(fmt::format("{}: got {} cells across, allowed: a multiple of the coarsest grid's {}",
                                      run.file.string(), run.cells, coarseCells));
     return refinement == 1 ? flow : averaged(flow, refinement);
 }

@@ -74,7 +74,7 @@ void requireSound(VolumeGrid& grid, const std::filesystem::path& file, bool clam
     requirePlace(grid, file);
     float maximum = 0;
     for (const float density : grid.density) {
-        if (!std::isfinite(density)) throw refused(file, "it has a density that is no number");
+        if (!std::isfinite(density)) throw refused(file, "it has a density that is not a number");
         maximum = std::max(maximum, density);
     }
     for (float& density : grid.density) {
@@ -83,7 +83,7 @@ void requireSound(VolumeGrid& grid, const std::filesystem::path& file, bool clam
         density = 0;
     }
     if (std::ranges::any_of(grid.temperature, [](float number) { return !std::isfinite(number); }))
-        throw refused(file, "it has a temperature that is no number");
+        throw refused(file, "it has a temperature that is not a number");
     for (const glm::vec3& v : grid.velocity)
         if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
             throw refused(file, "it has a velocity that is no number");
@@ -117,7 +117,7 @@ class SoundPlaces final : public VolumeSink {
 }  // namespace
 
 void requireDensity(float density, float maximum, const std::filesystem::path& file, bool clampsDensity) {
-    if (!std::isfinite(density)) throw refused(file, "it has a density that is no number");
+    if (!std::isfinite(density)) throw refused(file, "it has a density that is not a number");
     if (density < -belowZero * maximum && !clampsDensity)
         throw refused(file,
                       fmt::format("it has a density of {}, allowed: 0 or more, or clamp_density in a .toml", density));

@@ -152,7 +152,7 @@ TEST(VolumeFile, RefusesWhatIsNoDensityOnCubesAlongTheAxes) {
     clamps.clampsDensity = true;
     const VolumeGrid read = readVolume(written(folder, {clamped}), clamps);
     EXPECT_GE(*std::ranges::min_element(read.density), 0);
-    EXPECT_THAT(with([](auto& grid) { grid.getAccessor().setValue({0, 0, 0}, NAN); }), HasSubstr("is no number"));
+    EXPECT_THAT(with([](auto& grid) { grid.getAccessor().setValue({0, 0, 0}, NAN); }), HasSubstr("is not a number"));
     EXPECT_THAT(with([](auto& grid) {
                     grid.getAccessor().setValue({4'000, 4'000, 4'000}, 1);
                 }),

@@ -141,7 +141,7 @@ void ReliefPass::setLight(const glm::dmat4& panelToWorld) {
 
 void ReliefPass::draw(const scene::View& view, const glm::dmat4& panelToWorld, const CarShadow* shadow) {
     if (style_.carShadow != (shadow != nullptr))
-        throw std::invalid_argument("ReliefPass: the car's shadow is given if and only if the style asks for it");
+        throw std::invalid_argument("ReliefPass: expected the car's shadow if and only if the style uses it");
     scene::View centred = view;
     centred.camera.eye = glm::dvec3(0);
     centred.camera.target -= view.camera.eye;

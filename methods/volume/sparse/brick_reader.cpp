@@ -76,7 +76,7 @@ void BrickReader::begin(const volumes::GridPlace& place) {
     constexpr double farthest = (farthestBrick - 4) * brickEdge - files::limits::sparseVolumeEdge;
     const glm::dvec3 apart = glm::abs(place_.origin - lead_->origin) / lead_->spacing;
     if (!(std::max({apart.x, apart.y, apart.z}) < farthest))
-        throw refused(fmt::format("it lies {:.3g} cells from the first of its series, allowed: {:.3g}",
+        throw refused(fmt::format("it is {:.3g} cells away from the first of its series, allowed: {:.3g}",
                                   std::max({apart.x, apart.y, apart.z}), farthest));
     first_ = volumes::firstCell(*lead_, place_) + leadCell;
 }
@@ -107,7 +107,7 @@ void BrickReader::take(std::span<const float> numbers) {
 
 void BrickReader::takeDensities(std::span<const float> row, glm::ivec3 first) {
     if (areZero(row)) return;
-    if (!areFinite(row)) throw refused("it has a density that is no number");
+    if (!areFinite(row)) throw refused("it has a density that is not a number");
     Bricks::Values* values = nullptr;
     glm::ivec3 last(1 << 30);
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -127,7 +127,7 @@ void BrickReader::takeDensities(std::span<const float> row, glm::ivec3 first) {
 }
 
 void BrickReader::takeTemperatures(std::span<const float> row, glm::ivec3 first) {
-    if (!areFinite(row)) throw refused("it has a temperature that is no number");
+    if (!areFinite(row)) throw refused("it has a temperature that is not a number");
     const std::vector<int>* const kept = rows_->find(first.y >> 3, first.z >> 3);
     if (!kept) return;
     const int end = first.x + static_cast<int>(row.size());

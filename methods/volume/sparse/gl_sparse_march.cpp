@@ -24,7 +24,7 @@ void requireTreesFit(std::size_t treeBytes, std::size_t maximumBytes) {
     if (treeBytes > allowed)
         throw InputError(
             fmt::format("storage=sparse: the volume takes {:.1f} MB on the GPU, allowed: {:.1f} MB, the largest "
-                        "storage buffer of this OpenGL; backend=cpu has no such limit",
+                        "storage buffer of this OpenGL driver; backend=cpu has no such limit",
                         static_cast<double>(treeBytes) / 1e6, static_cast<double>(allowed) / 1e6));
 }
 

@@ -60,12 +60,12 @@ void requireLightFits(const SparseMoment& moment, int texelCells, bool onGpu) {
     if (const double count = texels.x * texels.y * texels.z; count > mostTexels)
         throw InputError(
             fmt::format("storage=sparse: the box has {:.4g} blocks of shadow_cells={} for its light, allowed: "
-                        "{:.4g}; larger shadow_cells give fewer",
+                        "{:.4g}; increase shadow_cells",
                         count, texelCells, mostTexels));
     if (const double edge = std::max({texels.x, texels.y, texels.z}); onGpu && edge > textureEdge)
         throw InputError(
             fmt::format("storage=sparse: the box has {} blocks of shadow_cells={} along an axis for its light, "
-                        "allowed by OpenGL: {}; larger shadow_cells give fewer",
+                        "allowed by OpenGL: {}; increase shadow_cells",
                         edge, texelCells, textureEdge));
 }
 

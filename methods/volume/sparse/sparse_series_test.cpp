@@ -201,8 +201,8 @@ TEST(SparseStorage, ShowsWhatADenseOneCannotHoldButDoesNotHandOverItsBox) {
         Nobody nobody;
         EXPECT_THAT(
             inputError([&] { storage.handOver(0, nobody); }),
-            HasSubstr("the whole box of the volume has 3.222e+08 cells, allowed where all of them are handed over: "
-                      "2.56e+08 (limit of volumes)"));
+            HasSubstr("the whole box of the volume has 3.222e+08 cells, allowed for a dense copy: 2.56e+08 (limit of "
+                      "volumes)"));
     }
 }
 
@@ -224,7 +224,7 @@ TEST(SparseSeries, RefusesWhatADenseOneRefuses) {
         return refusal(&grid == &*density ? openvdb::GridPtrVec{copy, heat} : openvdb::GridPtrVec{density, copy}, hot);
     };
     EXPECT_THAT(with(*density, -0.5f), HasSubstr("it has a density of -0.5, allowed: 0 or more"));
-    EXPECT_THAT(with(*density, NAN), HasSubstr("it has a density that is no number"));
+    EXPECT_THAT(with(*density, NAN), HasSubstr("it has a density that is not a number"));
     EXPECT_THAT(refusal({density}, true), HasSubstr("it has no field of numbers 'temperature'"));
     MemoryLedger ledger;
     EXPECT_EQ(inputError([&] { SparseSeries(setupOf(folder.write("a.raw", "1"), false), ledger); }),
