@@ -2,8 +2,7 @@
 // and puffs.
 //
 // The bare loop binds, draws and waits; its buffer is written once, in order. Before timing, the two pictures are
-// compared with each other, and their coverage with that of the puffs, because quads that fail the depth test are cheap
-// to draw.
+// compared. Their coverage is checked against that of the puffs, because quads that fail the depth test are cheap.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Dust in a dense grid of voxels: what the octree saves.
+// Dust in a dense grid of voxels, which shows the memory that an octree saves.
 #include <fmt/format.h>
 
 #include "methods/contract/errors.h"
@@ -11,7 +11,7 @@ namespace {
 constexpr Choices<octree::Render> renders{
     {"billboards", octree::Render::billboards}, {"circles", octree::Render::circles}, {"cubes", octree::Render::cubes}};
 
-/// Any policy has a depth that it allows.
+/// With this limit, at least the minimum depth is allowed for every policy.
 constexpr auto smallestLimit =
     static_cast<std::int64_t>(gridBytes(octree::minimumDepth, octree::OpacityPolicy::accumulate));
 

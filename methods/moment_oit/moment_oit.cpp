@@ -20,7 +20,7 @@ std::map<std::string, std::string> definitionsOf(const Settings& settings) {
     return names;
 }
 
-/// What the shaders' `warped` subtracts, and multiplies the rest with.
+/// Offset and factor of the shaders' `warped`: it subtracts x, then multiplies by y.
 glm::vec2 warpUniform(const WarpedDepth& depth) {
     const double from = depth.warp == Warp::log ? std::log(depth.nearestMetres) : depth.nearestMetres;
     const double to = depth.warp == Warp::log ? std::log(depth.farthestMetres) : depth.farthestMetres;

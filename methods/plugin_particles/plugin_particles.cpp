@@ -26,7 +26,7 @@ std::vector<std::string> systemNames() {
     return names;
 }
 
-/// The first system uses the run's seed, so that `wheel_dust` is the shared dust; the others get seeds of their own.
+/// The first system uses the run's seed, so that `wheel_dust` is the shared dust; the others get different seeds.
 std::uint64_t seedOf(std::size_t system, std::uint64_t seed) {
     return seed ^ (system * 0x9e3779b97f4a7c15ULL);
 }

@@ -93,7 +93,7 @@ TEST(SystemPicture, ALineFadesLinearlyToItsOldEnd) {
                 if (alpha > 0) before = alpha;
             }
             const float pixels = 10 * seconds / canvas.pixelMetres(10);
-            EXPECT_NEAR(sum, 0.8f * pixels * (fade ? 0.5f : 1), 0.8f) << seconds;  // one pixel, of either end
+            EXPECT_NEAR(sum, 0.8f * pixels * (fade ? 0.5f : 1), 0.8f) << seconds;  // one pixel at either end
             EXPECT_EQ(at(image, 124, 60).a, 0);
         }
 }
