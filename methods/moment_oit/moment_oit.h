@@ -3,8 +3,8 @@
 // from the moments at its position.
 //
 // Source: Munstermann2018, 3. Departs: `profile=puff` uses a puff's own moments along the ray, limited by eye and scene
-// in closed form, instead of those of a point. It weights a puff with its depth instead of its alpha, may average T over
-// three places in it, and takes T halfway between its bounds instead of at a quarter. Distances are along the ray
+// in closed form, instead of those of a point. It weights a puff with its depth instead of its alpha, may average T
+// over three places in it, and takes T halfway between its bounds instead of at a quarter. Distances are along the ray
 // instead of the camera's axis, between the nearest and the farthest puff. Moments and sums are single precision. α
 // follows from the sum of depths.
 #pragma once

@@ -42,8 +42,8 @@ struct Profile {
 [[nodiscard]] double biasOf(int count);
 
 /// T(z) from b₀..b_count: exp(−b₀·share). `share` is the weight before z, plus `overestimation` times the weight at z,
-/// of the unique measure with these moments that has a point at z. overestimation 0 and 1 give the sharp upper and lower
-/// bounds of every T with these moments. Source: Munstermann2018, 3.2.
+/// of the unique measure with these moments that has a point at z. overestimation 0 and 1 give the sharp upper and
+/// lower bounds of every T with these moments. Source: Munstermann2018, 3.2.
 [[nodiscard]] double transmittance(std::span<const double> moments, double z, double bias, double overestimation);
 
 }  // namespace dustbench::moment_oit

@@ -28,8 +28,8 @@ float apart(float a, float b) {
 
 // Solves H·c = (1, z, z² …) by H = L·D·Lᵀ, where H is the Hankel matrix of the moments. The roots of Σ cᵢ·xⁱ are the
 // other points; one of them is far away if the others and z suffice for the moments. The share is the mean, from the
-// moments, of the polynomial that is 1 at the points before z, 0 at those beyond, and `overestimation` at z; it is built
-// by divided differences. `b` is normalised and biased.
+// moments, of the polynomial that is 1 at the points before z, 0 at those beyond, and `overestimation` at z. It is
+// built by divided differences. `b` is normalised and biased.
 #if MOMENTS == 4
 float shareBefore(float b[MOMENTS + 1], float z) {
     float d1 = max(b[2] - b[1] * b[1], 1e-12);

@@ -108,7 +108,7 @@ std::size_t ReliefPass::uploadTexels(const WornSurface& surface, const TexelRect
     return depths.size_bytes() + markValues_.size();
 }
 
-/// The rows of each level in which a block changed.
+/// The rows of each level that contain a changed block.
 std::size_t ReliefPass::uploadBlocks(const DepthPyramid& pyramid, const TexelRectangle& changed) {
     std::size_t bytes = 0;
     for (std::size_t k = 0; k < pyramid.levels().size(); ++k) {

@@ -12,7 +12,7 @@ namespace {
 constexpr int stateColumns = 1024;
 constexpr std::size_t groupSize = 64;
 
-/// As the shader's block has it.
+/// Layout of the shader's block.
 struct Plate {
     glm::dvec4 halfSize, scale, offset;
 };
