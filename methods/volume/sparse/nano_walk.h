@@ -1,4 +1,4 @@
-// Looks up bricks of a sparse grid, one near the other: remembers the nodes of the last one.
+// Looks up bricks of a sparse grid. Remembers the nodes of the last one, which makes nearby lookups cheap.
 //
 // Units: bricks and cells of the lattice. Threads: one walk per thread. Internal to marches on the CPU.
 #pragma once

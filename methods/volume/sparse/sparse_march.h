@@ -1,7 +1,7 @@
 // Ray casting of a sparse grid on the CPU: sixteen neighbouring pixels at a time, in parallel.
 //
-// Takes the same steps as the march through a dense grid (kit/raycast/cpu_march.h) and leaves out nodes of the tree
-// without density. Units: cells. Threads: march() uses the current oneTBB arena; the picture does not depend on the
+// Takes the same steps as the march through a dense grid (kit/raycast/cpu_march.h) and skips nodes of the tree without
+// density. Units: cells. Threads: march() uses the current oneTBB arena; the picture does not depend on the
 // number of threads. Source: Senger2009, ch. 4; Museth2021.
 #pragma once
 
