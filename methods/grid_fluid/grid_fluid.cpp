@@ -18,9 +18,9 @@
 namespace dustbench::grid_fluid {
 namespace {
 
-/// Above this the result is no longer a flow: a step carries the air across most of a box.
+/// Above this the result is meaningless: a step carries the air across most of a box.
 constexpr float maximumCellsPerStep = 100;
-/// A vehicle this far from the box affects none of its cells.
+/// A vehicle at this distance from the box does not affect any cell.
 constexpr double vehicleReachMetres = 8;
 
 bool vehicleIsNear(const flow::FluidBox& box, const scene::SceneState& state) {
@@ -67,7 +67,7 @@ void GridFluid::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::D
     if (scene.lights.onDust) raycast::lightDust(settings_.picture, scene);
     settings_.picture.smokeColour = settings_.setup.look.albedo.value_or(scene.dustAlbedo);
     picture_.emplace(device, settings_.picture, scene.lights, ledger_);
-    // Where box and trail share a density, neither reaches that of a surface.
+    // Where box and trail share the density, neither reaches that of the isosurface.
     if (trail_ && settings_.picture.renderer != raycast::Renderer::isosurface)
         trailPicture_.emplace(*picture_, settings_.picture, scene.lights.toSun, scene.terrain.isFlat());
     // Box and trail are blended on the host.
@@ -233,7 +233,7 @@ void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
     if (trail_) volumeOfTrail(visitor);
 }
 
-/// Its tiles as grids of their own, without fields.
+/// The trail's tiles as separate grids, without fields.
 void GridFluid::volumeOfTrail(VolumeVisitor& visitor) const {
     std::vector<float> extinction(DustTrail::tileCells);
     for (const auto& [place, tile] : trail_->dust().tiles()) {

@@ -30,7 +30,7 @@ flow::FluidSource jet() {
     return source;
 }
 
-/// Of the stored faces; energy in m⁵/s², per density.
+/// State of the stored faces; energy in m⁵/s², divided by the density.
 struct Motion {
     double speed = 0, energy = 0;
     double height = 0;  ///< of the energy's centre

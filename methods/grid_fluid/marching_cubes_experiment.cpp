@@ -7,10 +7,10 @@
 namespace dustbench::grid_fluid::marching_cubes {
 namespace {
 
-/// Where each corner of the cube goes; a corner's bits are its x, y and z.
+/// The image of each corner of the cube; a corner's bits are its x, y and z.
 using CornerMap = std::array<int, 8>;
 
-/// The 48 ways to lay the cube's axes onto themselves; 24 of them are turns.
+/// The 48 symmetries of the cube; 24 of them are rotations.
 std::vector<CornerMap> symmetries(bool withMirrors) {
     std::vector<CornerMap> maps;
     std::array<int, 3> axes{0, 1, 2};

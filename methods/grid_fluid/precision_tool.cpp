@@ -1,5 +1,5 @@
-// `dustbench precision`: solves three problems on several grids, and compares the flows by error and time, those that
-// other solvers left in the same folder included.
+// `dustbench precision`: solves three problems on several grids, and compares the flows by error and time, including
+// flows that other solvers have left in the same folder.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -58,7 +58,7 @@ int countOf(const std::string& name, const std::string& text, int minimum, int m
     return static_cast<int>(*number);
 }
 
-/// What `read` makes of each word of a list with commas; of `nothing` an empty list.
+/// Applies `read` to each word of a list with commas; returns an empty list for `nothing`.
 template <typename Read>
 auto listOf(const std::string& text, const Read& read) {
     std::vector<decltype(read(text))> values;

@@ -27,7 +27,7 @@ class Storage {
     /// Draws show the volume `seconds` after the first moment from now on.
     virtual void show(double seconds, const StageClock& clock) = 0;
     virtual void draw(const scene::View& view, gpu::Layer& layer) = 0;
-    /// Hands over the volume so many seconds after the first moment.
+    /// Hands over the volume `seconds` after the first moment.
     virtual void handOver(double seconds, VolumeVisitor& visitor) const = 0;
     /// Integral of the extinction over the displayed volume.
     [[nodiscard]] virtual double massSquareMetres() const = 0;

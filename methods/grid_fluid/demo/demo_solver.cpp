@@ -17,7 +17,7 @@ glm::ivec3 unit(int axis) {
     return {axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0};
 }
 
-/// What a solid's cell holds of an advected field.
+/// The value of an advected field in a solid's cell.
 float ofSolid(float, const glm::vec4&) {
     return 0;
 }

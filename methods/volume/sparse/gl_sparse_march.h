@@ -20,8 +20,8 @@ class GlSparseMarch {
  public:
     GlSparseMarch(gpu::Device& device, const raycast::RaycastSettings& settings);
 
-    /// `light`: null if the cloud casts no shadow on itself. Throws InputError if the trees exceed the maximum size of a
-    /// storage buffer.
+    /// `light`: null if the cloud casts no shadow on itself. Throws InputError if the trees exceed the maximum size of
+    /// a storage buffer.
     void upload(const SparseMoment& moment, const raycast::LightVolume* light);
     /// Draws the moment uploaded last at these pixels.
     void draw(const SparseMoment& moment, const raycast::PixelRectangle& pixels, const raycast::Reflected& reflected,

@@ -101,7 +101,7 @@ void fillHeader(std::byte* bytes, const Layout& layout, const Counts& counts, do
     nodeAt<Root>(bytes, layout.root)->mTableSize = static_cast<std::uint32_t>(counts.uppers);
 }
 
-/// Grows the node's bounds by a brick in it.
+/// Grows the node's bounds by those of a brick in it.
 template <typename Node>
 void grow(Node& node, const nanovdb::CoordBBox& box) {
     if (box.empty()) return;
@@ -109,7 +109,7 @@ void grow(Node& node, const nanovdb::CoordBBox& box) {
     node.mBBox.expand(box.max());
 }
 
-/// The active cells of a brick.
+/// The bounds of a brick's active cells.
 nanovdb::CoordBBox boxOf(const TreeBrick& brick) {
     nanovdb::CoordBBox box;
     std::uint64_t any = 0;

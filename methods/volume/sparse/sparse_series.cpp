@@ -75,7 +75,8 @@ void SparseSeries::readDensities(std::vector<volumes::GridPlace>& places) {
     }
 }
 
-/// A moment's temperatures are kept where it or a neighbouring moment has density, since both count between two moments.
+/// A moment's temperatures are kept where it or a neighbouring moment has density, since both count between two
+/// moments.
 void SparseSeries::readTemperatures(const std::vector<volumes::GridPlace>& places) {
     for (std::size_t i = 0; i < moments_.size(); ++i) {
         BrickRows rows;

@@ -1,7 +1,7 @@
 // A sparse volume that changes with time: the bricks of its moments, and interpolation between them.
 //
-// Between two moments every value changes linearly, as in VolumeSeries. Units: m, s; density is the files'. Frame: world
-// (+Y up). Owns: the trees, booked on a ledger.
+// Between two moments every value changes linearly, as in VolumeSeries. Units: m, s; density is the files'. Frame:
+// world (+Y up). Owns: the trees, booked on a ledger.
 #pragma once
 
 #include <array>
