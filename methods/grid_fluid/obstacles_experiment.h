@@ -21,8 +21,8 @@ struct ObstacleSettings {
 };
 
 struct ObstacleReport {
-    /// Inflow through the ball's surface, relative to the ball, over the faces with inward flow: maximum over all steps,
-    /// m³/s.
+    /// Inflow through the ball's surface, relative to the ball, over the faces with inward flow: maximum over all
+    /// steps, m³/s.
     double inflowM3PerSecond = 0;
     /// The maximum density within the obstacle, relative to the maximum around it: maximum over all steps.
     double smokeInside = 0;
