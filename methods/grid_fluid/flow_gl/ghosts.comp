@@ -1,5 +1,5 @@
 // Fills the ghosts as flow::fillGhosts does: one side of the box for each z of the grid of threads. The faces on the far sides,
-// which the ghosts there hold, stay.
+// which are stored in the ghosts there, do not change.
 layout(std430, binding = 1) restrict buffer Moving { vec4 moving[]; };
 layout(std430, binding = 2) restrict buffer Carried { vec2 carried[]; };
 uniform int noSlip;
@@ -11,7 +11,7 @@ int sideOf(ivec3 c, int axis) {
     return c[axis] < 0 ? sides[2 * axis] : c[axis] >= cells[axis] ? sides[2 * axis + 1] : -1;
 }
 
-// The speed across `lane` beyond the box; on a far side's face it goes on along the side.
+// The speed across `lane` beyond the box; on the face of a far side it continues along the side.
 float speedBeyond(ivec3 c, int lane) {
     ivec3 from = clamp(c, ivec3(0), cells - 1);
     bool isFar = c[lane] == cells[lane];
