@@ -1,4 +1,5 @@
-// Edits as words on the command line: they equal the tables of a shape file, and `dustbench shape` saves them.
+// Checks that edits as words on the command line equal the tables of a shape file, and that `dustbench shape` saves
+// them.
 #include "methods/voxel_shape/edit_text.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Options of a run of shapes: the paper's law or ours, a particle number to hold, several shapes at once.
+// Tests the options of a run with shapes: the paper's law or ours, a requested number of particles, several shapes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -75,7 +75,8 @@ class ModesMoment : public TestMoment {
     }
 };
 
-/// The figure's file says 4 pixels. In 10 voxels a side instead of 50 its particles are wider than that, and cover it.
+/// The figure's file sets 4 pixels. With 10 instead of 50 voxels per side its particles are wider than that and cover
+/// it.
 TEST(ShapeModes, ParticlesAreAsWideAsTheFileSaysOrAsTheyAreThemselves) {
     const auto covered = [](const char* pixels) {
         TestMoment moment(0, 320, 240, {-4, 1.6, 8}, {0, 0, -1});
@@ -214,7 +215,7 @@ TEST(ShapeModes, SeveralShapesAreDrawnTogetherAndCrossEachOther) {
 }
 
 TEST(Resolution, FindsTheKneeOfACurveThatSaturates) {
-    // 1 − e^(−x/30) between 10 and 120 lies highest above its chord where its slope equals the chord's.
+    // 1 − e^(−x/30) between 10 and 120 is highest above its chord where its slope equals the chord's.
     resolution::Curve curve;
     for (int side = 10; side <= 120; side += 2) {
         curve.voxelsASide.push_back(side);

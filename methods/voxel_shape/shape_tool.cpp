@@ -54,7 +54,7 @@ bool isVoxelFile(const fs::path& file) {
     return file.extension() == ".vti";
 }
 
-/// Returns the shape without place in a scene, and without a file to save its voxels to.
+/// Returns the shape without a place in a scene, and without a file to save its voxels to.
 Shape shapeOf(const fs::path& file) {
     Shape shape;
     if (isVoxelFile(file)) {

@@ -45,7 +45,7 @@ TEST(ShapeTrack, TakesTheWayBackToItsFirstKeyForAJump) {
     }
 }
 
-/// Compares the velocity of a track beside a vehicle on a circle with the difference quotient of its positions.
+/// Compares the velocity of a track next to a vehicle on a circle with the difference quotient of its positions.
 void expectVelocityOfItsMoment(const Track& track, int firstStep) {
     ShapeTrack beside(track);
     const double radius = 30, acceleration = 3;

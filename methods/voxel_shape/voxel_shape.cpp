@@ -80,7 +80,7 @@ VoxelShape::VoxelShape(const Shape& shape) : order_(ledger_), merged_(ledger_) {
 void VoxelShape::prepare(const scene::Scene& scene, const RunSetup& setup, gpu::Device& device) {
     scene_ = &scene;
     device_ = &device;
-    // A seed of its own for each shape.
+    // Each shape gets its own seed.
     for (std::size_t i = 0; i < shapes_.size(); ++i)
         shapes_[i].prepare(ledger_, scene, device, setup.seed ^ (i * 0x9e3779b97f4a7c15ULL));
     picture_ = std::make_unique<ShapePicture>(device, shapes_.front().shape().look);

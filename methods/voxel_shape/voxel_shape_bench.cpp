@@ -1,5 +1,5 @@
-// Upload and drawing of 40,000 unsorted point sprites of 4 pixels, compared with a bare draw of the same sprites. The
-// bare draw binds, draws and waits; its buffer is written once. Both pictures are compared before timing.
+// Benchmarks upload and drawing of 40,000 unsorted point sprites of 4 pixels against a bare draw of the same sprites.
+// The bare draw binds, draws and waits; its buffer is written once. Both pictures are compared before timing.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Which particles voxels admit: up to their maximum density, or, as in the paper, all.
+// Tests which particles voxels admit: up to their maximum density, or all, as in the paper.
 #include <gtest/gtest.h>
 
 #include "methods/voxel_shape/particles/shape_system.h"

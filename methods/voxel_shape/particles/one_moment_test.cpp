@@ -1,4 +1,5 @@
-// Particles and lattice are evaluated at the same time: a moving shape holds the same particles as one at rest.
+// Tests that particles and lattice are evaluated at the same time: a moving shape holds the same particles as one at
+// rest.
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
@@ -67,7 +68,7 @@ struct Newborn {
 };
 
 /// Rounds newborns to a lattice that is fine enough not to matter and coarse enough that no sum is rounded. Returns
-/// their places; or, given `like`, moves them to those places, from which only rounding may separate them.
+/// their places. If `like` is given, moves them to those places instead, from which they may differ only by rounding.
 std::vector<Newborn> settle(ShapeSystem& system, std::uint64_t born, const std::vector<Newborn>* like) {
     particles::ParticleStore& s = system.particles().store;
     const Pose& pose = system.pose();
@@ -91,7 +92,7 @@ std::vector<Newborn> settle(ShapeSystem& system, std::uint64_t born, const std::
     return list;
 }
 
-/// Compares everything except places and velocities bit by bit, and these relative to the shape's.
+/// Compares places and velocities relative to the shape's, and everything else bit by bit.
 void expectSame(const ShapeSystem& still, const ShapeSystem& moving) {
     const ShapeParticles &a = still.particles(), &b = moving.particles();
     ASSERT_EQ(a.size(), b.size());
