@@ -48,7 +48,7 @@ Profile profileOf(PuffOnRay puff) {
     return profile;
 }
 
-/// The moments of a puff: bⱼ = ∫ σ(t)·z(t)ʲ dt, with z linearised at the mean, or as if all of it lay there.
+/// The moments of a puff: bⱼ = ∫ σ(t)·z(t)ʲ dt, with z linearised at the mean, or as if the whole depth were there.
 void momentsOf(PuffOnRay puff, Profile profile, out float b[MOMENTS + 1]) {
     float middle = max(puff.foot + profile.mean * puff.metres, leastMetres);
 #ifdef POINTS

@@ -266,7 +266,7 @@ TEST(PluginParticles, GlowingSystemsLightTheSceneAndOthersDoNot) {
         sum += light.intensity;
         EXPECT_LT(glm::distance(light.position, glm::dvec3(0, 0.5, -8)), 1.5);
     }
-    // Opacity 1/2 by default at most: the bound is what 600 particles of 0.2 m would give at opacity 1.
+    // Opacity is at most 1/2 by default; the bound is the value for 600 particles of 0.2 m at opacity 1.
     EXPECT_GT(sum.b, 0);
     EXPECT_LT(sum.b, 50 * 0.9f * 0.008f * 700);
     EXPECT_NEAR(sum.r / sum.b, 0.2 / 0.9, 1e-3);

@@ -30,7 +30,7 @@ float speedBeyond(ivec3 c, int lane) {
 void main() {
     ivec2 place = ivec2(gl_GlobalInvocationID.xy);
     int side = int(gl_GlobalInvocationID.z), axis = side / 2;
-    // Edges and corners belong to the last axis along which they lie outside.
+    // Edges and corners belong to the last axis along which they are outside.
     ivec3 c = axis == 0 ? ivec3(0, place) : axis == 1 ? ivec3(place.x - 1, 0, place.y) : ivec3(place - 1, 0);
     c[axis] = side % 2 == 0 ? -1 : cells[axis];
     ivec3 low = ivec3(-1, axis == 0 ? 0 : -1, axis == 2 ? -1 : 0);

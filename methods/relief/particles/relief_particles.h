@@ -101,7 +101,8 @@ class ReliefParticles {
 
     /// Adds a newborn at its entry; it moves from the next step on.
     void add(const Motion& motion, const ParticleLook& look, std::uint64_t serial);
-    /// Moves all, collides each along its whole way and removes what has ended. Hits are in the order of the particles.
+    /// Moves all particles, collides each along its whole path and removes those that ended. Hits are in the order of
+    /// the particles.
     void step(const DepthMap& surface, const StepSettings& settings) { step(arrays_, surface, settings); }
     /// The same by another mover: always the same one from the first step on.
     void step(Mover& mover, const DepthMap& surface, const StepSettings& settings);

@@ -20,7 +20,7 @@ class NanoWalk {
         const float* values = nullptr;          ///< of a leaf, z fastest
         const std::uint64_t* active = nullptr;  ///< cells of a leaf, a word for each x
         int emptyEdge =
-            0;  ///< cells along the edge of the node without density that the brick lies in; 0: it is active
+            0;  ///< cells along the edge of the empty node that contains the brick; 0: it is active
     };
 
     [[gnu::always_inline]] Found at(const glm::ivec3& brick) {

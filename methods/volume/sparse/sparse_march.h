@@ -19,7 +19,7 @@ class SparseMarch {
     /// `moment`, and `light` if the cloud casts a shadow on itself, must outlive all marches through it.
     void set(const SparseMoment& moment, const raycast::LightVolume* light);
 
-    /// 1 for smoke of uniform colour, else 4.
+    /// 1 for smoke of uniform colour, otherwise 4.
     [[nodiscard]] int channels() const { return burning() || light_ ? 4 : 1; }
     /// `picture.channels` must equal `channels()`.
     void march(const raycast::PixelRays& rays, const raycast::SceneDepths& depths, const raycast::Reflected& reflected,

@@ -39,7 +39,7 @@ glm::mat3 rightAngles(Random& random) {
     return rotation;
 }
 
-/// Returns random voxels of a box. The edge is exact in floats; each voxel has a look and a maximum density of its own.
+/// Returns random voxels of a box. The edge is exact in floats; each voxel has its own look and maximum density.
 VoxelGrid anyShape(Random& random) {
     const Lattice lattice{{between(random, 2, 9), between(random, 2, 9), between(random, 2, 9)},
                           glm::vec3(between(random, -4, 4), between(random, -4, 4), between(random, -4, 4)) / 4.0f,
