@@ -6,7 +6,7 @@
 // and whose colours are evenly mixed; halving the slabs divides the error by four.
 //
 // Units: metres. Colours: linear RGB, premultiplied.
-// Source: Olsson2011, 3. Departs: lists of puffs in place of lists of lights.
+// Source: Olsson2011, 3. Departs: lists of puffs instead of lists of lights.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ namespace dustbench::exact_tiles {
 struct Settings {
     double toleratedDepth = 1e-6;  ///< maximum optical depth neglected per pixel
     double slabDeviations = 0.5;   ///< step length through several colours, in units of the smallest s in a tile
-    int rowsAtOnce = 0;            ///< pixels that an invocation sums: 1, 2, 4 or 8; 0: as suits the device
+    int rowsAtOnce = 0;            ///< pixels that an invocation sums: 1, 2, 4 or 8; 0: chosen for the device
 };
 
 class ExactTiles final : public Method {

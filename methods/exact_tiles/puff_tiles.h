@@ -4,7 +4,7 @@
 // that pass at a distance of R or more, where τ·exp(−R²/2s²) is 1/(number of puffs) of the tolerated depth.
 //
 // Units: metres, pixels. Frame: camera axes (x right, y up, z ahead), pixels from the lower left corner.
-// Owns: all of it. Threads: uses the current oneTBB arena; the same lists at any number of threads.
+// Owns: all of it. Threads: uses the current oneTBB arena; results do not depend on the number of threads.
 #pragma once
 
 #include <cstdint>

@@ -25,7 +25,7 @@ class CloudShade {
 
     /// Adds or replaces a grid. All have the same spacing.
     void set(const Id& id, const raycast::ShownGrid& grid);
-    /// Moves a grid and scales its density by this share.
+    /// Moves a grid and sets the remaining share of its original density.
     void change(const Id& id, const glm::dvec3& originMetres, double share);
     void remove(const Id& id) { grids_.erase(id); }
     /// Share of the sunlight that passes all grids but this one.

@@ -9,7 +9,7 @@
 // grid, with an equally fine march. Pieces are separate puffs in the same box, shown as particles and as densities of
 // the grid's cells.
 //
-// Units: metres, seconds; linear RGB. Threads: the current oneTBB arena; the same at any number of them.
+// Units: metres, seconds; linear RGB. Threads: the current oneTBB arena; results do not depend on their number.
 // Source: Senger2009, ch. 5.
 #pragma once
 

@@ -1,7 +1,7 @@
 // Pictures of a fire and of single pieces, with parallel rays, as volumes and as particles.
 //
-// Units: metres; linear RGB. Frame: a box from the origin on, `widthMetres` × 2 `widthMetres` × `widthMetres`. Threads:
-// the current oneTBB arena; the same at any number of them.
+// Units: metres; linear RGB. Frame: a box from the origin on, `widthMetres` × 2 `widthMetres` × `widthMetres`.
+// Threads: the current oneTBB arena; results do not depend on their number.
 #pragma once
 
 #include <functional>
@@ -32,7 +32,7 @@ struct FireGrid {
 /// Density and reaction at any place.
 using FireField = std::function<glm::dvec2(const glm::dvec3&)>;
 
-/// One pixel a ray along −z, rows from the bottom.
+/// One ray per pixel along −z, rows from the bottom.
 struct Picture {
     int width = 0, height = 0;
     std::vector<glm::dvec3> colours;  ///< premultiplied

@@ -1,6 +1,7 @@
 // Measures whether a flow stays bounded and keeps moving in steps of many cells (claim R28).
 //
-// Units: metres, seconds. Threads: the current oneTBB arena; the same at any number of them. Source: Senger2009, 4.1.1.
+// Units: metres, seconds. Threads: the current oneTBB arena; results do not depend on their number.
+// Source: Senger2009, 4.1.1.
 #pragma once
 
 #include <string>

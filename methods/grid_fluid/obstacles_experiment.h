@@ -1,6 +1,7 @@
 // Measures leaks into obstacles: air through their surface, smoke into them and through walls (claim R29).
 //
-// Units: metres, seconds. Threads: the current oneTBB arena; the same at any number of them. Source: Senger2009, 4.1.3.
+// Units: metres, seconds. Threads: the current oneTBB arena; results do not depend on their number.
+// Source: Senger2009, 4.1.3.
 #pragma once
 
 #include "methods/contract/experiment.h"

@@ -2,8 +2,8 @@
 //
 // A centre's velocity is the mean of those of two faces: that of the state, uⁿ, or extrapolated from the last two
 // states to the middle of the step, u* = uⁿ + ½Δt/Δt₋·(uⁿ − uⁿ⁻¹). The latter keeps three floats per cell between
-// steps. Units: metres per second. Threads: rows are independent. Owns its memory, booked on a ledger. Source:
-// Temperton1987. Departs: u* is limited to the speed of the flow, which bounds the reach of paths.
+// steps. Units: metres per second. Threads: rows are independent. Owns its memory, booked on a ledger.
+// Source: Temperton1987. Departs: u* is limited to the speed of the flow, which bounds the reach of paths.
 #pragma once
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 //
 // Stripes and speckle one or two cells wide are in this range; flow at scales that the grid resolves is not. Each
 // column of cells is processed separately, minus its mean, under a Hann window; power is summed over all columns.
-// Threads: columns in blocks, in the current arena; the same at any number of them.
+// Threads: columns in blocks, in the current arena; results do not depend on their number.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Advection and forces, compared with simple reference implementations.
+// Compares advection and forces with simple reference implementations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
