@@ -167,7 +167,7 @@ class Context final : public ExperimentContext {
     [[nodiscard]] gpu::Device& device() override { return draw::TestCanvas::device(); }
     [[nodiscard]] std::unique_ptr<ExperimentWorld> world(const std::string&, const std::map<std::string, std::string>&,
                                                          int, int) override {
-        ADD_FAILURE() << "a world was asked for";
+        ADD_FAILURE() << "a world was requested";
         return nullptr;
     }
 };

@@ -125,7 +125,7 @@ TEST(FluidSolids, ASphereOnItsWayPushesTheAirAheadAtItsOwnSpeed) {
             EXPECT_NEAR(ahead[axis], disc, 0.02 * disc) << n;
             EXPECT_NEAR(ahead[axis], -behind[axis], 1e-6) << n;
         }
-        EXPECT_NEAR(air.flowOutOf({5, 5, 5}, {38, 34, 36}), 0, 1e-3) << "what it pushes away flows in behind it";
+        EXPECT_NEAR(air.flowOutOf({5, 5, 5}, {38, 34, 36}), 0, 1e-3) << "the displaced air flows in behind it";
     }
 }
 

@@ -227,7 +227,7 @@ void GridFluid::volume(const Frame&, VolumeVisitor& visitor) const {
                                            {"reaction", "1", 1, reaction},
                                            {"velocity", "m/s", 3, velocity},
                                            {"face_speeds", "m/s (across the faces towards -x, -y, -z)", 3, faces},
-                                           {"pressure", "m2/s2 (by density of the air)", 1, pressure},
+                                           {"pressure", "m2/s2 (divided by the density of air)", 1, pressure},
                                            {"solids", "1 inside", 1, solids}}};
     visitor.grid({box.originMetres, box.spacingMetres, box.cells, extinction, fields});
     if (trail_) volumeOfTrail(visitor);

@@ -196,7 +196,7 @@ TEST(GridFluid, KeepsTheDustThatItsBoxLeavesBehind) {
     }
     EXPECT_FALSE(lost.valid.contains(0.011)) << "a run that loses more is not valid";
     const Facts without = factsAfter(SolverBackend::cpu, false, 150);
-    EXPECT_FALSE(without.value("mass_lost")) << "without a trail it promises nothing";
+    EXPECT_FALSE(without.value("mass_lost")) << "without a trail there is no such value";
     EXPECT_LT(std::get<double>(without.value("mass_kept").value()), 0.6 * expected);
 }
 

@@ -132,7 +132,7 @@ TEST(MeshCells, NoPathLeadsThroughAWallHoweverThin) {
                 for (int i = 0; i < size.x; ++i, ++at)
                     if (cells.bodies()[at] == 0 && side(glm::dvec3(i, j, k) + 0.5) == side(glm::dvec3(0.5))) ++near;
         EXPECT_LE(reached(cells), near) << "a path leads through wall " << n;
-        EXPECT_GE(reached(cells) + 40, near) << "wall " << n << " closes off what it does not touch";
+        EXPECT_GE(reached(cells) + 40, near) << "wall " << n << " closes off cells that it does not touch";
         EXPECT_LE(filled(cells, 1), 2u * 24 * 22) << "wall " << n << " is more than two cells thick";
     }
 }

@@ -164,7 +164,7 @@ TEST(CurvePass, IsTheParabolaOfABodyUnderAConstantForce) {
                 const glm::vec2 place = thrown.at(static_cast<float>(k) / 20);
                 float nearest = 1e9f;
                 for (const glm::vec2& pixel : lit) nearest = std::min(nearest, glm::length(pixel - place));
-                EXPECT_LT(nearest, lastPixel) << k << " twentieths of a step back of " << steps;
+                EXPECT_LT(nearest, lastPixel) << k << " twentieths of a step back, steps: " << steps;
             }
         }
 }

@@ -220,7 +220,7 @@ TEST(SystemPicture, AnObjectCoversTheDiscOfItsRadiusAndTheNearestHides) {
         float sum = 0;
         for (const glm::vec4& pixel : canvas.drawn(look).pixels) {
             sum += pixel.a;
-            EXPECT_EQ(pixel.g, 0) << "what is behind shows";
+            EXPECT_EQ(pixel.g, 0) << "the background is visible";
         }
         return sum;
     };

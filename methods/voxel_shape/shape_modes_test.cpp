@@ -119,7 +119,7 @@ TEST(ShapeModes, OfThePaperTakeItsSlicesAndItsLaw) {
     EXPECT_EQ(law.first, ours.first);
     EXPECT_LE(ours.second, 8000u);
     EXPECT_LE(slices.second, 8000u);
-    EXPECT_GT(law.second, 8100u) << "maximum density limits births alone";
+    EXPECT_GT(law.second, 8100u) << "maximum density limits only births";
     EXPECT_GT(paper.second, 8100u);
 }
 
@@ -139,7 +139,7 @@ TEST(ShapeModes, OfThePaperIsTheLawOfTheOtherShapesToo) {
         return std::get<std::int64_t>(*moment.fact(*method, "inside"));
     };
     EXPECT_LE(insideAfter("fixed"), 2064);
-    EXPECT_GT(insideAfter("paper"), 2200) << "the first shape alone stands still and holds its 64";
+    EXPECT_GT(insideAfter("paper"), 2200) << "the first shape alone is at rest and holds its 64";
 }
 
 TEST(ShapeModes, ANumberIsHeldToItsVeryMargin) {
@@ -205,7 +205,7 @@ TEST(ShapeModes, SeveralShapesAreDrawnTogetherAndCrossEachOther) {
     }
     EXPECT_GT(method->primitives(), 4400);
     const auto& drawn = systemOf(*method).particles().store;
-    EXPECT_GT(*std::ranges::max_element(drawn.velocityX), 0.5f) << "the ball has drawn some of the block along";
+    EXPECT_GT(*std::ranges::max_element(drawn.velocityX), 0.5f) << "the ball has dragged part of the block along";
     EXPECT_EQ(*std::ranges::max_element(drawn.velocityZ), 0);
     const std::string message = inputError([&] {
         folder.write("three.toml", "description = \"\"\nmesh = \"ball.obj\"\n[[also]]\nshape = \"both.toml\"\n");

@@ -113,7 +113,7 @@ TEST(FluidSolver, KeepsTheDivergenceBelowTheToleranceWithMovingSolids) {
         plume.setSphere({0.6 + 0.03 * step, 1.5, 1.2}, {1.0f, 0, 0});
         const StepReport report = plume.solver->step(0.03, plume.sources);
         EXPECT_LE(report.divergencePerStep, 1e-3f) << "step " << step;
-        EXPECT_LE(plume.solver->divergencePerStep(), 1.01e-3f) << "what is stored, step " << step;
+        EXPECT_LE(plume.solver->divergencePerStep(), 1.01e-3f) << "stored flow after step " << step;
         EXPECT_LE(report.pressure.cycles, 6) << "step " << step;
     }
     // The sphere is empty and has the velocity that was set.

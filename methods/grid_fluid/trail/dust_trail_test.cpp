@@ -43,7 +43,7 @@ TEST(Overlaps, ShareOutAStretchByLength) {
         }
         EXPECT_EQ(overlaps.count, overlaps.shares[1] > 0 ? 2 : 1);
         if (n % 6 == 0) {
-            EXPECT_EQ(overlaps.count, 1) << "a cell of the same lattice is one cell";
+            EXPECT_EQ(overlaps.count, 1) << "a cell of the same lattice overlaps one cell";
         }
     }
 }
@@ -115,7 +115,7 @@ TEST(DustTrail, GivesBackOnceWhatComesToLieInABox) {
     };
     EXPECT_EQ(take(0), 0);
     for (int i = -20; i < 40; ++i) trail.add({{i * h, 0, 0}, {i * h + h, h, h}}, 1);
-    EXPECT_EQ(take(0), 0) << "what enters a place within the box stays: the box has just let it go";
+    EXPECT_EQ(take(0), 0) << "dust added within the box stays: the box has just released it";
     EXPECT_NEAR(take(4 * h), 4, 1e-5);
     EXPECT_EQ(take(4 * h), 0);
     EXPECT_NEAR(take(-3 * h), 3 + 4, 1e-5);  // behind it, and cells 0 to 3, which it passes again
