@@ -111,7 +111,7 @@ TEST(EditText, SavedAsAShapeFileAndAsVoxelsIsTheSameShape) {
         EXPECT_EQ(table[1][1], "512");
         EXPECT_LT(std::stoi(table[1][2]), 512);
     }
-    EXPECT_FALSE(fs::exists(folder.path() / "shapes/side.vti")) << "showing and saving a shape writes only the file of --save";
+    EXPECT_FALSE(fs::exists(folder.path() / "shapes/side.vti")) << "showing and saving writes only --save";
     EXPECT_EQ(readShape(toml).savedVoxels, "") << "the edited shape does not overwrite the other's voxels";
     MemoryLedger ledger;
     const VoxelGrid fromText = voxelsOf(ledger, toml), fromVoxels = readVoxels(ledger, vti);

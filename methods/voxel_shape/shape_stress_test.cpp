@@ -70,7 +70,7 @@ TEST(ShapeStress, OfPointGravityIsHowFarParticlesHaveFallen) {
     Pair pair(edge, Force::gravity, {0, omega, 0}, 1);
     pair.run([](int) { return Pose(); });
     const float expected = edge / 2 * (1 - std::cos(omega * dt * steps));
-    EXPECT_NEAR(pair.stress.displacements()[0], expected, 0.06f * expected) << "first-order error, and the scatter of 4000";
+    EXPECT_NEAR(pair.stress.displacements()[0], expected, 0.06f * expected) << "first order, and scatter of 4000";
 }
 
 TEST(ShapeStress, OfAShapeAtConstantVelocityIsNoneAndOfAnAcceleratedOneItsLag) {
