@@ -64,7 +64,7 @@ MethodInfo describe() {
                 "order of the grid")
         .real("world_edge", 128, 1, 1e5, "m", "edge of the grid, a cube that follows the vehicle")
         .integer("limit_bytes", std::int64_t{2} << 30, smallestLimit, std::int64_t{1} << 40, "bytes",
-                 "maximum size of the grid; a greater depth is refused");
+                 "maximum size of the grid; a depth that needs more is refused");
     draw::declareOpacity(info.parameters);
     info.parameters.choice("mode", "fixed", {"fixed", "paper"}, "draw by the optical model, or as in the paper")
         .preset("mode", "paper", {{"opacity", "age"}, {"render", "circles"}, {"sort", "quicksort"}});

@@ -110,10 +110,9 @@ MethodInfo describe() {
     info.parameters
         .real("tolerated_depth", 1e-6, 1e-9, 0.01, "",
               "optical depth per pixel that may be neglected beyond the edges of puffs; larger is faster")
-        .real(
-            "slab", 0.5, 0.05, 4, "deviations",
-            "step length through dust of several colours, in standard deviations of the narrowest puff of a tile; the "
-            "error grows with its square");
+        .real("slab", 0.5, 0.05, 4, "deviations",
+              "step length through dust of several colours, in standard deviations of the narrowest puff of a tile; "
+              "the error grows with its square");
     info.create = [](const ParameterValues& values) {
         return std::make_unique<ExactTiles>(
             Settings{.toleratedDepth = values.real("tolerated_depth"), .slabDeviations = values.real("slab")});

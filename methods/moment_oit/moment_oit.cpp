@@ -107,9 +107,9 @@ MethodInfo describe() {
         .choice(
             "profile", Shape::puff, shapes,
             "moments that a puff adds: those of its extinction along the ray, or, as in the paper, those of a point")
-        .choice("samples", "1", {"1", "3"}, "number of places in a puff at which the transmittance before it is taken")
+        .choice("samples", "1", {"1", "3"}, "points in a puff at which the transmittance in front of it is evaluated")
         .choice("warp", Warp::log, warps,
-                "distances that moments are taken of: their logarithm, as in the paper, or the distances themselves")
+                "mapping of distances before their moments are taken: by the logarithm, as in the paper, or none")
         .real("overestimation", 0.5, 0, 1, "",
               "position of T between the bounds given by the moments: 0 is the brighter one, 1 the darker one")
         .real("bias_factor", 1, 0, 10'000, "",

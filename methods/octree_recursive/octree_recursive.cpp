@@ -17,8 +17,7 @@ MethodInfo describe() {
     octree::declareDust(info);
     octree::declareLayout(info,
                           "the paper's construction, with cells computed in advance (lists are split by Morton codes) "
-                          "or as printed; or a current one: bricks of 16³ cells in parallel, Morton codes sorted in "
-                          "each");
+                          "or as printed; or a current one: bricks of 16³ cells in parallel, with sorted Morton codes");
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<octree::OctreeDust>(
             octree::dustSettings(values),

@@ -17,7 +17,7 @@ MethodInfo describe() {
     octree::declareDust(info);
     octree::declareLayout(info,
                           "the paper's construction, with cells computed in advance (Morton codes are the paths) or as "
-                          "printed; or a current one: bricks of 16³ cells in parallel, a small grid each");
+                          "printed; or a current one: bricks of 16³ cells in parallel, with a small grid each");
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<octree::OctreeDust>(
             octree::dustSettings(values),

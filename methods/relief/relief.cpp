@@ -198,11 +198,11 @@ MethodInfo describe() {
                 "paper: each step adds the displacement over the particle's whole age, which compounds; fixed: adds "
                 "the displacement over the step")
         .choice("state", StateIn::array, statesIn,
-                "storage of the particles in a relief: array: columns, moved on the CPU; texture: two textures, moved "
-                "by a shader, as in the paper; paths and hits are the same")
+                "array: particles in a relief are columns, moved on the CPU; texture: they are two textures, moved by "
+                "a shader, as in the paper; paths and hits are the same")
         .choice("ageing", AgeingModel::crater, ageingModels,
-                "effect of a hit: paper: the texel falls to the bottom and turns white; scalar: it falls by `scalar`; "
-                "crater: a pit whose volume follows from energy and angle; deposit: the particle stays")
+                "paper: a hit lowers the texel to the bottom and turns it white; scalar: lowers it by `scalar`; "
+                "crater: removes a pit whose volume follows from energy and angle; deposit: the particle stays")
         .choice("search", Search::scatter, searches,
                 "gather: each texel tests every hit, as in the paper; scatter: each hit writes its texels; the "
                 "results are the same")

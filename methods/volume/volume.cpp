@@ -89,8 +89,7 @@ MethodInfo describe() {
                   {"volume_held",
                    "s",
                    FactOver::lastFrame,
-                   "time for which the last moment of the volume's series has been shown after its end, after the last "
-                   "frame",
+                   "time since the end of the volume's series, whose last moment stays, after the last frame",
                    {0, 0}}};
     info.create = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<Volume>(settingsOf(values), values.choice("storage", keepings));
