@@ -167,7 +167,7 @@ ToolInfo describe() {
         {"--cells", "LIST", "cells across the box, multiples of 8; default: 16,32,64"},
         {"--scheme", "LIST", "schemes: revert_midstep, revert, clamp, unlimited, semi_lagrangian; default: all"},
         {"--reference", "CELLS",
-         "cells across the reference grid; each solver with such a flow is its own reference; 0: compares nothing; "
+         "cells across the reference grid; a solver's finest flow is a reference if it has as many; 0: compares none; "
          "default: 128"},
         {"--repetitions", "N", "number of times each problem is solved, for its time; default: 1"}};
     info.run = compare;
