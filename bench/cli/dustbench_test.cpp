@@ -52,7 +52,7 @@ TEST_F(Dustbench, WrongUseIsOneLineAndExitCodeThree) {
         {"run --method " + method + " --out o -P particles=1000000000", "60 GB"},
         {"run --method " + method + " --out o -P particles", "name=value"},
         {"run --method " + method + " --out o -P particles=", "got '', expected a value"},
-        {"run --method " + method + " --out o -P particles=1,,2", "on either side of ','"},
+        {"run --method " + method + " --out o -P particles=1,,2", "on each side of ','"},
         {"run --method " + method + " --out o --frames 0", "1..10000000"},
         {"run --method " + method + " --out o --frames many", "'many'"},
         {"run --method " + method + " --out o --frame 5", "'--frames'"},

@@ -252,7 +252,7 @@ TEST_F(ExportCommand, GoesToTheEndOfTheDriveAndNoFurther) {
     EXPECT_DOUBLE_EQ(stepsOf(fs::path(out()) / "particles.pvd").at("f000027.vtp"), 0.5);
     EXPECT_THAT(
         call(fmt::format("export --method billboard --warmup 40 --out '{}/none' {} 0", folder_.string(), drive)).err,
-        HasSubstr("warm-up alone"));
+        HasSubstr("warm-up is longer"));
 }
 
 TEST_F(ExportCommand, AnOctreeIsNotToBeHadFromPuffs) {

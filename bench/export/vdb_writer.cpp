@@ -93,7 +93,7 @@ void writeVdb(const ExtinctionGrid& grid, VdbPrecision precision, std::int64_t f
     const float largest = *std::ranges::max_element(grid.extinctionPerMetre);
     if (half && largest > largestHalf)
         throw InputError(
-            fmt::format("{}: an extinction of {} per metre is beyond half floats, allowed: at most {}, or "
+            fmt::format("{}: an extinction of {} per metre exceeds the range of half floats, allowed: at most {}, or "
                         "--vdb-precision float",
                         file.string(), largest, largestHalf));
     initialise();

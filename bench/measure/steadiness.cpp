@@ -36,7 +36,7 @@ std::optional<std::string> takeStalls(std::vector<double>& frames) {
     if (stalls == 0) return std::nullopt;
     const auto longest = std::ranges::max_element(frames);
     std::string text =
-        fmt::format("{} of {} frames stalled: they took more than {:.3g} ms, frame {} {:.3g} ms; the median is {:.3g}",
+        fmt::format("{} of {} frames stalled: over {:.3g} ms, frame {} took {:.3g} ms; the median is {:.3g} ms",
                     stalls, frames.size(), limit, longest - frames.begin(), *longest, middle);
     std::erase_if(frames, [limit](double ms) { return ms > limit; });
     return text;
@@ -48,7 +48,7 @@ std::optional<std::string> warmUp(std::span<const double> first, std::span<const
     const double error = 1.2533 * deviation *
                          std::sqrt(1.0 / static_cast<double>(first.size()) + 1.0 / static_cast<double>(rest.size()));
     if (early - late <= enoughChange * late || early - late <= enoughErrors * error) return std::nullopt;
-    return fmt::format("the warm-up had not ended: the first {} frames took {:.3g} ms in the median, the others {:.3g}",
+    return fmt::format("the warm-up had not ended: the first {} frames took {:.3g} ms (median), the others {:.3g} ms",
                        first.size(), early, late);
 }
 
@@ -68,7 +68,7 @@ std::optional<std::string> drift(std::span<const double> frames) {
     const double z = static_cast<double>(rising) / std::sqrt(n * (n - 1) * (2 * n + 5) / 18);
     const double change = median(slopes) * (n - 1), middle = median(y);
     if (std::abs(z) <= enoughErrors || std::abs(change) <= enoughChange * middle) return std::nullopt;
-    return fmt::format("frame times drift: {:+.1f} % from the run's beginning to its end", 100 * change / middle);
+    return fmt::format("frame times drift: {:+.1f} % from the beginning of the run to its end", 100 * change / middle);
 }
 
 std::optional<std::string> twoSpeeds(std::span<const double> frames) {
@@ -102,7 +102,7 @@ std::optional<std::string> twoSpeeds(std::span<const double> frames) {
     const double separation = std::numbers::sqrt2 * (slow - fast) / std::sqrt(fastVariance + slowVariance);
     if (slow - fast <= enoughDistance * fast || share < minimumShare || !(separation > enoughSeparation))
         return std::nullopt;
-    return fmt::format("frame times have two speeds: {:.0f} % of the frames take about {:.3g} ms, the others {:.3g}",
+    return fmt::format("frames have two speeds: {:.0f} % of them take about {:.3g} ms, the others {:.3g} ms",
                        100 * static_cast<double>(split) / n, fast, slow);
 }
 

@@ -116,7 +116,7 @@ class RayMarch {
         const double count = std::ceil((end - begin_) / slabMetres_);
         if (count > maximumSlabs)
             throw std::invalid_argument(
-                fmt::format("ground truth: slabs of {} m cut the {} m of a ray into more than {} parts", slabMetres_,
+                fmt::format("ground truth: slabs of {} m divide the {} m of a ray into more than {} parts", slabMetres_,
                             end - begin_, maximumSlabs));
         length_ = (end - begin_) / count;
         for (std::vector<double>* column : {&depths_, &reds_, &greens_, &blues_})
@@ -165,7 +165,7 @@ glm::dvec3 checkedColour(const Puffs& store, std::size_t i) {
     const glm::dvec3 colour(store.colour(i));
     if (!std::isfinite(colour.r + colour.g + colour.b))
         throw std::runtime_error(
-            fmt::format("ground truth: particle {} has the colour ({}, {}, {}); finite numbers are needed",
+            fmt::format("ground truth: particle {} has the colour ({}, {}, {}), expected finite numbers",
                         store.serial[i], colour.r, colour.g, colour.b));
     return colour;
 }

@@ -34,7 +34,7 @@ void requireFewEnough(const std::string& text) {
         return;
     const double bytes = static_cast<double>(particles::ParticleStore::bytesPerParticle);
     throw InputError(fmt::format(
-        "parameter particles: got '{}', which need {:.3g} GB alone to be held, allowed: integer 0..{:.0f} ({:.3g} GB)",
+        "parameter particles: got '{}', which alone need {:.3g} GB of memory, allowed: integer 0..{:.0f} ({:.3g} GB)",
         text, static_cast<double>(count) * bytes / 1e9, declared.maximum, declared.maximum * bytes / 1e9));
 }
 

@@ -143,7 +143,7 @@ StoredRun readRunFile(const std::filesystem::path& file) {
     } catch (const std::exception& error) {
         const auto* const ofReader = dynamic_cast<const simdjson::simdjson_error*>(&error);
         if (ofReader && ofReader->error() == simdjson::MEMALLOC) throw std::bad_alloc();
-        throw InputError(file.string() + ": is no run.json of dustbench: " + error.what());
+        throw InputError(file.string() + ": is not a run.json of dustbench: " + error.what());
     }
 }
 

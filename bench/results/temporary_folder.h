@@ -15,7 +15,7 @@ class TemporaryFolder {
  public:
     TemporaryFolder() {
         std::string name = (std::filesystem::temp_directory_path() / "dustbench-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw InputError(name + ": a temporary folder cannot be made");
+        if (!mkdtemp(name.data())) throw InputError(name + ": cannot create a temporary folder");
         path_ = name;
     }
     ~TemporaryFolder() {

@@ -33,7 +33,7 @@ void requireRoom(const ResultsFolder& results, std::uint64_t bytes) {
     const std::uint64_t free = freeBytes(results.path());
     if (free < bytes)
         throw files::MachineError(
-            fmt::format("output '{}' cannot be written: the disk has {} left and the next run may "
+            fmt::format("output '{}' cannot be written: the disk has {} free and the next run may "
                         "need {}",
                         results.path().string(), bytesText(free), bytesText(bytes)));
 }
@@ -117,7 +117,7 @@ void requireMachine(const ChildOutcome& outcome, const ResourceLimits& limits) {
     if (outcome.end != ChildOutcome::End::exited || outcome.code != aborted) return;
     const std::string what = wordsOf(outcome, "dustbench: aborted: ");
     if (limits.memoryMegabytes > 0 && what.starts_with(files::outOfMemory)) return;  // its own limit
-    throw files::MachineError(what.empty() ? "a run gave up without a word" : what);
+    throw files::MachineError(what.empty() ? "a run aborted without an error message" : what);
 }
 
 std::string reasonOf(const ChildOutcome& outcome, const ResourceLimits& limits) {
@@ -133,9 +133,9 @@ std::string faultOf(const fs::path& folder, const std::string& id) {
     if (!fs::exists(folder / "run.json")) return "ended without a result";
     try {
         const std::string got = readRunFile(folder / "run.json").runId;
-        return got == id ? "" : fmt::format("left the result of another run, '{}'", got);
+        return got == id ? "" : fmt::format("wrote the result of another run, '{}'", got);
     } catch (const InputError& error) {
-        return fmt::format("left a result that cannot be read: {}", error.what());
+        return fmt::format("wrote a result that cannot be read: {}", error.what());
     }
 }
 
@@ -204,7 +204,7 @@ class RunInProgress {
         using End = ChildOutcome::End;
         requireMachine(outcome, options_.limits);
         if (options_.badInputEnds && outcome.end == End::exited && outcome.code == badInput)
-            throw InputError(outcome.lastWords.empty() ? "the run ended with exit code 3 and without a word"
+            throw InputError(outcome.lastWords.empty() ? "the run ended with exit code 3 and no error message"
                                                        : wordsOf(outcome, "dustbench: "));
 
         if (!fs::exists(specFile())) throw cannotWrite(folder_, "it was removed while a run was being written there");

@@ -69,8 +69,8 @@ void savePictures(const JudgedMoment& judged, const fs::path& folder) {
 
 std::string whyNotJudged(const JudgingPlan& plan, const Method& method) {
     if (!method.stateHash() || !plan.finer.empty()) return {};
-    return "no metrics: the method has a simulation of its own, and no finer setting is named to judge it against "
-           "([metric_reference.ID] in a suite)";
+    return "no metrics: the method runs its own simulation, so a suite must name a finer setting of it as the "
+           "reference ([metric_reference.ID])";
 }
 
 Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& device, const std::string& stateHash,
@@ -142,7 +142,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
     replay({spec, runner, preroll, spec.frames - 1, stepped, judge, judging});
 
     if (const std::string again = fmt::format("{:016x}", world.stateHash()); again != stateHash)
-        throw std::runtime_error("metrics: the run's states gone through again end in " + again + ", not in " +
+        throw std::runtime_error("metrics: the replay of the run ends in state " + again + ", not in " +
                                  stateHash);
     judgement.popping = poppingJudge.summary().mean();
     judgement.poppingMax = poppingJudge.summary().maximum();

@@ -120,7 +120,7 @@ TEST_F(MachineFaults, AnotherRunsResultIsNotPublished) {
     EXPECT_EQ(result.failed, 1u);
     EXPECT_EQ(second().runId, runId(plan_[1].spec));
     EXPECT_EQ(second().status, RunStatus::failed);
-    EXPECT_THAT(second().reason, HasSubstr("left the result of another run, '" + runId(plan_[0].spec)));
+    EXPECT_THAT(second().reason, HasSubstr("wrote the result of another run, '" + runId(plan_[0].spec)));
 }
 
 TEST_F(MachineFaults, AMalformedResultFailsItsRunAlone) {
@@ -128,19 +128,19 @@ TEST_F(MachineFaults, AMalformedResultFailsItsRunAlone) {
         const ExecutionResult result = run(std::string("echo '") + text + "' > $1/run.json");
         EXPECT_EQ(result.failed, 1u) << text;
         EXPECT_EQ(second().status, RunStatus::failed) << text;
-        EXPECT_THAT(second().reason, HasSubstr("left a result that cannot be read")) << text;
+        EXPECT_THAT(second().reason, HasSubstr("wrote a result that cannot be read")) << text;
     }
     EXPECT_EQ(run(good()).failed, 0u);
 }
 
 TEST_F(MachineFaults, ARunWithoutAWordIsNamedAllTheSame) {
     (void)run("exit 3");
-    EXPECT_EQ(second().reason, "exit code 3, without a word");
+    EXPECT_EQ(second().reason, "exit code 3, without an error message");
     try {
         (void)run("exit 3", {}, true);
         FAIL() << "nothing thrown";
     } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(), "the run ended with exit code 3 and without a word");
+        EXPECT_STREQ(error.what(), "the run ended with exit code 3 and no error message");
     }
 }
 

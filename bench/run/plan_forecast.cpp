@@ -74,7 +74,8 @@ PlanForecast forecastPlan(const std::vector<PlannedRun>& plan, ResultsFolder& re
         }
         if (!outcome.succeeded() || !forecast) {
             // The run itself is likely to fail in the same way.
-            result.warnings.push_back(nameOf(*run) + ": " + (outcome.succeeded() ? "said nothing" : outcome.reason()));
+            result.warnings.push_back(nameOf(*run) + ": " +
+                                      (outcome.succeeded() ? "printed no forecast" : outcome.reason()));
             forecast = RunForecast{std::chrono::duration<double>(Clock::now() - start).count(), 0};
         } else if (options.timeoutSeconds > 0 && forecast->seconds() > options.timeoutSeconds) {
             result.warnings.push_back(fmt::format("{}: will take {}, allowed: {}", nameOf(*run),

@@ -83,13 +83,13 @@ CameraPath fromTable(const files::CsvTable& table, const std::string& name) {
     std::vector<std::string> names = table.header(), wanted(columns.begin(), columns.end());
     std::ranges::sort(names);
     std::ranges::sort(wanted);
-    if (names != wanted) throw InputError(name + ":1: got other columns than a camera path has, expected " + header());
+    if (names != wanted) throw InputError(name + ":1: not the columns of a camera path, expected " + header());
     if (table.rows() == 0) throw InputError(name + ":2: the camera path has no rows, expected one or more");
     std::vector<CameraKey> keys;
     for (std::size_t row = 0; row < table.rows(); ++row) {
         keys.push_back(keyOf(table, row));
         if (keys.back().eye == keys.back().target)
-            throw InputError(table.where(row) + "the target is the eye, expected another point");
+            throw InputError(table.where(row) + "the target equals the eye, expected another point");
         if (row > 0 && keys[row].seconds <= keys[row - 1].seconds)
             throw InputError(table.where(row) + "column 'time_s': got " + table.cell(row, "time_s") +
                              ", expected more than " + files::csvNumber(keys[row - 1].seconds) + " of the row before");

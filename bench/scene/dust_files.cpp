@@ -38,7 +38,7 @@ void readCsv(const fs::path& file, const DustColumns& columns, std::vector<DustM
         volumes::PointColumn& column = whole.columns.emplace_back(volumes::PointColumn{name, 1, {}});
         if (!columns.wants(name)) continue;
         if (std::ranges::count(csv.header(), name) > 1)
-            throw InputError(fmt::format("{}:1: the column '{}' is there twice, expected once", file.string(), name));
+            throw InputError(fmt::format("{}:1: the column '{}' appears twice", file.string(), name));
         column.values.reserve(csv.rows());
         for (std::size_t row = 0; row < csv.rows(); ++row) column.values.push_back(csv.number(row, name));
     }
@@ -81,7 +81,7 @@ bool readOne(const volumes::SeriesEntry& entry, const DustColumns& columns, std:
     } else if (extension == ".csv") {
         readCsv(entry.file, columns, moments);
         if (entry.timeSeconds && moments.size() != before + 1)
-            throw InputError(entry.file.string() + ": has more than one time, expected one, for a series names it");
+            throw InputError(entry.file.string() + ": has more than one time, expected one per file of a series");
     } else {
         throw InputError(fmt::format("dust: got '{}', expected a file that ends in {}", entry.file.string(), endings));
     }
@@ -99,8 +99,8 @@ bool isVolume(const fs::path& file) {
 DustFiles readVolumes(const fs::path& path, bool hasColumns) {
     if (hasColumns)
         throw InputError(
-            fmt::format("--dust-columns: got it with the volume {}, allowed: with particles; a .toml says what a "
-                        "volume's fields are",
+            fmt::format("--dust-columns: not allowed with the volume {}, only with particles; name a "
+                        "volume's fields in a .toml",
                         path.string()));
     const volumes::VolumeSetup setup = volumes::readVolumeSetup(path);
     const volumes::VolumeSeries series = volumes::VolumeSeries::read(setup);
@@ -117,7 +117,7 @@ void requireDustFits(double particles, const fs::path& path) {
     const double bytes = particles * static_cast<double>(bytesPerParticle);
     if (bytes > static_cast<double>(files::limits::dustBytes))
         throw InputError(
-            fmt::format("{}: its moments have {:.0f} particles, which need {:.3g} GB, allowed: {:.3g} GB "
+            fmt::format("{}: its moments have {:.0f} particles, which need {:.3g} GB of memory, allowed: {:.3g} GB "
                         "(limit of dust)",
                         path.string(), particles, bytes / 1e9, static_cast<double>(files::limits::dustBytes) / 1e9));
 }

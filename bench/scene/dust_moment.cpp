@@ -100,7 +100,7 @@ void readIds(const ColumnNumbers& numbers, const Reader& reader, DustMoment& mom
     std::vector<std::uint64_t> sorted = moment.id;
     std::ranges::sort(sorted);
     if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-        throw InputError(fmt::format("{}: {}: {} is there twice, expected an id for each particle", moment.file,
+        throw InputError(fmt::format("{}: {}: {} appears twice, expected a different id for each particle", moment.file,
                                      numbers.name, *twice));
 }
 
@@ -133,7 +133,7 @@ void readDustColours(const ColumnNumbers& colour, const Reader& reader, DustMome
     if (areWhole && maximum > 1)
         throw InputError(
             fmt::format("{}: {} has whole numbers up to {}, expected linear light, where white is 1 "
-                        "(colours of 0..255 are read from UInt8 in a .vtp)",
+                        "(only UInt8 arrays of a .vtp may have colours 0..255)",
                         moment.file, colour.name, maximum));
 }
 

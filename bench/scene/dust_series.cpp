@@ -32,7 +32,7 @@ void requireSeries(const std::vector<DustMoment>& moments) {
         if (!moment.timeSeconds)
             throw InputError(
                 moment.file +
-                ": has no time, expected TimeValue (.vtp), time_s (.vdb), or a .pvd or .series that says it");
+                ": has no time, expected TimeValue (.vtp), time_s (.vdb), or a .pvd or .series with times");
         if (i == 0) continue;
         const DustMoment& before = moments[i - 1];
         if (!(*moment.timeSeconds > *before.timeSeconds))
@@ -41,7 +41,7 @@ void requireSeries(const std::vector<DustMoment>& moments) {
         if (const std::string has = columnsOf(moment), expected = columnsOf(before); has != expected)
             throw InputError(fmt::format("{}: has {}, expected {} as in {}", moment.file, has, expected, before.file));
         if (!moment.hasIds && moment.size() != before.size())
-            throw InputError(fmt::format("{}: has {} particles, expected {} as in {}, for there is no column of ids",
+            throw InputError(fmt::format("{}: has {} particles, expected {} as in {}, because there are no ids",
                                          moment.file, moment.size(), before.size(), before.file));
     }
 }

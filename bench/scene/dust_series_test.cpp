@@ -105,7 +105,7 @@ TEST_F(DustSeriesFile, EachFaultIsOneClearLine) {
     EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,0.1\n", "up=x"), HasSubstr("up: got 'x', allowed: y, z"));
     EXPECT_THAT(refusal("x,y,z,radius,opacity\n1,2,3,1,0.1\n", "scale"), HasSubstr("expected key=COLUMN"));
     const std::string one = "0,1,0,0,0,1,0.2\n";
-    EXPECT_THAT(refusal(dustHeader + one + one), HasSubstr("id: 1 is there twice"));
+    EXPECT_THAT(refusal(dustHeader + one + one), HasSubstr("id: 1 appears twice"));
     EXPECT_THAT(refusal(dustHeader + std::string("0,1.5,0,0,0,1,0.2\n")),
                 HasSubstr("id is 1.5, allowed: whole numbers"));
     EXPECT_THAT(refusal(dustHeader + std::string("1,1,0,0,0,1,0.2\n") + one), HasSubstr("expected more than 1 s"));

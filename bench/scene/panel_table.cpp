@@ -88,13 +88,13 @@ std::shared_ptr<const scene::Relief> readReliefOf(files::TomlReader& table, cons
 
 void checkPlace(const scene::Panel& panel, const scene::Scene& scene, const std::string& where) {
     if (panel.parent == scene::Panel::Parent::world && reachesIntoGround(panel, scene.terrain))
-        throw InputError(where + "panel '" + panel.name + "' reaches into the ground, expected it above");
+        throw InputError(where + "panel '" + panel.name + "' extends into the ground, expected it above");
     for (const scene::Panel& other : scene.panels) {
         if (other.name == panel.name)
-            throw InputError(where + "two panels have the name '" + panel.name + "', expected a name each");
+            throw InputError(where + "two panels have the name '" + panel.name + "', expected different names");
         if (other.parent == panel.parent && overlap(other, panel))
             throw InputError(where + "panel '" + panel.name + "' overlaps panel '" + other.name +
-                             "', expected them apart");
+                             "', expected panels that do not overlap");
     }
 }
 
@@ -134,7 +134,7 @@ scene::Panel readPanel(files::TomlReader& table, const std::filesystem::path& sc
                              "': expected a position within 100000 metres and a finite rotation");
     if (panel.parent == scene::Panel::Parent::vehicle && (onGround || !scene.vehicle))
         throw InputError(table.where("parent") + "panel '" + panel.name +
-                         "' is on the vehicle, expected a scene with one and no on_ground = true");
+                         "' is on the vehicle, expected a scene with a vehicle and without on_ground = true");
     if (onGround)
         position.y +=
             static_cast<double>(scene.terrain.heightAt(static_cast<float>(position.x), static_cast<float>(position.z)));

@@ -74,7 +74,7 @@ TEST_F(PanelTest, StandsWhereTheFileSaysAndGoesAlongWithTheVehicle) {
 TEST_F(PanelTest, SaysWhatIsWrongOfBadInput) {
     EXPECT_NO_THROW(static_cast<void>(scene(panel("wall", wall_))));
     EXPECT_THAT(message(panel("wall", "position = [0, 0.5, 0]\nsize_metres = [4, 2]\ndepth_metres = 0.1\n")),
-                HasSubstr("reaches into the ground"));
+                HasSubstr("extends into the ground"));
     EXPECT_THAT(message(panel("wall", wall_) + panel("other", wall_)), HasSubstr("'other' overlaps panel 'wall'"));
     EXPECT_THAT(message(panel("wall", wall_) + panel("wall", wall_)), HasSubstr("two panels have the name 'wall'"));
     for (const char* size : {"[0, 2]", "[-4, 2]", "[4]", "[4, 2, 1]", "[4, nan]"})
@@ -117,7 +117,7 @@ TEST_F(PanelTest, SaysWhatIsWrongWithHeights) {
     folder_.write("large.pgm", "P5\n9000 9000\n255\n");
     folder_.write("large.toml", "description = \"r\"\nheights = \"heights.pgm\"\ncolours = \"large.pgm\"\n");
     EXPECT_THAT(inputError([&] { static_cast<void>(readRelief(folder_.path() / "large.toml")); }),
-                HasSubstr("large.pgm: it has 9000x9000 texels"));
+                HasSubstr("large.pgm: has 9000x9000 texels"));
     const float notANumber[4] = {0, NAN, 0, 0};
     EXPECT_THAT(reason("Pf\n2 2\n-1\n" + std::string(reinterpret_cast<const char*>(notANumber), sizeof notANumber)),
                 HasSubstr("a height is nan"));

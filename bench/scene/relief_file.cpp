@@ -25,7 +25,7 @@ void requireSize(const std::filesystem::path& file) {
     if (const std::string reason = pictures::readPictureSize(file, picture); !reason.empty())
         throw InputError(file.string() + ": not an image that can be read: " + reason);
     if (std::min(picture.width, picture.height) < fewestTexels || std::max(picture.width, picture.height) > mostTexels)
-        throw InputError(file.string() + ": it has " + sizeOf(picture) + " texels, allowed: 2.." +
+        throw InputError(file.string() + ": has " + sizeOf(picture) + " texels, allowed: 2.." +
                          std::to_string(mostTexels) + " a side");
 }
 

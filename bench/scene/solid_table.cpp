@@ -62,7 +62,7 @@ SolidKey readKey(TomlReader& table, const SolidKey& rest) {
     if (table.has("weights")) key.weights = table.numbers("weights");
     if (key.weights.size() != rest.weights.size())
         throw InputError(
-            fmt::format("{}key 'weights': got {} numbers, expected {}, one for each of the solid's targets",
+            fmt::format("{}key 'weights': got {} numbers, expected {}, one for each target of the solid",
                         table.where("weights"), key.weights.size(), rest.weights.size()));
     for (const double weight : key.weights)
         if (!(std::abs(weight) <= 100))
@@ -75,7 +75,7 @@ SolidKey readKey(TomlReader& table, const SolidKey& rest) {
 void requireReturn(const SolidKey& first, const SolidKey& last, const std::string& where) {
     const auto refuse = [&](const char* what) {
         throw InputError(where + "key 'keys_repeat': the last key has another " + what +
-                         " than the first, expected the same, rotations but for whole turns");
+                         " than the first, expected the same (rotations: up to whole turns)");
     };
     if (first.position != last.position) refuse("position");
     for (int axis = 0; axis < 3; ++axis)
@@ -95,7 +95,7 @@ std::optional<SolidPath> readPath(TomlReader& table, const SolidKey& rest, const
     }
     const bool repeats = table.boolean("keys_repeat", false);
     if (repeats && keys.size() < 2)
-        throw InputError(fmt::format("{}key 'keys_repeat': got it with {} keys, expected two or more",
+        throw InputError(fmt::format("{}key 'keys_repeat': got {} keys, expected two or more",
                                      table.where("keys_repeat"), keys.size()));
     if (repeats) requireReturn(keys.front(), keys.back(), table.where("keys_repeat"));
     if (keys.empty()) return std::nullopt;
@@ -129,7 +129,7 @@ void readSolid(TomlReader& table, const path& from, scene::Scene& scene, MovingS
             fmt::format("{}key 'repeat': got {} for a solid with keys, expected 1", table.where("repeat"), count));
     if (read.morph && !solidPath)
         throw InputError(table.where("targets") +
-                         "key 'targets': got them without keys, expected [[solid.key]] tables");
+                         "key 'targets': requires keys, expected [[solid.key]] tables");
     table.finish();
 
     const glm::dvec3 turn = glm::radians(rest.turn);

@@ -118,8 +118,8 @@ TEST(SolidTable, SaysInOneLineWhatIsWrong) {
     EXPECT_THAT(one.refusal(key + "position = [0, 1e6, 0]\n"), HasSubstr("three numbers -100000..100000"));
     EXPECT_THAT(one.refusal(key + "rotation_degrees = [nan, 0, 0]\n"), HasSubstr("rotation_degrees"));
     EXPECT_THAT(one.refusal("repeat = 3\n" + key), HasSubstr("got 3 for a solid with keys, expected 1"));
-    EXPECT_THAT(one.refusal("keys_repeat = true\n"), HasSubstr("got it with 0 keys, expected two or more"));
-    EXPECT_THAT(one.refusal("keys_repeat = true\n" + key), HasSubstr("got it with 1 keys, expected two or more"));
+    EXPECT_THAT(one.refusal("keys_repeat = true\n"), HasSubstr("got 0 keys, expected two or more"));
+    EXPECT_THAT(one.refusal("keys_repeat = true\n" + key), HasSubstr("got 1 keys, expected two or more"));
     EXPECT_THAT(one.refusal("keys_repeat = true\n" + key + next + "position = [1, 0, 0]\n"),
                 HasSubstr("the last key has another position than the first"));
     EXPECT_THAT(one.refusal("keys_repeat = true\n" + key + next + "rotation_degrees = [0, 350, 0]\n"),

@@ -153,7 +153,7 @@ TEST_F(VolumeDust, CellsDenserThanAPuffCanBeAreRefused) {
     VolumeGrid grid = gridOf({}, 0.5);
     grid.density[3] = 50;
     EXPECT_THAT(inputError([&] { (void)shown({grid}); }),
-                HasSubstr("a.vdb: a cell has an optical depth of 25 by its edge, allowed for particles: 21.3"));
+                HasSubstr("a.vdb: a cell has an optical depth of 25 along its edge, allowed for particles: 21.3"));
 }
 
 TEST(VolumeDustFile, AVolumeIsDustAndItsSetupToo) {
@@ -175,7 +175,7 @@ TEST(VolumeDustFile, AVolumeIsDustAndItsSetupToo) {
     EXPECT_EQ(Puffs(store).position(0), glm::vec3(0.5f, 0.5f, 8.5f));
     EXPECT_THAT(turned.files(), testing::UnorderedElementsAre(setup, file));
     EXPECT_THAT(inputError([&] { (void)DustSeries::read(file, "radius=1"); }),
-                HasSubstr("--dust-columns: got it with the volume"));
+                HasSubstr("--dust-columns: not allowed with the volume"));
 }
 
 }  // namespace

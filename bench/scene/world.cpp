@@ -31,7 +31,7 @@ Drive readDrive(const std::filesystem::path& file, const std::string& id, const 
     if (speed > 0) {
         if (!drive.followsSpeed())
             throw InputError("parameter 'speed': the drive '" + id +
-                             "' goes by pedals and has no target speeds to replace");
+                             "' uses pedals and has no target speeds to replace");
         if (speed > vehicle.topSpeed)
             throw InputError("parameter 'speed': got " + files::csvNumber(speed) +
                              ", but the scene's vehicle has a top speed of " + files::csvNumber(vehicle.topSpeed));
@@ -71,13 +71,13 @@ const ParameterSet& worldParameters() {
     static const ParameterSet parameters = [] {
         ParameterSet set;
         set.integer("particles", 0, 0, 10'000'000, "",
-                    "dust particles to keep alive on average; 0: as many as the vehicle's speed raises");
-        set.real("speed", 0, 0, 60, "m/s", "replaces every target speed above 0 of the drive; 0: as the drive says");
+                    "dust particles to keep alive on average; 0: according to the vehicle's speed");
+        set.real("speed", 0, 0, 60, "m/s", "replaces every target speed above 0 of the drive; 0: the drive's own");
         set.real("preroll", -1, -1, 120, "s", "untimed simulation before the drive begins; below 0: one mean lifetime");
-        set.choice("camera", CameraKind::chase, cameraKinds, "which of the scene's cameras looks on");
+        set.choice("camera", CameraKind::chase, cameraKinds, "which of the scene's cameras");
         set.choice(
             "light", DustLight::none, dustLights,
-            "what lights the dust; none: it has one colour wherever it is; sun: sun and sky, and it shadows itself");
+            "what lights the dust; none: one colour everywhere; sun: sun and sky, with shadows of the dust on itself");
         return set;
     }();
     return parameters;
@@ -252,14 +252,14 @@ void World::followPath(const std::string& fileOrRows) {
 void World::useDust(const GivenDust& given) {
     State& s = *state_;
     if (given.file.empty()) {
-        if (!given.columns.empty()) throw InputError("--dust-columns: got it without --dust, whose columns it names");
+        if (!given.columns.empty()) throw InputError("--dust-columns: requires --dust");
         return;
     }
     if (s.stepIndex != -s.prerollSteps) throw std::logic_error("World::useDust: after the first step");
     if (s.fixedCount > 0)
         throw InputError(
-            fmt::format("parameter particles: got {} with --dust {}, allowed: 0, for the file says which "
-                        "particles there are",
+            fmt::format("parameter particles: got {} with --dust {}, allowed: 0, because the file defines the "
+                        "particles",
                         s.fixedCount, given.file));
     DustSeries series = DustSeries::read(given.file, given.columns);
     const double last = static_cast<double>(given.frames - 1) * stepSeconds;

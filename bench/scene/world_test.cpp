@@ -296,7 +296,7 @@ TEST(World, SaysInOneLineWhatIsWrongWithItsInput) {
     EXPECT_THAT(inputError([&] {
                     World("plain", pedals.string(), with({{"speed", "10"}}), 1);
                 }),
-                HasSubstr("goes by pedals"));
+                HasSubstr("uses pedals"));
     const auto slow = folder.write("slow.toml", "description = \"slow\"\n[vehicle]\ntop_speed = 20\n");
     EXPECT_THAT(inputError([&] {
                     World(slow.string(), "", with({{"speed", "30"}}), 1);

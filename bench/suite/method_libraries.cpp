@@ -41,9 +41,9 @@ std::vector<std::string> partsOf(std::string_view text, char separator) {
 std::string checkedFolder(std::string_view option, const std::string& named) {
     if (!fs::is_directory(named))
         throw InputError(
-            fmt::format("{}: '{}': no such folder, expected one with libraries *{}", option, named, ending));
+            fmt::format("{}: '{}': no such folder, expected a folder of libraries *{}", option, named, ending));
     if (named.find(':') != std::string::npos)
-        throw InputError(fmt::format("{}: '{}': has a ':', which separates folders", option, named));
+        throw InputError(fmt::format("{}: '{}': contains a ':', which separates folders", option, named));
     return fs::canonical(named).string();
 }
 
@@ -78,8 +78,8 @@ std::string describeBy(const library::MethodEntry& entry, const std::string& id,
         return fmt::format("built for version {} of the interface, expected {}: build it against this dustbench",
                            entry.api, library::methodApi);
     if (const std::string difference = fingerprintDifference(entry.fingerprint, own); !difference.empty())
-        return "built otherwise than this program: " + difference;
-    if (id != entry.id) return fmt::format("its id is '{}', expected '{}' by the file's name", entry.id, id);
+        return "built with other settings than this program: " + difference;
+    if (id != entry.id) return fmt::format("its id is '{}', expected '{}' as in the file name", entry.id, id);
     try {
         if (entry.describe != nullptr) entry.describe(&contents.method.emplace());
         if (entry.describeParts != nullptr) entry.describeParts(&contents.parts);
@@ -88,7 +88,7 @@ std::string describeBy(const library::MethodEntry& entry, const std::string& id,
     }
     const bool isWhole = (!contents.method || contents.method->create) &&
                          std::ranges::all_of(contents.parts, [](const auto& part) { return part.create != nullptr; });
-    return isWhole ? "" : "its describe() gives no create";
+    return isWhole ? "" : "its describe() sets no create";
 }
 
 std::string lastLoaderError() {
@@ -114,7 +114,7 @@ void addContents(LibraryContents contents, const MethodLibrary& library) {
 std::string whyNotTaken(const MethodLibrary& library) {
     static const std::regex allowed("[a-z][a-z0-9_]*");
     if (!std::regex_match(library.id, allowed))
-        return "its name has other characters than lower case letters, digits and '_'";
+        return "its name contains characters other than lower-case letters, digits and '_'";
     LibraryContents contents;
     std::string whyNot = triedInChild([&] { return loadLibrary(library.file, library.id, contents); });
     if (whyNot.empty()) whyNot = loadLibrary(library.file, library.id, contents);
@@ -157,10 +157,10 @@ std::string loadLibrary(const fs::path& file, const std::string& id, LibraryCont
     void* const function = dlsym(library, library::methodEntryName);
     if (function == nullptr) {
         dlclose(library);
-        return fmt::format("no library of a method: it has no function {}", library::methodEntryName);
+        return fmt::format("not a method library: it has no function {}", library::methodEntryName);
     }
     const library::MethodEntry* const entry = reinterpret_cast<library::MethodEntryFunction>(function)();
-    return entry == nullptr ? "its entry is empty" : describeBy(*entry, id, contents);
+    return entry == nullptr ? "its entry function returns null" : describeBy(*entry, id, contents);
 }
 
 std::string fingerprintDifference(std::string_view got, std::string_view expected) {

@@ -77,13 +77,14 @@ void requireNothingTimed(const SuiteDraft& draft) {
         throw InputError(fmt::format("{}key 'times': got false with {}", draft.timesWhere, what));
     };
     if (suite.repetitions > 1)
-        fail(fmt::format("{} repetitions, allowed: 1, because they differ in times alone", suite.repetitions));
+        fail(fmt::format("{} repetitions, allowed: 1, because repetitions differ only in their times",
+                         suite.repetitions));
     if (!suite.comparisons.empty()) fail("'compare', which compares times");
     if (!suite.fits.empty()) fail("'fit', which fits times");
-    if (draft.baseline.value_or(false)) fail("'baseline = true', which is for times");
-    if (suite.cooldownSeconds > 0) fail("'cooldown_s', which is for times");
+    if (draft.baseline.value_or(false)) fail("'baseline = true', which compares times");
+    if (suite.cooldownSeconds > 0) fail("'cooldown_s', which steadies times");
     if (suite.chart.column.empty() || dependsOnSpeed(suite.chart.column))
-        fail(fmt::format("a chart that opens on '{}', expected 'chart' with a column that is no time",
+        fail(fmt::format("a chart that opens on '{}', expected 'chart' with a column that is not a time",
                          suite.chart.column.empty() ? "fps_avg" : suite.chart.column));
 }
 
@@ -149,12 +150,12 @@ Suite multiplyOut(SuiteDraft draft, bool wholeFile) {
     }
     for (const Exception& exception : draft.exceptions)
         if (leaveOut(exception, suite.cells) == 0 && wholeFile)
-            throw InputError(exception.where + "except: leaves nothing out, no cell has these values");
+            throw InputError(exception.where + "except: matches no configuration");
     // Without repetitions there is no interval, so such a suite is not about time.
     suite.baseline =
         draft.baseline.value_or(suite.repetitions > 1 || !suite.comparisons.empty() || !suite.fits.empty());
     if (std::ranges::all_of(suite.cells, [](const PlannedRun& cell) { return !cell.skip.empty(); }))
-        throw InputError("suite: nothing is left of it by its exceptions");
+        throw InputError("suite: its exceptions exclude every configuration");
     for (const PlannedComparison& comparison : suite.comparisons) (void)matchCells(suite, comparison);
     for (const PlannedFit& fit : suite.fits) (void)cellsByLoad(suite, fit);
     requireLoad(suite, draft.chartWhere);
@@ -291,8 +292,8 @@ std::vector<PlannedRun> planRuns(const Suite& cellsOnly) {
     requireFewEnough("suite", static_cast<double>(cellsOnly.cells.size()) * cellsOnly.repetitions);
     if (cellsOnly.repetitions > 1 && !cellsOnly.cells.empty() && !cellsOnly.cells.front().spec.timed)
         throw InputError(
-            fmt::format("repetitions: got {} of a suite with times = false, allowed: 1, because they differ "
-                        "in times alone",
+            fmt::format("repetitions: got {} for a suite with times = false, allowed: 1, because repetitions "
+                        "differ only in their times",
                         cellsOnly.repetitions));
     const Suite suite = withBaselines(cellsOnly);
     std::vector<PlannedRun> plan;

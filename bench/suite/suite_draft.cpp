@@ -123,7 +123,7 @@ void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volume
         if (!table.has(key)) return;
         if (!volumes)
             throw InputError(table.where(key) + "key '" + key +
-                             "': got it without 'volumes', which says of which frames");
+                             "': requires 'volumes', which selects the frames");
         try {
             apply(key);
         } catch (const InputError& error) {
@@ -157,7 +157,7 @@ void readJudging(files::TomlReader& table, std::optional<JudgingPlan>& judging) 
     }
     if (!table.has("metric_frames")) return;
     if (!judging)
-        throw InputError(table.where("metric_frames") + "key 'metric_frames': got it without 'metrics = true'");
+        throw InputError(table.where("metric_frames") + "key 'metric_frames': requires 'metrics = true'");
     const std::string text = table.text("metric_frames", "");
     try {
         judging->moments = parseFrameRange("metric_frames", text);
@@ -223,7 +223,7 @@ void readExceptions(files::TomlReader& suite, SuiteDraft& draft) {
         exception.reason = table.text("reason", "");
         if (!exception.reason.empty() && exception.afterRepetition > 0)
             throw InputError(table.where("reason") +
-                             "key 'reason': got it with after_repetition, allowed: for cells that are left out wholly");
+                             "key 'reason': not allowed with 'after_repetition', which excludes some repetitions only");
         table.finish();
         draft.exceptions.push_back(std::move(exception));
     }

@@ -50,7 +50,7 @@ std::string otherMachine(const CellPair& pair, int repetition, const StoredRuns&
     if (!of || !with) return {};
     const auto found = differences(*of, *with, machineFields());
     if (found.empty()) return {};
-    return fmt::format("pairs of different machines were left out ({}: '{}' and '{}')", found.front().field,
+    return fmt::format("pairs from different machines were left out ({}: '{}' and '{}')", found.front().field,
                        found.front().first, found.front().second);
 }
 
@@ -154,7 +154,7 @@ MatchedCells matchCells(const Suite& suite, const PlannedComparison& comparison)
     for (const auto& [side, cells] : {std::pair{&comparison.of, &ofCells}, std::pair{&comparison.with, &withCells}})
         if (cells->empty())
             throw InputError(
-                fmt::format("{}compare: got '{}', but no run of the suite is that", comparison.where, side->label));
+                fmt::format("{}compare: got '{}', but no run of the suite matches it", comparison.where, side->label));
     const auto ofSettings = methodAxes(ofCells), withSettings = methodAxes(withCells);
     const auto pinned = [&](const std::string& name) {
         return comparison.of.pinned.contains(name) || comparison.with.pinned.contains(name);
@@ -174,7 +174,7 @@ MatchedCells matchCells(const Suite& suite, const PlannedComparison& comparison)
         for (const PlannedRun* with : withCells)
             if (of != with && showTheSame(of->spec, with->spec)) matched.pairs.push_back({of, with, {}});
     if (matched.pairs.empty())
-        throw InputError(fmt::format("{}compare: got '{}' and '{}', which have no two different runs in the same world",
+        throw InputError(fmt::format("{}compare: got '{}' and '{}', which have no different runs in the same world",
                                      comparison.where, comparison.of.label, comparison.with.label));
 
     // A parameter that a side does not vary is constant in its cells, so an axis is taken from the side that varies it.

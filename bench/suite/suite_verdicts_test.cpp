@@ -96,7 +96,7 @@ TEST(SuiteComparison, RunsOfDifferentMachinesAreNoPair) {
         ++touched;
         EXPECT_EQ(cell.result.pairs, 5u);
         EXPECT_EQ(cell.result.verdict, Verdict::unresolved);
-        EXPECT_THAT(cell.reason, HasSubstr("5 paired runs, 6 are needed; pairs of different machines were left out"));
+        EXPECT_THAT(cell.reason, HasSubstr("5 paired runs, 6 are needed; pairs from different machines were left out"));
     }
     EXPECT_EQ(touched, 1);
     EXPECT_EQ(column.overall.result.pairs, 5u);
@@ -279,7 +279,7 @@ TEST(SuiteComparison, MistakesNameFileLineAndWhatIsNear) {
         {of + columns, "'compare.with' is missing"},
         {of + with + columns + "colums = 3\n", "'columns'"},
         {"of = \"billboard sort=quicksort\"\n" + with + columns, "s.toml:4: compare: got 'billboard sort=quicksort'"},
-        {"of = \"billboard\"\nwith = \"billboard\"\n" + columns, "no two different runs"},
+        {"of = \"billboard\"\nwith = \"billboard\"\n" + columns, "no different runs"},
     };
     for (const auto& [text, expected] : mistakes) EXPECT_THAT(refusalOf(text, sorts), HasSubstr(expected)) << text;
     try {

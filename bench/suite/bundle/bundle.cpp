@@ -54,8 +54,8 @@ std::vector<InputHash> inputsOf(const StoredRuns& runs) {
         for (const InputHash& input : run.inputs)
             if (const auto [at, isNew] = sums.emplace(input.file, input.sha256); !isNew && at->second != input.sha256)
                 throw InputError(
-                    fmt::format("input '{}': the runs have read different contents of it; `dustbench suite … "
-                                "--redo-outdated` measures with one",
+                    fmt::format("input '{}': the runs read different versions of it; `dustbench suite … "
+                                "--redo-outdated` repeats the outdated runs",
                                 input.file));
     std::vector<InputHash> inputs;
     inputs.reserve(sums.size());
@@ -68,9 +68,9 @@ Json addInputs(const std::vector<InputHash>& inputs, Contents& contents) {
     for (const InputHash& input : inputs) {
         const fs::path file = files::dataPath(input.file);  // an absolute path stays as it is
         if (file.empty() || !fs::is_regular_file(file))
-            throw InputError(fmt::format("input '{}': is not here any more, but the runs have read it", input.file));
+            throw InputError(fmt::format("input '{}': was read by the runs but no longer exists", input.file));
         if (sha256OfFile(file) != input.sha256)
-            throw InputError(fmt::format("input '{}': has changed since the runs have read it", file.string()));
+            throw InputError(fmt::format("input '{}': has changed since the runs read it", file.string()));
         contents.emplace(placeOf(input), file);
         index.push_back({{"file", input.file}, {"sha256", input.sha256}, {"at", placeOf(input)}});
     }
@@ -125,13 +125,14 @@ void addSuites(const std::set<std::vector<std::string>>& commands, Contents& con
         const auto found = ofSuite.empty() ? std::vector<fs::path>() : suiteOf(ofSuite, known);
         suites.insert(found.begin(), found.end());
         if (!ofSuite.empty() && found.empty())
-            packed.missing.push_back(fmt::format("the suite of `{}` is not here any more", fmt::join(command, " ")));
+            packed.missing.push_back(fmt::format("the suite of `{}` no longer exists", fmt::join(command, " ")));
         if (ofSuite.empty() && !ofPaper.empty())
             for (fs::path& file : suitesOfPapers(ofPaper, known)) suites.insert(std::move(file));
     }
     for (const fs::path& file : suites)
         if (!contents.emplace("suites/" + file.filename().string(), file).second)
-            packed.missing.push_back(fmt::format("suite '{}': another of its name is in the bundle", file.string()));
+            packed.missing.push_back(
+                fmt::format("suite '{}': the bundle already contains a suite with this name", file.string()));
 }
 
 Json indexHead(const std::set<std::vector<std::string>>& commands) {
@@ -144,7 +145,7 @@ void writeArchive(const Contents& contents, const std::string& index, const std:
     std::string sums;
     for (const auto& [name, file] : contents) {
         if (name.find('\n') != std::string::npos)
-            throw InputError(fmt::format("'{}': has a line break in its name", file.string()));
+            throw InputError(fmt::format("'{}': its name contains a line break", file.string()));
         tar.add(top + name, file);
         sums += fmt::format("{}  {}\n", sha256OfFile(file, std::uintmax_t(-1)), name);
         packed.bytes += fs::file_size(file);
@@ -160,7 +161,7 @@ void writeArchive(const Contents& contents, const std::string& index, const std:
 /// `<sum>  <name>` by name.
 std::map<std::string, std::string> readSums(const fs::path& file) {
     constexpr std::size_t digits = 64;
-    std::istringstream lines(files::wholeText(file, "the sums of a bundle"));
+    std::istringstream lines(files::wholeText(file, "a bundle's checksums"));
     std::map<std::string, std::string> sums;
     for (std::string line; std::getline(lines, line);) {
         if (line.size() < digits + 3 || line.compare(digits, 2, "  ") != 0)
@@ -177,7 +178,7 @@ std::string topOf(const fs::path& archive, const std::vector<std::string>& names
                           std::ranges::all_of(names, [&](const std::string& name) { return name.starts_with(top); });
     if (!isBundle)
         throw InputError(
-            fmt::format("'{}': is no bundle, expected one folder with {} in it", archive.string(), sumsName));
+            fmt::format("'{}': is not a bundle, expected one folder that contains {}", archive.string(), sumsName));
     return top;
 }
 
@@ -187,12 +188,13 @@ void checkSums(const fs::path& folder, const std::string& top, const std::vector
         const std::string name = entry.substr(top.size());
         if (name == sumsName) continue;
         const auto sum = sums.find(name);
-        if (sum == sums.end()) throw InputError(fmt::format("'{}': is in the bundle, but not in {}", name, sumsName));
+        if (sum == sums.end())
+            throw InputError(fmt::format("'{}': is in the bundle but not listed in {}", name, sumsName));
         if (sha256OfFile(folder / name, std::uintmax_t(-1)) != sum->second)
-            throw InputError(fmt::format("'{}': was altered, its SHA-256 is not that of {}", name, sumsName));
+            throw InputError(fmt::format("'{}': was altered, its SHA-256 differs from that in {}", name, sumsName));
         sums.erase(sum);
     }
-    if (!sums.empty()) throw InputError(fmt::format("'{}': is missing in the bundle", sums.begin()->first));
+    if (!sums.empty()) throw InputError(fmt::format("'{}': is missing from the bundle", sums.begin()->first));
 }
 
 /// Each run's inputs are in the bundle, as the run has read them.
@@ -200,7 +202,7 @@ void checkInputs(const OpenedBundle& bundle) {
     for (const InputHash& input : inputsOf(bundle.runs)) {
         const fs::path file = bundle.folder / placeOf(input);
         if (sha256OfFile(file) != input.sha256)
-            throw InputError(fmt::format("'{}': is not what the runs have read as '{}'", placeOf(input), input.file));
+            throw InputError(fmt::format("'{}': differs from the '{}' that the runs read", placeOf(input), input.file));
     }
 }
 

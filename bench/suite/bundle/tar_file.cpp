@@ -98,7 +98,7 @@ class TarReader {
         if (isZero(header)) return "";
         const std::string name = checkedName(header);
         std::uintmax_t bytes = 0;
-        if (!readNumber(header.bytes, bytes)) refuse(fmt::format("the length of '{}' is no number", name));
+        if (!readNumber(header.bytes, bytes)) refuse(fmt::format("the length of '{}' is not a number", name));
         extract(name, bytes);
         return name;
     }
@@ -112,17 +112,17 @@ class TarReader {
         return std::memcmp(&header, zeros.data(), blockBytes) == 0;
     }
     void read(char* to, std::size_t bytes) {
-        if (!stream_.read(to, static_cast<std::streamsize>(bytes))) refuse("is cut short or no bundle of dustbench");
+        if (!stream_.read(to, static_cast<std::streamsize>(bytes))) refuse("is truncated or not a dustbench bundle");
     }
     std::string checkedName(const Header& header) {
         std::uintmax_t sum = 0;
         if (textIn(header.magic) != "ustar" || !readNumber(header.sum, sum) || sum != sumOf(header))
-            refuse("is damaged or no bundle of dustbench: the header of an entry is none");
+            refuse("is damaged or not a dustbench bundle: invalid entry header");
         const std::string folder = textIn(header.folder);
         std::string name = (folder.empty() ? "" : folder + "/") + textIn(header.name);
-        if (header.type != '0') refuse(fmt::format("'{}' is no regular file", name));
-        if (name.empty() || !isWithin(name)) refuse(fmt::format("'{}' leads out of the bundle", name));
-        if (!names_.insert(name).second) refuse(fmt::format("'{}' is there twice", name));
+        if (header.type != '0') refuse(fmt::format("'{}' is not a regular file", name));
+        if (name.empty() || !isWithin(name)) refuse(fmt::format("'{}' points outside the bundle", name));
+        if (!names_.insert(name).second) refuse(fmt::format("'{}' appears twice", name));
         return name;
     }
     void extract(const std::string& name, std::uintmax_t bytes) {
@@ -164,9 +164,9 @@ void TarWriter::pad(std::uintmax_t bytes) {
 
 void TarWriter::header(const std::string& name, std::uintmax_t bytes) {
     Header header;
-    if (!setName(header, name)) throw InputError(fmt::format("'{}': its name is too long for an archive", name));
+    if (!setName(header, name)) throw InputError(fmt::format("'{}': the name is too long for an archive", name));
     if (bytes > mostBytes)
-        throw InputError(fmt::format("'{}': has {} bytes, allowed in an archive: {}", name, bytes, mostBytes));
+        throw InputError(fmt::format("'{}': is {} bytes long, allowed in an archive: {}", name, bytes, mostBytes));
     setNumber(header.mode, 0644);
     setNumber(header.owner, 0);
     setNumber(header.group, 0);
@@ -185,7 +185,7 @@ void TarWriter::add(const std::string& name, const fs::path& file) {
     for (std::uintmax_t left = bytes; left > 0;) {
         const auto count = static_cast<std::size_t>(std::min<std::uintmax_t>(left, block.size()));
         if (!in.read(block.data(), static_cast<std::streamsize>(count)))
-            throw InputError(fmt::format("'{}': became shorter while it was read", file.string()));
+            throw InputError(fmt::format("'{}': was truncated while it was read", file.string()));
         write(block.data(), count);
         left -= count;
     }

@@ -112,7 +112,8 @@ TEST(FolderComparison, TooFewRunsResolveNothingAndAreNoRegression) {
 TEST(FolderComparison, OtherMachinesAreAnObstacleUnlessAllowed) {
     StoredRuns other = session(1);
     for (auto& [id, run] : other) run.provenance["cpu"] = "Cpu 2";
-    EXPECT_THAT(compare(session(1), other).obstacles, ElementsAre("cpu: 'Cpu 1' in A and 'Cpu 2' in B (4 cells)"));
+    EXPECT_THAT(compare(session(1), other).obstacles,
+                ElementsAre("cpu: 'Cpu 1' in A and 'Cpu 2' in B (4 configurations)"));
     EXPECT_THAT(compare(session(1), other).judged, IsEmpty());
     const FolderComparison allowed = compare(session(1), other, true);
     EXPECT_THAT(allowed.obstacles, IsEmpty());
@@ -121,13 +122,14 @@ TEST(FolderComparison, OtherMachinesAreAnObstacleUnlessAllowed) {
     // One run from another machine in the same folder.
     const auto mixed = with(session(1), "haze-200-r4", [](StoredRun& run) { run.provenance["build_type"] = "Debug"; });
     EXPECT_THAT(compare(mixed, session(1)).obstacles,
-                ElementsAre("build_type: 'Release' in A and 'Debug' in A (1 cell)"));
+                ElementsAre("build_type: 'Release' in A and 'Debug' in A (1 configuration)"));
 }
 
 TEST(FolderComparison, OtherWorkIsAnObstacleAlways) {
     const auto other = with(session(1), "fog-200-r3", [](StoredRun& run) { run.stateHash = "another"; });
     EXPECT_THAT(compare(session(1), other, true).obstacles,
-                ElementsAre(AllOf(HasSubstr("fog particles=200: different work"), HasSubstr("'another' in B"))));
+                ElementsAre(AllOf(HasSubstr("particles=200: the runs did different work"),
+                                  HasSubstr("'another' in B"))));
     const auto inputs = with(session(1), "fog-200-r3", [](StoredRun& run) { run.inputs[0].sha256 = "02"; });
     EXPECT_THAT(compare(inputs, session(1), true).obstacles, ElementsAre(HasSubstr("scenes/plain.toml")));
 }
@@ -136,8 +138,8 @@ TEST(FolderComparison, SaysWhatTheNearestDiffersInWhereNothingIsInBoth) {
     StoredRuns other = session(1);
     for (auto& [id, run] : other) run.provenance["key"] += "volumes=1\n";
     EXPECT_THAT(compare(session(1), other).obstacles,
-                ElementsAre(AllOf(HasSubstr("4 cells of 24 runs in A"), HasSubstr("differ in volumes"))));
-    EXPECT_THAT(compare(session(1), {}).obstacles, ElementsAre(HasSubstr("0 cells of 0 runs in B")));
+                ElementsAre(AllOf(HasSubstr("4 configurations of 24 runs in A"), HasSubstr("differ in volumes"))));
+    EXPECT_THAT(compare(session(1), {}).obstacles, ElementsAre(HasSubstr("0 configurations of 0 runs in B")));
 }
 
 TEST(FolderComparison, NothingIsSilent) {
@@ -157,7 +159,7 @@ TEST(FolderComparison, NothingIsSilent) {
     EXPECT_THAT(result.remarks, Contains("fog particles=200: only in B, 6 runs"));
     EXPECT_THAT(result.remarks, Contains("haze particles=200: 2 of 6 runs failed in B: too long"));
     EXPECT_THAT(result.remarks, Contains("B: 1 of 22 runs carry warnings, the first: busy"));
-    EXPECT_THAT(result.remarks, Contains("compiler: '' in A and 'GNU 13' in B (3 cells)"));
+    EXPECT_THAT(result.remarks, Contains("compiler: '' in A and 'GNU 13' in B (3 configurations)"));
     EXPECT_EQ(result.broken.size(), 1u);
 }
 
@@ -206,8 +208,8 @@ TEST(FolderComparison, AnotherQuotaOrEnvironmentIsSaid) {
         run.provenance["environment"] = "LP_NUM_THREADS=2";
     }
     const FolderComparison result = compare(session(1), b);
-    EXPECT_THAT(result.remarks, Contains("quota_cores: '' in A and '0.5' in B (4 cells)"));
-    EXPECT_THAT(result.remarks, Contains("environment: '' in A and 'LP_NUM_THREADS=2' in B (4 cells)"));
+    EXPECT_THAT(result.remarks, Contains("quota_cores: '' in A and '0.5' in B (4 configurations)"));
+    EXPECT_THAT(result.remarks, Contains("environment: '' in A and 'LP_NUM_THREADS=2' in B (4 configurations)"));
 }
 
 TEST(FolderComparison, TheCsvHasARowForEveryCellWhateverBecameOfIt) {
