@@ -57,7 +57,7 @@ std::vector<fs::path> folders() {
     return list;
 }
 
-/// Libraries of a folder, by id; with them links that lead nowhere.
+/// Libraries of a folder, by id, including dangling links.
 std::vector<MethodLibrary> librariesIn(const fs::path& folder) {
     std::vector<MethodLibrary> found;
     for (const auto& entry : fs::directory_iterator(folder)) {
@@ -71,7 +71,8 @@ std::vector<MethodLibrary> librariesIn(const fs::path& folder) {
     return found;
 }
 
-/// Of libraries that are in order; they stay loaded, for methods and parts hold their code.
+/// Describes a library; returns why it cannot be used, or an empty text. It stays loaded, because methods and parts
+/// refer to its code.
 std::string describeBy(const library::MethodEntry& entry, const std::string& id, LibraryContents& contents) {
     static const std::string own = library::buildFingerprint();
     if (entry.api != library::methodApi)
@@ -96,7 +97,8 @@ std::string lastLoaderError() {
     return text == nullptr ? "cannot be loaded" : text;
 }
 
-/// First of all parts whether they are new, so that a library is taken whole or not at all. Throws InputError.
+/// Checks first that the names of all parts are new, so that a library is added completely or not at all. Throws
+/// InputError.
 void addContents(LibraryContents contents, const MethodLibrary& library) {
     for (const particles::PartInfo& part : contents.parts) particles::requireNewPart(part);
     if (contents.method) {
@@ -110,7 +112,7 @@ void addContents(LibraryContents contents, const MethodLibrary& library) {
     }
 }
 
-/// A library may end the process that loads it, as those with sanitizers do.
+/// Loads the library in a child first: it may end its process, as libraries with sanitizers do.
 std::string whyNotTaken(const MethodLibrary& library) {
     static const std::regex allowed("[a-z][a-z0-9_]*");
     if (!std::regex_match(library.id, allowed))

@@ -40,7 +40,7 @@ Variant parseVariant(const std::string& text) {
     return variant;
 }
 
-/// Throws for a parameter that no method and not the world has.
+/// Throws for a parameter that neither a method nor the world has.
 void requireKnown(const ParameterTexts& given, const std::vector<Variant>& variants) {
     for (const auto& [name, value] : given) {
         if (worldParameters().find(name)) continue;

@@ -121,7 +121,7 @@ TEST(SuiteFit, InvalidRunsAreNoPointsAndAreCounted) {
             store(runs, suite.cells.back(), repetition, "10");
             StoredRun& run = runs[runId(inRepetition(suite.cells.back().spec, repetition))];
             run.cells["frame_ms_median"] = std::to_string(5 + 0.01 * particles);
-            if (repetition == 2) run.cells["frame_ms_median"] = "500";  // of another load than was asked for
+            if (repetition == 2) run.cells["frame_ms_median"] = "500";  // with another load than requested
             if (repetition == 2) run.cells["invalid"] = "particles_median is 483, asked for: 100";
         }
     }

@@ -255,7 +255,7 @@ TEST(Suite, EverySuiteOfTheProjectCanBePlanned) {
             EXPECT_FALSE(planRuns(suite).empty()) << file.id;
             EXPECT_FALSE(suite.title.empty()) << file.id;
             if (suite.comparisons.empty()) continue;
-            EXPECT_GE(suite.repetitions, static_cast<int>(minimumPairs)) << file.id << ": could resolve nothing";
+            EXPECT_GE(suite.repetitions, static_cast<int>(minimumPairs)) << file.id << ": too few for a verdict";
             EXPECT_EQ(suite.order, Order::interleaved) << file.id;
         }
 }
@@ -276,7 +276,7 @@ TEST(Suite, WithoutTimesRefusesWhatIsAboutThem) {
     EXPECT_THAT(messageOf(chart + "methods = [\"billboard\"]\n[quick]\ntimes = false\nrepetitions = 2\n"),
                 HasSubstr("s.toml:4"));
     Suite repeated = suite;
-    repeated.repetitions = 3;  // by the command line
+    repeated.repetitions = 3;  // as set by the command line
     EXPECT_THROW((void)planRuns(repeated), InputError);
 }
 

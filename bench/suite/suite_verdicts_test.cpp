@@ -29,7 +29,8 @@ with = "billboard sort=radix"
 columns = ["sort_ms_median", "fps_avg"]
 )";
 
-/// Runs of every cell: `timeOf` gives the sort time in ms by cell and repetition, empty for a missing run.
+/// Runs of every configuration: `timeOf` gives the sort time in ms by configuration and repetition, empty for a missing
+/// run.
 template <typename TimeOf>
 StoredRuns runsOf(const Suite& suite, const TimeOf& timeOf) {
     StoredRuns runs;
@@ -124,7 +125,7 @@ TEST(SuiteComparison, AnInvalidRunIsNoPairAndIsCounted) {
 }
 
 TEST(SuiteComparison, ASettingThatOneSideAloneVariesIsComparedForEachOfItsValues) {
-    // As methods do that lack each other's parameters: the one is at `texture` all the time.
+    // Like methods that lack each other's parameters: one side always has `texture`.
     Suite suite = parseSuite(twoSorts, "s", false);
     std::erase_if(suite.cells, [](const PlannedRun& cell) {
         return cell.spec.parameters.at("sort") == "radix" && cell.spec.parameters.at("puff") == "gaussian";
@@ -163,7 +164,7 @@ TEST(SuiteComparison, FindsTheRatioWithWhichTheTimesWereMade) {
 }
 
 TEST(SuiteComparison, AllTogetherIsTheGeometricMeanOverCellsAndItsScatterThatOfRounds) {
-    // Ratios 0.5 and 2 in every round: opposed and certain in the cells, no scatter at all together.
+    // Ratios 0.5 and 2 in every round: clear and opposite per configuration, no scatter for both together.
     const Suite suite = parseSuite(twoSorts, "s", false);
     const auto results = suiteVerdicts(suite, runsOf(suite, [](const ParameterTexts& parameters, int repetition) {
                                            const double ratio = parameters.at("particles") == "100" ? 0.5 : 2;

@@ -33,7 +33,7 @@ std::optional<double> number(std::string_view text) {
     return value;
 }
 
-/// 0.1 + 2·0.1 as 0.3: rounds to twelve digits.
+/// Rounds to twelve digits, so that 0.1 + 2·0.1 is written as 0.3.
 std::string roundedText(double value) {
     char buffer[64];
     const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 12);
@@ -70,7 +70,7 @@ std::vector<std::string> expandValues(std::string_view what, std::string_view te
     if (parts.size() > 1 &&
         !std::ranges::all_of(parts, [](std::string_view part) { return number(part).has_value(); }) &&
         std::filesystem::is_regular_file(text, error))
-        return {std::string(text)};  // a file whose name has a comma
+        return {std::string(text)};  // a file whose name contains a comma
     for (const std::string_view part : parts) {
         if (part.empty())
             throw InputError(std::string(what) + ": got '" + std::string(text) + "', expected " +

@@ -27,12 +27,12 @@ constexpr const char* sumsName = "SHA256SUMS";
 constexpr const char* indexName = "bundle.json";
 constexpr int layout = 1;
 
-/// Files by their name in the bundle.
+/// Files by name in the bundle.
 using Contents = std::map<std::string, fs::path>;
 
 void addResults(const fs::path& results, Contents& contents) {
     for (auto entry = fs::recursive_directory_iterator(results); entry != fs::recursive_directory_iterator(); ++entry) {
-        if (entry->path().filename().string().starts_with('.')) {  // a lock, or what is being written
+        if (entry->path().filename().string().starts_with('.')) {  // a lock, or a file that is still being written
             entry.disable_recursion_pending();
         } else if (entry->is_regular_file()) {
             const std::string name = entry->path().lexically_relative(results).generic_string();
@@ -47,7 +47,7 @@ std::string placeOf(const InputHash& input) {
     return fmt::format("outside/{}-{}", input.sha256.substr(0, 12), file.filename().string());
 }
 
-/// All inputs once. Throws InputError if two runs have read different contents of one file.
+/// All inputs without duplicates. Throws InputError if two runs read different versions of a file.
 std::vector<InputHash> inputsOf(const StoredRuns& runs) {
     std::map<std::string, std::string> sums;
     for (const auto& [id, run] : runs)
@@ -77,7 +77,7 @@ Json addInputs(const std::vector<InputHash>& inputs, Contents& contents) {
     return index;
 }
 
-/// The commands that measured the runs, each once.
+/// The commands that measured the runs, without duplicates.
 std::set<std::vector<std::string>> commandsOf(const fs::path& results, const StoredRuns& runs) {
     std::set<std::vector<std::string>> commands;
     for (const auto& [id, run] : runs) {
@@ -87,13 +87,13 @@ std::set<std::vector<std::string>> commandsOf(const fs::path& results, const Sto
     return commands;
 }
 
-/// The words behind the command's name; nothing if it is another command.
+/// The arguments after the subcommand `name`; empty if it is another subcommand.
 std::vector<std::string> wordsOf(const std::vector<std::string>& command, std::string_view name) {
     const auto word = std::ranges::find(command, name);
     return word == command.end() ? std::vector<std::string>() : std::vector<std::string>(word + 1, command.end());
 }
 
-/// The file of the suite that `dustbench suite` was called with.
+/// The file of the suite named on a `dustbench suite` command line.
 std::vector<fs::path> suiteOf(const std::vector<std::string>& words, const std::vector<SuiteFile>& known) {
     for (const std::string& word : words) {
         if (word.starts_with('-')) continue;
@@ -104,7 +104,7 @@ std::vector<fs::path> suiteOf(const std::vector<std::string>& words, const std::
     return {};
 }
 
-/// Those of the papers that `dustbench reproduce` was called with; without a word of one, of all.
+/// The suites of the papers named on a `dustbench reproduce` command line; of all papers if it names none.
 std::vector<fs::path> suitesOfPapers(const std::vector<std::string>& words, const std::vector<SuiteFile>& known) {
     std::vector<fs::path> named, all;
     for (const SuiteFile& suite : known) {
@@ -158,7 +158,7 @@ void writeArchive(const Contents& contents, const std::string& index, const std:
 
 // opening
 
-/// `<sum>  <name>` by name.
+/// Parses lines of `<sum>  <name>`; sums by name.
 std::map<std::string, std::string> readSums(const fs::path& file) {
     constexpr std::size_t digits = 64;
     std::istringstream lines(files::wholeText(file, "a bundle's checksums"));
@@ -171,7 +171,7 @@ std::map<std::string, std::string> readSums(const fs::path& file) {
     return sums;
 }
 
-/// The folder that all entries are in.
+/// The folder that contains all entries.
 std::string topOf(const fs::path& archive, const std::vector<std::string>& names) {
     const std::string top = names.empty() ? "" : names.front().substr(0, names.front().find('/') + 1);
     const bool isBundle = !top.empty() && std::ranges::find(names, top + sumsName) != names.end() &&
@@ -197,7 +197,7 @@ void checkSums(const fs::path& folder, const std::string& top, const std::vector
     if (!sums.empty()) throw InputError(fmt::format("'{}': is missing from the bundle", sums.begin()->first));
 }
 
-/// Each run's inputs are in the bundle, as the run has read them.
+/// Checks that the bundle contains the inputs of every run, as the run read them.
 void checkInputs(const OpenedBundle& bundle) {
     for (const InputHash& input : inputsOf(bundle.runs)) {
         const fs::path file = bundle.folder / placeOf(input);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t blockBytes = 512;
 
-/// The first block of an entry; texts end with a zero unless they fill their field, numbers are octal.
+/// The first block of an entry. Texts end with a zero byte unless they fill their field; numbers are octal.
 struct Header {
     std::array<char, 100> name{};
     std::array<char, 8> mode{}, owner{}, group{};
@@ -37,7 +37,7 @@ struct Header {
 };
 static_assert(sizeof(Header) == blockBytes);
 
-/// In octal digits, up to the 0 at the field's end.
+/// Writes octal digits and the zero byte that ends the field.
 template <std::size_t size>
 void setNumber(std::array<char, size>& field, std::uintmax_t number) {
     for (std::size_t digit = size - 1; digit-- > 0; number /= 8) field[digit] = static_cast<char>('0' + number % 8);
@@ -48,7 +48,7 @@ std::string textIn(const std::array<char, size>& field) {
     return {field.data(), strnlen(field.data(), size)};
 }
 
-/// False if it is no octal number.
+/// False if the field is not an octal number.
 template <std::size_t size>
 bool readNumber(const std::array<char, size>& field, std::uintmax_t& number) {
     const std::string text = textIn(field);
@@ -57,7 +57,7 @@ bool readNumber(const std::array<char, size>& field, std::uintmax_t& number) {
     return error == std::errc() && stop == end;
 }
 
-/// Of all bytes of the header, with spaces in the place of the sum.
+/// Sum of all bytes of the header, with spaces in place of the sum itself.
 unsigned sumOf(Header header) {
     header.sum.fill(' ');
     std::array<unsigned char, blockBytes> bytes{};
@@ -67,7 +67,7 @@ unsigned sumOf(Header header) {
 
 constexpr std::uintmax_t mostBytes = 077777777777;
 
-/// Splits the name at a `/`, so that both fields can hold their part.
+/// Splits the name at a `/` into parts that fit the two fields.
 bool setName(Header& header, const std::string& name) {
     std::size_t slash = std::string::npos;
     if (name.size() > header.name.size()) {
@@ -83,7 +83,7 @@ std::uintmax_t padding(std::uintmax_t bytes) {
     return (blockBytes - bytes % blockBytes) % blockBytes;
 }
 
-/// Owns: an archive that is read block by block.
+/// Reads an archive block by block. Owns: the stream.
 class TarReader {
  public:
     TarReader(const fs::path& archive, const fs::path& folder)
@@ -91,7 +91,7 @@ class TarReader {
         if (!stream_) refuse(std::strerror(errno));
     }
 
-    /// The name of the next file, which is written below the folder; empty at the end.
+    /// Extracts the next file below the folder and returns its name; empty at the end.
     std::string next() {
         Header header;
         read(reinterpret_cast<char*>(&header), blockBytes);

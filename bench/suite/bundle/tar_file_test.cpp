@@ -28,7 +28,7 @@ class TarFile : public testing::Test {
     [[nodiscard]] std::string refusal() const {
         return inputError([&] { (void)extractTar(path() / "a.tar", path() / "out"); });
     }
-    /// An archive made by `tar` itself, in the folder.
+    /// Runs `tar` in the folder.
     void tar(const std::string& arguments) const {
         const std::string command = "cd '" + path().string() + "' && tar " + arguments;
         ASSERT_EQ(std::system(command.c_str()), 0) << command;
@@ -112,7 +112,7 @@ TEST_F(TarFile, WhatIsDamagedIsRefused) {
     writer.finish();
     const std::string whole = bytesOf("whole.tar");
     std::mt19937 engine(11);
-    for (int i = 0; i < 300; ++i) {  // a bit of a header
+    for (int i = 0; i < 300; ++i) {  // flip a bit of a header
         std::string damaged = whole;
         const std::size_t at = std::uniform_int_distribution<std::size_t>(0, 511)(engine);
         damaged[at] = static_cast<char>(static_cast<unsigned char>(damaged[at]) ^ (1U << (engine() % 8)));

@@ -40,7 +40,7 @@ StoredRun runOf(const std::string& method, int particles, int repetition, double
     return run;
 }
 
-/// Two methods with two numbers of particles; times are `factor` times the usual, ±1 %.
+/// Two methods with two numbers of particles; times are `factor` times the normal ones, ±1 %.
 StoredRuns session(double factor, int repetitions = 6) {
     StoredRuns runs;
     for (const char* method : {"haze", "fog"})
@@ -87,7 +87,7 @@ TEST(FolderComparison, FindsTheRatioOfEveryCellAndOfAllTogether) {
 }
 
 TEST(FolderComparison, AllTogetherCountsWhatARoundHasInCommonOnce) {
-    // Each round of A is slower or faster as a whole: four cells give no more information about it than one.
+    // Each round of A is slower or faster as a whole: four configurations give no more information about it than one.
     StoredRuns a = session(1), b = session(1);
     for (StoredRuns* runs : {&a, &b})
         for (auto& [id, run] : *runs) {
@@ -170,7 +170,7 @@ TEST(FolderComparison, InvalidRunsAreLeftOutWithTheirCountAndBreakACellThatWasVa
         b.at(fmt::format("fog-200-r{}", k)).cells["frame_ms_median"] = "9999";
     }
     const FolderComparison both = compare(a, b);
-    EXPECT_EQ(both.judged.size(), 4u);  // three cells, and all of them
+    EXPECT_EQ(both.judged.size(), 4u);  // three configurations, and all together
     EXPECT_NEAR(both.judged.back().result.ratio, 1.001, 1e-4);
     EXPECT_THAT(both.remarks,
                 Contains("B: 6 of 24 runs are invalid and left out of claims, fits and verdicts: clipped is 4"));
@@ -190,7 +190,7 @@ TEST(FolderComparison, ACopiedRunIsNoMeasurementOfItsOwn) {
     };
     const StoredRuns a = started(session(1));
     EXPECT_THAT(compare(a, a).obstacles, ElementsAre(HasSubstr("24 runs of B are copied from A")));
-    // Measured in the same second, with other numbers.
+    // Measured in the same second, with different numbers.
     EXPECT_THAT(compare(a, started(session(1.001))).obstacles, IsEmpty());
     StoredRuns b = started(session(1.1));
     for (int k = 1; k <= 6; ++k) b[fmt::format("fog-200-r{}", k)] = a.at(fmt::format("fog-200-r{}", k));

@@ -19,7 +19,7 @@ std::string quantity(std::size_t count, std::string_view what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-/// The cell's done runs with the letter of their folder, A first.
+/// The configuration's runs that are done, with the letter of their folder, A first.
 std::vector<std::pair<const StoredRun*, char>> doneRuns(const FolderCell& cell) {
     std::vector<std::pair<const StoredRun*, char>> runs;
     runs.reserve(cell.a.done.size() + cell.b.done.size());
@@ -28,7 +28,7 @@ std::vector<std::pair<const StoredRun*, char>> doneRuns(const FolderCell& cell) 
     return runs;
 }
 
-/// `cpu: 'X' in A and 'Y' in B`, each once, with the number of affected cells.
+/// `cpu: 'X' in A and 'Y' in B`, with the number of affected configurations.
 std::map<std::string, std::size_t> differencesWithin(const std::vector<FolderCell>& cells,
                                                      std::span<const std::string_view> fields) {
     std::map<std::string, std::size_t> cellCounts;
@@ -94,7 +94,7 @@ std::string FolderRemarks::nothingInCommon() const {
                                                 cells_, [](const auto& cell) { return cell.b.count() > 0; })),
                                             "configuration"),
                                    quantity(b_.runs.size(), "run"));
-    // If nearly everything is equal, the difference is likely the mistake.
+    // If nearly everything is equal, the difference is probably a mistake.
     const auto mine = std::ranges::find_if(cells_, [](const FolderCell& cell) { return !cell.a.done.empty(); });
     std::vector<std::string> nearest;
     for (const FolderCell& theirs : cells_) {
