@@ -11,7 +11,7 @@ namespace dustbench::bench {
 namespace fs = std::filesystem;
 namespace {
 
-/// What a link leads to is not the run's, and may lie anywhere.
+/// Refuses links: their targets may be anywhere and do not belong to the run.
 void requireOwn(const fs::path& path, fs::file_type type) {
     if (type == fs::file_type::regular || type == fs::file_type::directory) return;
     throw InputError(fmt::format("'{}': is {}, allowed: regular files and folders", path.string(),

@@ -133,7 +133,7 @@ TEST_F(Merge, RefusesTwoResultsOfOneRun) {
                                        HasSubstr("a/runs"), HasSubstr("b/runs")));
     (void)mergeInto(folder_ / "out", {a});
     EXPECT_THAT(refusal({b}), HasSubstr("two different results"));
-    // A file more.
+    // An additional file.
     const fs::path c = results("c", {1});
     write(runFolder(c, 1) / "notes.txt", "slow");
     EXPECT_THAT(refusal({c}), HasSubstr("two different results"));

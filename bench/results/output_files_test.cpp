@@ -13,12 +13,12 @@ namespace fs = std::filesystem;
 
 using testing::HasSubstr;
 
-/// A run's folder with a table, a picture and what is no output.
+/// A run's folder with a table, a picture and files that are not outputs.
 class OutputFiles : public testing::Test {
  protected:
     void SetUp() override {
         fs::create_directories(folder_.path() / "images");
-        for (const char* name : {"run.json", "spec.json", "log.txt"}) folder_.write(name, "not of it");
+        for (const char* name : {"run.json", "spec.json", "log.txt"}) folder_.write(name, "not an output");
         folder_.write("frames.csv", "frame\n0\n");
         folder_.write("images/f000000.png", std::string(3'000'000, 'p'));  // several blocks
     }
@@ -35,7 +35,7 @@ TEST_F(OutputFiles, AreAllFilesOfTheRunWithTheirSums) {
     EXPECT_EQ(outputs[1].file, "images/f000000.png");
     EXPECT_EQ(outputs[1].sha256, sha256(std::string(3'000'000, 'p')));
     EXPECT_EQ(whyAltered(outputs, folder_.path()), "");
-    folder_.write("notes.txt", "somebody's, and no harm");
+    folder_.write("notes.txt", "somebody's notes");
     EXPECT_EQ(whyAltered(outputs, folder_.path()), "");
 }
 

@@ -25,7 +25,7 @@ std::string plainName(std::string_view name) {
     return plain.substr(0, 40);
 }
 
-/// The message says what so many particles would need, which is what limits them.
+/// The message gives the memory that so many particles need, which is the reason for the limit.
 void requireFewEnough(const std::string& text) {
     const Parameter& declared = *worldParameters().find("particles");
     std::int64_t count = 0;

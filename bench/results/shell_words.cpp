@@ -9,10 +9,10 @@
 namespace dustbench::bench {
 namespace {
 
-/// In double quotes a backslash takes away the meaning of these alone.
+/// The characters that a backslash escapes within double quotes.
 constexpr std::string_view escapable = "\"\\$`\n";
 
-/// Takes one line apart, letter by letter.
+/// Splits one line into words, character by character.
 class Splitter {
  public:
     explicit Splitter(std::string_view line) : line_(line) {}

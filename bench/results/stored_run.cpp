@@ -21,7 +21,7 @@ using simdjson::dom::array;
 using simdjson::dom::element;
 using simdjson::dom::object;
 
-/// Text of a value in a table; empty for null, arrays and objects.
+/// A value as text for a table; empty for null, arrays and objects.
 std::string textOfCell(element value) {
     switch (value.type()) {
         case simdjson::dom::element_type::STRING:
@@ -37,7 +37,7 @@ std::string textOfCell(element value) {
     }
 }
 
-/// True for columns of summary.csv that hold numbers; unknown columns are nobody's.
+/// True for columns of summary.csv that contain numbers; false for unknown columns.
 bool isNumeric(std::string_view column) {
     static const std::set<std::string, std::less<>> names = [] {
         const std::vector<std::string>& list = numericColumns();
@@ -48,7 +48,7 @@ bool isNumeric(std::string_view column) {
     return names.contains(column);
 }
 
-/// A warning is a sentence; what is longer comes from a damaged file.
+/// Truncates reasons and warnings: they are sentences, and a longer text comes from a damaged file.
 std::string shortened(std::string text) {
     constexpr std::size_t maximum = 1000;
     if (text.size() <= maximum) return text;

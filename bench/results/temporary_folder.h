@@ -1,4 +1,4 @@
-// A folder for what is not kept.
+// A temporary folder.
 #pragma once
 
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 
 namespace dustbench::bench {
 
-/// Removed with all its contents on destruction. Throws InputError if it cannot be made.
+/// Removed with all its contents on destruction. Throws InputError if it cannot be created.
 class TemporaryFolder {
  public:
     TemporaryFolder() {

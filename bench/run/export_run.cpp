@@ -68,8 +68,8 @@ ExportResult exportFrames(const RunSpec& spec, const fs::path& folder, const Run
 }  // namespace
 
 std::int64_t lastFrameOfDrive(const World& world, std::int64_t warmup) {
-    // Steps end at integer multiples of their length. The preroll ends at time 0, or one step later if it has no step
-    // of its own.
+    // Steps end at integer multiples of their length. The preroll ends at time 0, or one step later if it is shorter
+    // than a step.
     const std::int64_t stepsOfDrive = std::llround(world.driveSeconds() / stepSeconds);
     return stepsOfDrive - 1 - warmup - (stepsBeforeWarmup(world) - world.prerollSteps());
 }

@@ -102,7 +102,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
             finer ? finer->moment(isMoment)
                   : exactMoment(world.scene(), view, drawn, world.unlitDust(), isMoment,
                                 isMoment && continuum ? std::optional(continuum->unlitDust()) : std::nullopt);
-        // Nothing emits dust from a file: it is its own continuum.
+        // Dust from a file has no emitters, so it is its own continuum.
         if (isMoment && !finer && !continuum) {
             exact.continuum = exact.layer;
             exact.ofOneColour = true;
@@ -128,7 +128,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
         judgement.frames.push_back(metrics);
     };
     const std::int64_t preroll = stepsBeforeWarmup(world);
-    // The continuum is stepped up to the last moment that needs it.
+    // Steps the continuum only to the last moment that needs it.
     const std::int64_t continuumSteps = preroll + spec.warmup + moments.back() + 1;
     std::int64_t steps = 0;
     const auto stepped = [&] {

@@ -1,4 +1,4 @@
-// What is kept of a run.
+// Files and records of a run.
 #include "bench/run/measured_run.h"
 
 #include <gmock/gmock.h>
