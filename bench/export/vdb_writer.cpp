@@ -53,7 +53,7 @@ typename Grid::Ptr sparse(const float* values, const std::array<int, 3>& cells, 
         box, reinterpret_cast<Value*>(const_cast<float*>(values)));
     const auto grid = Grid::create(Value(0));
     openvdb::tools::copyFromDense(dense, *grid, Value(0));
-    // OpenVDB takes a cell of less than 3e-15 m³ for none.
+    // OpenVDB treats cells of less than 3e-15 m³ as empty.
     constexpr double smallestSpacing = 1.5e-5;
     if (spacing < smallestSpacing)
         throw InputError(

@@ -17,10 +17,10 @@ namespace {
 constexpr std::size_t minimumFrames = 30;
 constexpr double enoughChange = 0.05;        // of the median, for warm-up and drift
 constexpr double enoughErrors = 4;           // standard errors
-constexpr double enoughDistance = 0.10;      // of two speeds
+constexpr double enoughDistance = 0.10;      // between two speeds
 constexpr double enoughSeparation = 4.5;     // D
-constexpr double minimumShare = 0.1;         // of the frames at the rarer speed
-constexpr std::size_t maximumRanked = 1000;  // pairs grow with the square
+constexpr double minimumShare = 0.1;         // of the frames at the less frequent speed
+constexpr std::size_t maximumRanked = 1000;  // the number of pairs grows with the square
 
 double standardDeviation(std::span<const double> values, double middle) {
     std::vector<double> distances;

@@ -19,7 +19,7 @@ namespace dustbench::bench {
 namespace {
 
 constexpr double maximumSlabs = 4e6;  ///< per ray: limit of memory and time
-/// Share of the light from one slab below which it is skipped; it still attenuates what is behind.
+/// A slab is skipped if its share of the light is smaller; it still attenuates everything behind it.
 constexpr double minimumShare = 1e-9;
 
 /// A puff in one row.
@@ -41,7 +41,7 @@ struct Lighting {
     const SunLight& light;
     SunLattice depths;
 
-    /// Of light that goes on along a ray of this direction.
+    /// Sunlight scattered along a ray of this direction.
     [[nodiscard]] glm::dvec3 scattered(const glm::dvec3& direction) const {
         const double cosine = glm::dot(direction, glm::normalize(light.toSun));
         return light.sun / 4.0 *
@@ -122,7 +122,7 @@ class RayMarch {
         for (std::vector<double>* column : {&depths_, &reds_, &greens_, &blues_})
             column->assign(static_cast<std::size_t>(count), 0.0);
         for (const RayPuff& puff : puffs_) {
-            // From the first to the last slab that it covers; the tails beyond are added to these two.
+            // From the first to the last slab that the puff covers; the tails beyond are added to these two.
             const std::size_t first = slabOf(puff.begin), slabs = slabOf(puff.end) - first + 1;
             passed_.resize(slabs + 1);
             double* const passed = passed_.data();
@@ -158,7 +158,7 @@ class RayMarch {
     std::vector<RayPuff> puffs_;
     std::vector<double> depths_;                 ///< of each slab
     std::vector<double> reds_, greens_, blues_;  ///< weighted by depth
-    std::vector<double> passed_;                 ///< share of a puff before each face of its slabs, less a half
+    std::vector<double> passed_;                 ///< share of a puff in front of each face of its slabs, minus one half
 };
 
 glm::dvec3 checkedColour(const Puffs& store, std::size_t i) {

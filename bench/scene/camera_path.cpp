@@ -53,14 +53,14 @@ scene::Camera cameraOf(const Pose& pose) {
     scene::Camera camera;
     camera.eye = {pose[0], pose[1], pose[2]};
     camera.target = {pose[3], pose[4], pose[5]};
-    if (camera.eye == camera.target) camera.target.z -= 1;  // between two keys they may meet
+    if (camera.eye == camera.target) camera.target.z -= 1;  // between two keys they may coincide
     const glm::dvec3 along = glm::normalize(camera.target - camera.eye);
     if (glm::length(glm::cross(along, camera.up)) < 1e-6) camera.up = {1, 0, 0};
     camera.verticalFieldOfView = glm::radians(pose[6]);
     return camera;
 }
 
-/// dp/dt at key i: of the parabola through it and its neighbours; at an end, of the chord.
+/// dp/dt at key i: that of the parabola through it and its neighbours; at an end, that of the chord.
 Pose velocityAt(const std::vector<CameraKey>& keys, std::size_t i) {
     const auto chord = [&](std::size_t from) {
         Pose slope = poseOf(keys[from + 1]);

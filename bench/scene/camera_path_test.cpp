@@ -65,8 +65,8 @@ TEST(CameraPath, IsTheParabolaThatItsKeysLieOn) {
     std::vector<CameraKey> keys;
     for (const double t : {0.0, 0.7, 1.0, 2.5, 4.0}) keys.push_back({t, exact(t), {0, 0, -100}, 50});
     const CameraPath path(keys);
-    for (double t = 0.7; t <= 2.5; t += 0.05) expectNear(path.at(t).eye, exact(t), 1e-9);  // where both neighbours are
-    EXPECT_GT(glm::distance(path.at(3.2).eye, exact(3.2)), 1e-3);  // the last chord is not its tangent
+    for (double t = 0.7; t <= 2.5; t += 0.05) expectNear(path.at(t).eye, exact(t), 1e-9);  // with two neighbours
+    EXPECT_GT(glm::distance(path.at(3.2).eye, exact(3.2)), 1e-3);  // the tangent at the end is the chord's
 }
 
 TEST(CameraPath, WrittenAndReadAgainIsTheSame) {

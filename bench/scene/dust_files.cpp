@@ -29,7 +29,7 @@ InputError tooMany(const fs::path& file, double count) {
                                   files::limits::dustParticles));
 }
 
-/// A table of one moment, or of all of them, by its column of times.
+/// A table of one moment, or of several if it has a column of times.
 void readCsv(const fs::path& file, const DustColumns& columns, std::vector<DustMoment>& moments) {
     const files::CsvTable csv = files::CsvTable::parseFile(file);
     volumes::PointTable whole;
@@ -90,7 +90,7 @@ bool readOne(const volumes::SeriesEntry& entry, const DustColumns& columns, std:
     return true;
 }
 
-/// A `.vdb` is one too if it has no points.
+/// True for volumes, including a `.vdb` without points.
 bool isVolume(const fs::path& file) {
     const std::string extension = file.extension();
     return extension == ".nvdb" || extension == ".vti" || extension == ".toml";

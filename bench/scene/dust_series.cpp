@@ -56,7 +56,7 @@ DustSeries DustSeries::read(const std::filesystem::path& path, const std::string
         series.albedo_ = read.albedo;
         return series;
     } catch (const InputError& error) {
-        throw InputError(files::printable(error.what()));  // names within the files may be any bytes
+        throw InputError(files::printable(error.what()));  // names within the files may contain any bytes
     }
 }
 
@@ -86,7 +86,7 @@ void DustSeries::match() {
     }
 }
 
-/// Without ages a particle is as old as the time since it was first there; without lifetimes all live as long as the
+/// Without ages, the age of a particle is the time since its first moment; without lifetimes, all live as long as the
 /// oldest.
 void DustSeries::fillAges() {
     float oldest = static_cast<float>(stepSeconds);

@@ -20,7 +20,7 @@ constexpr double touching = 1e-6;  // metres: plates that only touch do not over
 constexpr Choices<scene::Panel::Parent> parents{{"world", scene::Panel::Parent::world},
                                                 {"vehicle", scene::Panel::Parent::vehicle}};
 
-/// Half the edges of a plate as vectors, and its middle.
+/// The half edges of a plate as vectors, and its centre.
 struct Box {
     glm::dvec3 middle;
     std::array<glm::dvec3, 3> half;
@@ -100,7 +100,7 @@ void checkPlace(const scene::Panel& panel, const scene::Scene& scene, const std:
 
 }  // namespace
 
-// Two boxes are apart if and only if their shadows on one of 15 axes are: the separating axis theorem.
+// Two boxes are apart if and only if their projections onto one of 15 axes are: the separating axis theorem.
 bool overlap(const scene::Panel& one, const scene::Panel& other) {
     const Box a = boxOf(one), b = boxOf(other);
     std::vector<glm::dvec3> axes;

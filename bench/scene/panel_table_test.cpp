@@ -66,7 +66,7 @@ TEST_F(PanelTest, StandsWhereTheFileSaysAndGoesAlongWithTheVehicle) {
     state.vehicle.position = {100, 0, 7};
     const glm::dmat4 wall = panelToWorld(file.scene.panels[0], state);
     EXPECT_LT(glm::distance(glm::dvec3(wall[3]), glm::dvec3(5, 1, 0)), 1e-12);
-    EXPECT_LT(glm::distance(glm::dvec3(wall[2]), glm::dvec3(1, 0, 0)), 1e-12);  // the face turned from +Z to +X
+    EXPECT_LT(glm::distance(glm::dvec3(wall[2]), glm::dvec3(1, 0, 0)), 1e-12);  // the face, turned from +Z to +X
     const glm::dmat4 plate = panelToWorld(file.scene.panels[1], state);
     EXPECT_LT(glm::distance(glm::dvec3(plate[3]), glm::dvec3(99, 0.5, 7)), 1e-12);
 }
@@ -106,7 +106,7 @@ TEST_F(PanelTest, SaysWhatIsWrongWithHeights) {
     EXPECT_THAT(reason("P5\n1 1\n255\nx"), HasSubstr("1x1 texels, allowed: 2..8192 a side"));
     EXPECT_THAT(reason("P5\n9000 2\n255\n" + std::string(18000, 'x')), HasSubstr("9000x2"));
     EXPECT_THAT(reason("nothing"), HasSubstr("not an image"));
-    // The pixels are not there: the size is refused before they are looked for.
+    // There are no pixels: the size is refused before they are read.
     for (const char* header :
          {"P5\n9000 9000\n255\n", "P5\n100000 100000\n255\n", "P5\n2 8193\n255\n", "P5\n1 64\n255\n"})
         EXPECT_THAT(reason(header), HasSubstr("allowed: 2..8192 a side")) << header;
@@ -130,7 +130,7 @@ TEST_F(PanelTest, SaysWhatIsWrongWithHeights) {
                 HasSubstr("the colours have 2x2 texels, expected those of the heights, 3x2"));
 }
 
-// Two plates overlap if and only if some point of one lies in the other: checked with many points, which may miss a
+// Two plates overlap if and only if some point of one is inside the other: checked with many points, which may miss a
 // small common part.
 TEST(Panels, OverlapIsThatOfTheirPoints) {
     std::mt19937 random(3);

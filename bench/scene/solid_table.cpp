@@ -19,11 +19,11 @@ using files::TomlReader;
 using std::filesystem::path;
 
 constexpr double longest = 1e5;      ///< seconds
-constexpr double mostDegrees = 1e7;  ///< of a turn
+constexpr double mostDegrees = 1e7;  ///< of a rotation
 
 struct ReadMesh {
     std::shared_ptr<const scene::Mesh> mesh;
-    std::optional<meshes::MorphMesh> morph;  ///< if it has targets
+    std::optional<meshes::MorphMesh> morph;  ///< if the solid has targets
 };
 
 ReadMesh readMesh(TomlReader& table, const path& from, std::vector<path>& files) {
@@ -52,7 +52,7 @@ glm::dvec3 readTurn(TomlReader& table, const glm::dvec3& initialDegrees) {
                        "three angles -10000000..10000000, degrees");
 }
 
-/// `rest`: what a key has that says nothing else; `turn` in degrees, as in what is read.
+/// `rest`: the default values of a key; `turn` in degrees, as in the file.
 SolidKey readKey(TomlReader& table, const SolidKey& rest) {
     SolidKey key;
     key.seconds = table.number("time_seconds", -longest, longest);
@@ -83,7 +83,7 @@ void requireReturn(const SolidKey& first, const SolidKey& last, const std::strin
     if (first.weights != last.weights) refuse("weight");
 }
 
-/// The keys in radians, with their places above the ground.
+/// The keys in radians, with positions above the ground.
 std::optional<SolidPath> readPath(TomlReader& table, const SolidKey& rest, const scene::Terrain* ground) {
     std::vector<SolidKey> keys;
     for (TomlReader& keyTable : table.tables("key")) {

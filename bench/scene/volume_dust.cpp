@@ -17,14 +17,14 @@ namespace {
 using volumes::GridPlace;
 using volumes::VolumeGrid;
 
-constexpr double maximumPuffOpacity = 0.999;  ///< as of all particles
-constexpr double maximumIds = 9e15;           ///< as of all files of dust
+constexpr double maximumPuffOpacity = 0.999;  ///< as for all particles
+constexpr double maximumIds = 9e15;           ///< as for all dust files
 
 /// The sum over the cells of a block.
 struct Block {
     std::uint64_t id = 0;
     double density = 0;
-    glm::dvec3 momentum{0};  ///< velocity by density
+    glm::dvec3 momentum{0};  ///< velocity times density
 };
 
 /// Blocks of cells on the lattice of the whole series, so that a block has one id in all moments.
@@ -39,7 +39,7 @@ class Blocks {
         return whole_.origin + edgeMetres() * (glm::dvec3(id % x, id / x % y, id / (x * y)) + 0.5);
     }
 
-    /// Those with density, in ascending order of their ids.
+    /// The blocks with density, in ascending order of their ids.
     [[nodiscard]] std::vector<Block> sums(const VolumeGrid& grid) const {
         std::vector<Block> filled;
         const glm::ivec3 first = volumes::firstCell(whole_, grid), low = first / edge_,
@@ -89,7 +89,7 @@ class Blocks {
     glm::ivec3 counts_;
 };
 
-/// The blocks of both, those that only `others` has without density.
+/// The blocks of both; those only in `others` without density.
 std::vector<Block> withEmpty(const std::vector<Block>& blocks, const std::vector<Block>& others) {
     std::vector<Block> all;
     std::ranges::set_union(blocks, others, std::back_inserter(all), {}, &Block::id, &Block::id);
