@@ -1,4 +1,4 @@
-"""What the page says of numbers, in sentences, scales and tables. report_page_test.py runs these tests."""
+"""Numbers in the sentences, scales and tables of the page. report_page_test.py runs these tests."""
 
 import json
 
@@ -7,7 +7,7 @@ import page_case
 
 REPORT = """({ data: JSON.parse(document.getElementById('report-data').textContent), columns: JSON.parse(document.getElementById('report-columns').textContent),
     specifications: JSON.parse(document.getElementById('report-charts').textContent) })"""
-METHODS = {"null_method": 40, "billboard": 6, "octree_search": 30}  # frames of their run
+METHODS = {"null_method": 40, "billboard": 6, "octree_search": 30}  # number of frames of the method's run
 
 
 class ReportWords(page_case.PageCase):
@@ -21,7 +21,7 @@ class ReportWords(page_case.PageCase):
             with open(f"{place}/frames.csv", "w", encoding="utf-8") as stream:
                 stream.write("frame,time_s,frame_ms\n" + "".join(f"{i},{i / 60},{10 + i % 3}\n" for i in range(frames)))
             rows.append(row)
-        # Of pictures alone: no number of the overview is known.
+        # Only pictures: all numbers of the overview are unknown.
         made_folder.write_run(cls.folder, {"run_id": "bare", "status": "done", "reason": "", "method": "relief", "scene": "plain", "drive": "straight",
                                            "repetition": 1, "frames": 2, "gpu_bytes": 1e6}, {})
         return rows
@@ -117,7 +117,7 @@ class ReportWords(page_case.PageCase):
         self.assertEqual((method, panels), ("octree_search", 2))
         self.assertTrue(note.startswith("octree_search"), note)
         short = self.said(f"{REPORT}.data.frames.find(item => item.frames === 6).run")
-        self.assertEqual(self.said(f"{built}({short})")[2], 1, "six frames are no distribution")
+        self.assertEqual(self.said(f"{built}({short})")[2], 1, "six frames are too few for a distribution")
 
     def test_pictures_of_equal_cost_have_no_chart(self):
         self.assertEqual(self.said(f"chartKit.list({REPORT}).filter(chart => chart.kind === 'quality')"), [])
