@@ -41,7 +41,7 @@ TEST(Validity, NamesANumberOfParticlesThatChanceDoesNotExplain) {
                         testing::SizeIs(1));
         }
     }
-    EXPECT_THAT(whyInvalid({}, {}, {1000, 625}), ElementsAre("particles_median is 625, asked for: 1000"));
+    EXPECT_THAT(whyInvalid({}, {}, {1000, 625}), ElementsAre("particles_median is 625, requested: 1000"));
     EXPECT_THAT(whyInvalid({}, {}, {0, 625}), IsEmpty());            // according to the speed
     EXPECT_THAT(whyInvalid({}, {}, {1000, 625, false}), IsEmpty());  // the method shows something else
 }

@@ -59,7 +59,7 @@ TEST_F(InvalidRun, IsAnOctreeWhoseWorldCannotHoldTheTrail) {
 TEST_F(InvalidRun, HasFewerParticlesThanWereAskedFor) {
     if (!hasMethod("billboard")) GTEST_SKIP() << "no billboards here";
     EXPECT_THAT(measured("billboard", {{"particles", "500"}, {"preroll", "1"}}).validity,
-                testing::ElementsAre(HasSubstr("asked for: 500")));
+                testing::ElementsAre(HasSubstr("requested: 500")));
     EXPECT_THAT(measured("billboard", {{"particles", "500"}}).validity, IsEmpty());
     if (hasMethod("null_method")) {
         EXPECT_THAT(measured("null_method", {{"particles", "500"}, {"preroll", "1"}}).validity, IsEmpty());

@@ -175,7 +175,7 @@ void measure(const RunSpec& spec, const fs::path& folder, const RunProgress& pro
 
     if (world.state().timeSeconds > world.driveSeconds() + 0.5 * stepSeconds)
         record.provenance.warnings.push_back(
-            fmt::format("the run ends at {:.1f} s, the drive at {:.1f} s; its last row applies to the rest",
+            fmt::format("the run ends at {:.1f} s, the drive at {:.1f} s: its last row applies to the rest",
                         world.state().timeSeconds, world.driveSeconds()));
 
     std::vector<double> frameMs;
