@@ -341,7 +341,7 @@ TEST_F(Dustbench, ARunThatTakesTooLongIsATimeoutAndExitCodeOne) {
     ASSERT_EQ(runs(out()).size(), 1u);
     const bench::StoredRun run = bench::readRunFile(runs(out()).at(0) / "run.json");
     EXPECT_EQ(run.status, bench::RunStatus::timeout);
-    EXPECT_THAT(run.reason, HasSubstr("no end after 2 s"));
+    EXPECT_THAT(run.reason, HasSubstr("not finished after 2 s"));
 }
 
 TEST_F(Dustbench, ADryRunOnlyPrintsTheList) {

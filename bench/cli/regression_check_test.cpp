@@ -181,10 +181,10 @@ TEST_F(CompareFolders, AGateThatCouldNotCloseIsNotPassed) {
     write("fails", 1, [](bench::RunRecord& record) {
         if (record.spec.repetition > 1) return;
         record.status = bench::RunStatus::timeout;
-        record.reason = "no end after 2 s";
+        record.reason = "not finished after 2 s";
     });
     EXPECT_EQ(compare("fails").code, 5);
-    EXPECT_THAT(compare("fails").err, HasSubstr("in B timed out: no end after 2 s"));
+    EXPECT_THAT(compare("fails").err, HasSubstr("in B timed out: not finished after 2 s"));
 }
 
 TEST_F(CompareFolders, WritesACsvAndTakesFoldersAsTheyAre) {

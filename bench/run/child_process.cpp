@@ -170,7 +170,7 @@ std::string ChildOutcome::reason() const {
             return fmt::format("killed by {}{}", name ? std::string("SIG") + name : std::to_string(code), words);
         }
         case End::timedOut:
-            return fmt::format("no end after {:g} s", timeoutSeconds);
+            return fmt::format("not finished after {:g} s", timeoutSeconds);
         case End::interrupted:
             break;
     }

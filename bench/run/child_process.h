@@ -24,7 +24,7 @@ struct ChildOutcome {
     int code = 0;           ///< exit status, or the signal's number
     std::string lastWords;  ///< the last non-blank line on its stderr
     [[nodiscard]] bool succeeded() const { return end == End::exited && code == 0; }
-    /// `killed by SIGSEGV: …`, `exit code 1: …`, `no end after 600 s`.
+    /// `killed by SIGSEGV: …`, `exit code 1: …`, `not finished after 600 s`.
     [[nodiscard]] std::string reason() const;
     double timeoutSeconds = 0;
 };

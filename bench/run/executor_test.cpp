@@ -203,7 +203,7 @@ TEST_F(Executor, AHangIsATimeoutThatSaysHowFarItCame) {
     EXPECT_EQ(result.done, 3u);
     const StoredRun run = readRunFile(out() / "runs" / runId(plan_[0].spec) / "run.json");
     EXPECT_EQ(run.status, RunStatus::timeout);
-    EXPECT_EQ(run.reason, "no end after 5 s (at frames 3 9)");
+    EXPECT_EQ(run.reason, "not finished after 5 s (at frames 3 9)");
 }
 
 TEST_F(Executor, AChildWithoutAResultHasFailed) {

@@ -92,7 +92,7 @@ CameraPath fromTable(const files::CsvTable& table, const std::string& name) {
             throw InputError(table.where(row) + "the target equals the eye, expected another point");
         if (row > 0 && keys[row].seconds <= keys[row - 1].seconds)
             throw InputError(table.where(row) + "column 'time_s': got " + table.cell(row, "time_s") +
-                             ", expected more than " + files::csvNumber(keys[row - 1].seconds) + " of the row before");
+                             ", expected more than " + files::csvNumber(keys[row - 1].seconds) + " (previous row)");
     }
     return CameraPath(std::move(keys));
 }

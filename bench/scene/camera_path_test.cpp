@@ -93,7 +93,7 @@ TEST(CameraPath, SaysWhatIsWrongWithItsInput) {
     EXPECT_THAT(message("0,1,2,3"), HasSubstr("4 cells, expected 8"));
     EXPECT_THAT(message("0,1,2,3,4,5,6,200"), HasSubstr("column 'fov_deg': got 200, expected a number 5..150"));
     EXPECT_THAT(message("0,1,2,3,1,2,3,50"), HasSubstr("the target equals the eye"));
-    EXPECT_THAT(message("1,1,2,3,4,5,6,50;1,1,2,3,4,5,7,50"), HasSubstr("expected more than 1 of the row before"));
+    EXPECT_THAT(message("1,1,2,3,4,5,6,50;1,1,2,3,4,5,7,50"), HasSubstr("expected more than 1 (previous row)"));
     EXPECT_THAT(inputError([] { (void)CameraPath::parseText("time_s,x\n0,1\n", "p.csv"); }),
                 HasSubstr("p.csv:1: not the columns"));
     EXPECT_THAT(inputError([] { (void)CameraPath::parseText(header, "p.csv"); }), HasSubstr("no rows"));

@@ -147,7 +147,7 @@ void DustColumns::set(const std::string& key, const std::string& value) {
         const std::optional<double> number = files::numberOf(value);
         if (!number || *number < 1e-6 || *number > 1e6)
             throw InputError(
-                fmt::format("--dust-columns: scale: got '{}', allowed: 1e-6..1e6, metres of a unit", value));
+                fmt::format("--dust-columns: scale: got '{}', allowed: 1e-6..1e6, metres per unit of length", value));
         metresPerUnit_ = *number;
     }
 }

@@ -133,7 +133,7 @@ DustFiles readDustFiles(const fs::path& path, const DustColumns& columns, bool h
         const std::size_t before = dust.moments.size();
         if (!readOne(entry, columns, dust.moments)) {
             if (dust.moments.empty()) return readVolumes(path, hasColumns);
-            throw InputError(fmt::format("{}: has no points, expected some as in {}", entry.file.string(),
+            throw InputError(fmt::format("{}: has no points, expected points as in {}", entry.file.string(),
                                          dust.moments.front().file));
         }
         for (std::size_t i = before; i < dust.moments.size(); ++i)

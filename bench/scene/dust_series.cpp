@@ -36,7 +36,7 @@ void requireSeries(const std::vector<DustMoment>& moments) {
         if (i == 0) continue;
         const DustMoment& before = moments[i - 1];
         if (!(*moment.timeSeconds > *before.timeSeconds))
-            throw InputError(fmt::format("{}: its time is {} s, expected more than {} s of {} before it", moment.file,
+            throw InputError(fmt::format("{}: its time is {} s, expected more than {} s, the time of {}", moment.file,
                                          *moment.timeSeconds, *before.timeSeconds, before.file));
         if (const std::string has = columnsOf(moment), expected = columnsOf(before); has != expected)
             throw InputError(fmt::format("{}: has {}, expected {} as in {}", moment.file, has, expected, before.file));

@@ -89,7 +89,7 @@ std::optional<SolidPath> readPath(TomlReader& table, const SolidKey& rest, const
     for (TomlReader& keyTable : table.tables("key")) {
         keys.push_back(readKey(keyTable, rest));
         if (keys.size() > 1 && !(keys.back().seconds > keys[keys.size() - 2].seconds))
-            throw InputError(fmt::format("{}key 'time_seconds': got {}, expected more than {} of the key before",
+            throw InputError(fmt::format("{}key 'time_seconds': got {}, expected more than {} (previous key)",
                                          keyTable.where("time_seconds"), keys.back().seconds,
                                          keys[keys.size() - 2].seconds));
     }

@@ -112,7 +112,7 @@ TEST(SolidTable, KeysStandOnTheGroundUnlessToldOtherwise) {
 TEST(SolidTable, SaysInOneLineWhatIsWrong) {
     OneSolid one;
     const std::string key = "[[solid.key]]\ntime_seconds = 1\n", next = "[[solid.key]]\ntime_seconds = 2\n";
-    EXPECT_THAT(one.refusal(key + key), HasSubstr("key 'time_seconds': got 1, expected more than 1 of the key before"));
+    EXPECT_THAT(one.refusal(key + key), HasSubstr("key 'time_seconds': got 1, expected more than 1 (previous key)"));
     EXPECT_THAT(one.refusal("[[solid.key]]\nposition = [0, 0, 0]\n"), HasSubstr("time_seconds"));
     EXPECT_THAT(one.refusal(key + "speed = 3\n"), HasSubstr("speed"));
     EXPECT_THAT(one.refusal(key + "position = [0, 1e6, 0]\n"), HasSubstr("three numbers -100000..100000"));
