@@ -1,5 +1,5 @@
-"""Checks of the documents: links and paths exist, the README is short, each guide begins with a command and its duration, and
-the README's table equals that of the sample report.
+"""What the documents promise: links and paths lead somewhere, the README is short, each guide shows one command and its
+duration at once, and the README's table is that of the sample report.
 
     documents_test.py
 """
@@ -51,14 +51,14 @@ class Documents(unittest.TestCase):
                 path, _, anchor = link.partition("#")
                 target = (document.parent / path).resolve() if path else document
                 with self.subTest(document=str(document.relative_to(ROOT)), link=link):
-                    self.assertTrue(target.exists(), "does not exist")
+                    self.assertTrue(target.exists(), "leads nowhere")
                     if anchor and target.suffix == ".md":
                         self.assertIn(anchor, anchors(target))
 
     def test_paths_in_text_exist(self):
         for document in documents():
             if document.name == "CHANGELOG.md" or document.parent.name == "decisions":
-                continue  # they describe the past
+                continue  # they tell of what was
             for path in re.findall(r"`((?:methods|bench|data|reports|tests|\.ci)/[\w./-]+)`", prose(document.read_text())):
                 if path.startswith(("reports/out", "methods/dots", "data/suites/dots", "methods/kit/particles/parts/force/updraught")):
                     continue
@@ -88,7 +88,7 @@ class Documents(unittest.TestCase):
             with self.subTest(paper=paper):
                 named = set(re.findall(r"`([A-Z]\w+\.[A-Z]\w+)`", text))
                 self.assertEqual(named - tests, set(), "no such test")
-                ours = {id for id in ids if id[-1] == "f" and id[:-1] in ids}  # the sentence is at the entry as printed
+                ours = {id for id in ids if id[-1] == "f" and id[:-1] in ids}  # a printed entry judged in our mode has its sentence
                 self.assertEqual(ids - ours - set(re.findall(r"\b[A-Z]\d+[a-z]?\b", text)), set(), "entries without a sentence")
                 mentioned = set(re.findall(r"\b[RP]\d+[a-z]\b", text))
                 self.assertEqual(mentioned - set().union(*claims.values()), set(), "no such entry")

@@ -1,18 +1,18 @@
-"""Runs the commands of a document with shortened options in a temporary folder.
+"""Runs the commands of a document, in a short form, in a folder of its own.
 
     run_commands.py PROGRAM DOCUMENT
 
-Commands are the fenced blocks marked `sh`. Comments directly before a block modify it:
+Commands are the fenced blocks marked `sh`. A comment right before a block says more:
 
-    <!-- short: --frames 2 -->       options for each line of the block that calls dustbench; they replace options of the same name
-    <!-- exit: 3 -->                 allowed exit codes of the block's last line
-    <!-- not run: the reason -->     skips the block
+    <!-- short: --frames 2 -->       options of each line of the block that calls dustbench, in place of those of the same name
+    <!-- exit: 3 -->                 what the block's last line ends with; several numbers: one of them
+    <!-- not run: the reason -->     the block is left out
 
-Blocks marked `python` are run with Debian's Python, each after all blocks before it. Without pandas they are skipped, unless `CI` is
-set.
+Blocks marked `python` are run by Debian's Python as well, each behind all that came before it; if that Python has no pandas they are left
+out, but not where changes are judged (`CI` is set).
 
-A fenced block below a line that consists of `` `FILE` `` is first written to that file. The folder has the layout of the tree, with
-`build/release/dustbench`; files that the commands write under `out/` are removed afterwards.
+A fenced block below a line that is `` `FILE` `` alone is written to that file first. The folder looks like the tree, with
+`build/release/dustbench` in its place; what the commands write under `out/` is removed afterwards.
 """
 
 import os
@@ -38,7 +38,7 @@ def commands(text):
 
 
 def shortened(line, short):
-    """The line with these options replacing its own; `-P name=value` is the option `-P name`."""
+    """The line with these options instead of its own; `-P name=value` is the option `-P name`."""
     for option, value in re.findall(r"(--?[\w-]+)(?: (?!--)(\S+))?", short):
         if option == "-P":
             line = re.sub(rf" -P {re.escape(value.split('=')[0])}=\S+", "", line)

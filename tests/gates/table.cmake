@@ -1,12 +1,11 @@
-# Writes gates.txt, from which .ci/gates determines what a change concerns. Included last, when all targets are known.
-#   module NAME FOLDER PROGRAM LINKS…        PROGRAM: its tests, or `-`; LINKS: modules whose changes concern it too
+# Writes gates.txt, from which .ci/gates knows what a change concerns; included last, when all targets are known.
+#   module NAME FOLDER PROGRAM LINKS…        PROGRAM: its tests, or `-`; LINKS: modules whose change is also its own
 #   test NAME FOR modules… FILES paths…      dustbench_program_test
-#   place PATH modules…                      files outside all modules, and the modules whose tests they concern
-# Methods are linked to the harness only by the registry (dustbench_methods, which is not a module). A change in a method
-# therefore concerns not the harness, but only tests that name the method, and modules of this folder that link the registry,
-# because these draw with all methods.
+#   place PATH modules…                      files that belong to no module, and the modules whose tests they concern
+# Methods are linked to the harness by the registry alone (dustbench_methods, which is no module): a method's change does
+# not reach the harness, only the tests that name it, and modules of this folder that link the registry: they draw with all.
 
-# place PATH [modules…]: longest path first; PATH may be a file. `ALL`: it concerns everything.
+# place PATH [modules…]: longest path first; PATH may be a file. `ALL`: everything is judged again.
 function(dustbench_place)
   dustbench_gates_line(place ${ARGN})
 endfunction()
@@ -37,7 +36,7 @@ dustbench_place(data/templates bench/cli)
 dustbench_place(data/textures billboard plugin_particles voxel_shape)
 dustbench_place(data/volumes volume)
 dustbench_place(methods/README.md)
-dustbench_place(methods/kit ALL) # files between its modules
+dustbench_place(methods/kit ALL) # what lies between its modules
 dustbench_place(reports/METRICS.md)
 dustbench_place(reports/SCHEMA.md)
 dustbench_place(reports/decisions)
@@ -46,17 +45,17 @@ dustbench_place(reports/pictures)
 dustbench_place(reports/report bench/report)
 dustbench_place(reports/sample)
 dustbench_place(tests/CMakeLists.txt ALL)
-dustbench_place(tests/external) # run by hand, like the next two
+dustbench_place(tests/external) # by hand, as are the next two
 dustbench_place(tests/fuzz/coverage)
 dustbench_place(tests/fuzz/openvdb)
 dustbench_place(tests/gates ALL)
 dustbench_place(tests/one_kit one_kit)
-dustbench_place(tests/moved_tree) # always run, like the next ones
+dustbench_place(tests/moved_tree) # always run, as is what follows
 dustbench_place(tests/planted)
 dustbench_place(tests/sanitizers ALL)
 dustbench_place(tests/source_folder.h.in ALL)
 
-# Our libraries that a target links, and its other dependencies.
+# What a target links of ours, and what it waits for.
 function(dustbench_links RESULT)
   set(FOUND "")
   foreach(TARGET ${ARGN})

@@ -1,6 +1,6 @@
-"""Drives a headless Chromium with its DevTools protocol over a pipe, using only Python's standard library.
+"""A headless Chromium, driven by its DevTools protocol over a pipe: nothing but Python's standard library.
 
-Commands are written to the browser's file descriptor 3; answers and events come from 4, as JSON followed by a zero byte.
+Commands go to the browser's file descriptor 3 and answers and events come from 4, as JSON with a zero byte behind each.
 """
 
 import base64
@@ -23,11 +23,11 @@ def find():
 
 
 class Browser:
-    """One page at a time. `errors` collects errors of its console and scripts."""
+    """One page at a time. `errors` collects what its console and its scripts complain of."""
 
     def __init__(self, path, width=1400, height=1000):
         self.folder = tempfile.mkdtemp(prefix="dustbench-browser-")
-        # Duplicated away from 3 and 4, so that moving them there cannot close one of them.
+        # Away from 3 and 4, so that putting them there cannot close one of them.
         to_child, self._out = (fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, 10) for end in os.pipe())
         self._in, from_child = (fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, 10) for end in os.pipe())
 
@@ -107,7 +107,7 @@ class Browser:
                 return answer["result"]
 
     def evaluate(self, script):
-        """The value of a JavaScript expression; waits for promises."""
+        """The value of a JavaScript expression; promises are waited for."""
         answer = self.call("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in answer:
             details = answer["exceptionDetails"]
@@ -122,14 +122,14 @@ class Browser:
             time.sleep(0.02)
 
     def open(self, file):
-        """Opens a file and waits until its charts are drawn; returns the duration in seconds."""
+        """Opens a file and waits until its charts are drawn; gives the seconds that took."""
         begin = time.monotonic()
         self.call("Page.navigate", url="file://" + os.path.abspath(file))
         self.wait_for("document.documentElement?.dataset.ready !== undefined", 60)
         return time.monotonic() - begin
 
     def open_at(self, file, anchor):
-        """The same, at an anchor."""
+        """The same, at an anchor with what follows it."""
         self.call("Page.navigate", url="file://" + urllib.parse.quote(os.path.abspath(file)) + anchor)
         self.wait_for("document.documentElement?.dataset.ready !== undefined", 60)
 

@@ -1,6 +1,6 @@
-"""A made-up results folder: the runs of real suites, with times and metrics from formulas.
+"""A results folder without any measurement: the runs of real suites, with times and metrics by formula.
 
-All numbers in the folder come from the formulas here, so a test knows what the page must show.
+What is not in a formula here is not in the folder: so a test knows what the page must show.
 """
 
 import csv
@@ -14,7 +14,7 @@ import zlib
 EVIL = "</script><img src=x onerror=\"document.title='broken'\">&amp;"
 STAGES = "input simulate build sort upload scene draw wait".split()
 
-# The files of a paper whose experiment takes seconds.
+# A paper whose experiment takes seconds: files of its folder.
 TINY_PAPER = {
     "paper.toml": """id = "tiny"
 title = "A very short paper"
@@ -69,7 +69,7 @@ def png(width, height, colour):
 
 
 def planned(program, suite, out):
-    """Run id, method, parameters and repetition of every run in a quick run of the suite."""
+    """Run id, method, parameters and repetition of every run that the suite's quick form would do."""
     said = subprocess.run([program, "suite", suite, "--quick", "--dry-run", "--out", out], check=True,
                           capture_output=True, text=True).stdout
     for line in said.splitlines():
@@ -81,7 +81,7 @@ def planned(program, suite, out):
 
 
 def stages_of(method, settings, repetition):
-    """The recursive octree takes 8/10 of the other octree's build time; runs scatter by 1 %."""
+    """The recursive octree builds in 8/10 of the time of the other; runs scatter by 1 %."""
     particles, speed = float(settings.get("particles", 100)), float(settings.get("speed", 20))
     scatter = 1 + 0.01 * ((repetition * 7 + len(method)) % 5 - 2) / 2
     build = {"octree_recursive": 0.8, "octree_search": 1.0}.get(method, 0)
@@ -118,7 +118,7 @@ def write_run(folder, row, settings, warnings=()):
 
 
 def write_others(folder):
-    """Runs without a suite, one of them failed, with an unknown column and loads that need exact text."""
+    """Runs of no suite, one of them failed, with a column of the future and loads that are easily rounded."""
     for particles in (25, 125, 333):
         ms = 5 + particles / 100
         write_run(folder, {"run_id": f"odd-{particles}", "status": "done", "reason": "", "method": "billboard", "scene": EVIL,
@@ -129,7 +129,7 @@ def write_others(folder):
 
 
 def write(program, folder, suites):
-    """Writes the folder and its summary.csv; returns the rows."""
+    """The folder with summary.csv; gives the rows of it."""
     write_others(folder)
     rows = []
     for suite in suites:

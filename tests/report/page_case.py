@@ -1,6 +1,6 @@
-"""Base of tests of the report's page in a real browser: a made-up results folder, its page, and helpers.
+"""A test of the report's page in a real browser: a made-up results folder, its page, and what tests do with it.
 
-Needs Chromium (Debian: chromium-headless-shell), node and rsvg-convert; fails with a message if one is missing.
+Needs Chromium (Debian: chromium-headless-shell), node and rsvg-convert; fails with a word where one is missing.
 """
 
 import json
@@ -71,7 +71,7 @@ class PageCase(unittest.TestCase):
         return called.stdout
 
     def open(self):
-        """Reloads the page in its initial state; returns the duration in seconds."""
+        """Again, as it was first; gives the seconds that took."""
         self.browser.resize(1400, 1000)
         self.browser.prefer("light")
         type(self).touched = False
@@ -82,14 +82,14 @@ class PageCase(unittest.TestCase):
             self.open()
 
     def touch(self):
-        """Marks the page as modified."""
+        """Said by a test that leaves the page other than it was."""
         type(self).touched = True
 
     def tearDown(self):
         self.assertEqual(self.browser.errors, [])
 
     def settled(self):
-        """Waits until nothing in the page has changed for a while."""
+        """A redrawing is done once nothing in the page has changed for a while."""
         before = None
         for _ in range(100):
             now = self.browser.evaluate("[...document.querySelectorAll('.chart')].map(chart => chart.innerHTML.length).join()")
@@ -104,7 +104,7 @@ class PageCase(unittest.TestCase):
             select.value = '{value}'; select.dispatchEvent(new Event('change')); }})()""")
 
     def saved(self, button, name):
-        """The file that a button downloads."""
+        """What a button downloads."""
         target = tempfile.mkdtemp(prefix="dustbench-saved-")
         self.addCleanup(shutil.rmtree, target)
         self.browser.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=target)
