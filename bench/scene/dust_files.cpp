@@ -90,7 +90,7 @@ bool readOne(const volumes::SeriesEntry& entry, const DustColumns& columns, std:
     return true;
 }
 
-/// True for volumes, including a `.vdb` without points.
+/// True for files that are always volumes. A `.vdb` without points is a volume too.
 bool isVolume(const fs::path& file) {
     const std::string extension = file.extension();
     return extension == ".nvdb" || extension == ".vti" || extension == ".toml";

@@ -37,7 +37,7 @@ struct Header {
 };
 static_assert(sizeof(Header) == blockBytes);
 
-/// Writes octal digits and the zero byte that ends the field.
+/// Writes octal digits. The last byte of the field stays zero.
 template <std::size_t size>
 void setNumber(std::array<char, size>& field, std::uintmax_t number) {
     for (std::size_t digit = size - 1; digit-- > 0; number /= 8) field[digit] = static_cast<char>('0' + number % 8);
