@@ -44,7 +44,7 @@ TEST_F(CountedRuns, ARunThatIsCopiedUnderAnotherNameCountsOnce) {
     const fs::path copy = run.string() + "-copy";
     fs::copy(run, copy, fs::copy_options::recursive);
     const std::string reason =
-        fmt::format("holds the run '{}', expected the one that its folder is named after", run.filename().string());
+        fmt::format("contains the run '{}', expected the run that the folder is named after", run.filename().string());
     const Called text = call(fmt::format("report {} --text", out()));
     EXPECT_EQ(text.code, 0);
     EXPECT_THAT(text.err, HasSubstr("left out: '" + copy.string()));

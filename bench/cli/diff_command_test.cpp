@@ -102,7 +102,7 @@ TEST_F(DiffCommand, SeesLessFromFartherAway) {
 
 TEST_F(DiffCommand, RefusesWhatItCannotCompareInOneLine) {
     const std::string good = write("good.exr", gradient(40, 30, 0));
-    expectRefused(diff(good, write("small.png", gradient(30, 40, 0))), "images of different size");
+    expectRefused(diff(good, write("small.png", gradient(30, 40, 0))), "images differ in size");
     expectRefused(diff(good, "'" + (folder_ / "missing.png").string() + "'"), "missing.png");
     expectRefused(diff("'" + folder_.string() + "'", good), "it is a folder");
 

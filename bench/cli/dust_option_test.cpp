@@ -90,7 +90,7 @@ TEST_F(DustOption, WhatEndsBeforeTheRunIsRefusedBeforeItBegins) {
     EXPECT_THAT(both.err, HasSubstr("parameter particles: got 7 with --dust"));
     const Called alone = call("run --method billboard --frames 2 --dust-columns id=a --out " + out());
     EXPECT_EQ(alone.code, 3);
-    EXPECT_THAT(alone.err, HasSubstr("--dust-columns: got it without --dust"));
+    EXPECT_THAT(alone.err, HasSubstr("--dust-columns: requires --dust"));
 }
 
 TEST_F(DustOption, ASuiteNamesItRelativeToItself) {

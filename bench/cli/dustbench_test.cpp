@@ -52,7 +52,7 @@ TEST_F(Dustbench, WrongUseIsOneLineAndExitCodeThree) {
         {"run --method " + method + " --out o -P particles=1000000000", "60 GB"},
         {"run --method " + method + " --out o -P particles", "name=value"},
         {"run --method " + method + " --out o -P particles=", "got '', expected a value"},
-        {"run --method " + method + " --out o -P particles=1,,2", "on either side of ','"},
+        {"run --method " + method + " --out o -P particles=1,,2", "on each side of ','"},
         {"run --method " + method + " --out o --frames 0", "1..10000000"},
         {"run --method " + method + " --out o --frames many", "'many'"},
         {"run --method " + method + " --out o --frame 5", "'--frames'"},
@@ -341,7 +341,7 @@ TEST_F(Dustbench, ARunThatTakesTooLongIsATimeoutAndExitCodeOne) {
     ASSERT_EQ(runs(out()).size(), 1u);
     const bench::StoredRun run = bench::readRunFile(runs(out()).at(0) / "run.json");
     EXPECT_EQ(run.status, bench::RunStatus::timeout);
-    EXPECT_THAT(run.reason, HasSubstr("no end after 2 s"));
+    EXPECT_THAT(run.reason, HasSubstr("not finished after 2 s"));
 }
 
 TEST_F(Dustbench, ADryRunOnlyPrintsTheList) {

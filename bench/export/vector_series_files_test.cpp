@@ -1,4 +1,4 @@
-// What is exported is read back as a series of vectors: the same field, in the world's frame and metres.
+// An exported field read back as a series of vectors is the same field, in the world's frame and in metres.
 #include <gtest/gtest.h>
 
 #include <fstream>

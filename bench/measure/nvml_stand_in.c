@@ -1,4 +1,4 @@
-/* Two GPUs that count energy, for the test of what reads them: each call adds 1500 mJ. */
+/* Stand-in for NVML, for tests: two GPUs with energy counters that grow by 1500 mJ at each call. */
 #include <string.h>
 
 static unsigned long long used[2] = {1000, 5000};

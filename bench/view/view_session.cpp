@@ -111,7 +111,7 @@ std::unique_ptr<World> ViewSession::makeWorld(const ViewState& state, std::share
 ViewSession::ShownHalf ViewSession::makeHalf(const ViewState& state, Half which, const World& world) const {
     const MethodInfo& method = findMethod(half(state, which).method);
     if (const std::string reason = whyNotTaken(method, world.scene()); !reason.empty())
-        throw InputError(fmt::format("method {} cannot take scene '{}': {}", method.id, state.scene, reason));
+        throw InputError(fmt::format("method {} cannot show scene '{}': {}", method.id, state.scene, reason));
     ParameterValues values(method.parameters);
     for (const auto& [name, text] : half(state, which).parameters) values.set(name, text);
     ShownHalf shown;

@@ -211,7 +211,7 @@ TEST_F(Session, RefusesASceneThatItsMethodCannotTake) {
         const World world("plain", "", ParameterValues(worldParameters()), 1);
         if (takes(method, world)) continue;
         EXPECT_THAT(inputError([&] { ViewSession(smallView(method.id), device_); }),
-                    HasSubstr("cannot take scene 'plain'"));
+                    HasSubstr("cannot show scene 'plain'"));
     }
 }
 

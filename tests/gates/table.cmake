@@ -23,7 +23,7 @@ dustbench_place(CONTRIBUTING.md)
 dustbench_place(LICENSE)
 dustbench_place(Makefile ALL)
 dustbench_place(README.md)
-dustbench_place(data/README.md) # tests/architecture reads it, and the bibliography
+dustbench_place(data/README.md) # read by tests/architecture, like the bibliography
 dustbench_place(data/drives bench/scene)
 dustbench_place(data/fluids grid_fluid)
 dustbench_place(data/papers bench/suite bench/claims)

@@ -134,7 +134,7 @@ def write(program, folder, suites):
     rows = []
     for suite in suites:
         for run_id, method, settings, repetition in planned(program, suite, folder):
-            if any(row["run_id"] == run_id for row in rows):  # a null run that two suites share
+            if any(row["run_id"] == run_id for row in rows):  # a run of the null method that two suites share
                 continue
             seed = int(settings.pop("seed", 1))
             stages = stages_of(method, settings, repetition)

@@ -1,7 +1,7 @@
 """Results folders of several machines without any measurement: times by formula, provenance made up.
 
-A machine is a dictionary: `fog`, the frame time of the method fog in ms per 100 particles; `ratio`, that of haze to fog; and what overrides
-the provenance. Both drift together by 5 % a repetition, and haze scatters by 1 % around its ratio, in its logarithm.
+A machine is a dictionary: `fog`, the frame time of the method fog in ms per 100 particles; `ratio`, the ratio of haze to fog; and
+fields that override the provenance. Both drift together by 5 % per repetition; the logarithm of the ratio scatters by 1 %.
 """
 
 import json

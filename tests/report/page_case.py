@@ -97,7 +97,7 @@ class PageCase(unittest.TestCase):
                 return
             before = now
             time.sleep(0.15)
-        self.fail("the charts never come to rest")
+        self.fail("the charts do not stop changing")
 
     def choose(self, chart, key, value):
         self.browser.evaluate(f"""(() => {{ const select = document.querySelector('.controls:has(+ #{chart}) select[data-key={key}]');

@@ -1,4 +1,4 @@
-"""The page of several machines: made-up folders, what the program answers, and the page in Chromium. report_page_test.py runs these tests."""
+"""The page of several machines: made-up folders, the program's output, and the page in Chromium. report_page_test.py runs these tests."""
 
 import json
 import math
@@ -38,7 +38,7 @@ class MachinesCase(unittest.TestCase):
 
 
 class ReportOfSeveralMachines(MachinesCase):
-    """What the program answers."""
+    """The program's output."""
 
     @classmethod
     def setUpClass(cls):
@@ -148,7 +148,7 @@ class ReportOfSeveralMachines(MachinesCase):
         self.assertFalse(os.path.exists(os.path.join(self.lab, "index.html")))
 
     def test_claims_stand_side_by_side(self):
-        """Real runs of a paper of seconds, and a copy as another machine, on which more particles make fewer billboards."""
+        """Real runs of a paper that takes seconds, and a copy as another machine, on which more particles give fewer billboards."""
         data = os.path.join(self.place, "data")
         shutil.copytree(os.path.join(page_case.ROOT, "data"), data)
         for name, text in made_folder.TINY_PAPER.items():
@@ -206,7 +206,7 @@ class ReportOfSeveralMachines(MachinesCase):
         data = between('id="report-data">', "</script>")
         self.assertEqual(set(json.loads(data)), {"claims", "experiments", "facts", "files", "folder", "frames", "framesLeftOut", "heat", "linkedPictures", "machines",
                                                  "methods", "notDone", "papers", "pictures", "problems", "root", "runs", "tablesOnly", "version", "warnings", "written"})
-        # Vega and its licence are Debian's.
+        # Vega and its licence come from Debian.
         parts = {"title": "dustbench: lab", "style": text("report", "page.css"), "columns": text("report", "columns.json"), "charts": "{" + charts + "}",
                  "data": data, "schema": escaped(text("SCHEMA.md")), "metrics": escaped(text("METRICS.md")),
                  "chart-script": "".join(text("report", f"{name}.js") for name in scripts[0]), "page-script": "".join(text("report", f"{name}.js") for name in scripts[1]),
@@ -219,7 +219,7 @@ class ReportOfSeveralMachines(MachinesCase):
 
 
 class PageOfSeveralMachines(MachinesCase):
-    """What a reader sees."""
+    """The page as a reader sees it."""
 
     @classmethod
     def setUpClass(cls):

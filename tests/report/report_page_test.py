@@ -90,7 +90,7 @@ class ReportPage(page_case.PageCase):
             self.assertEqual(rates, sorted(rates, reverse=direction < 0))
         self.browser.evaluate("document.querySelector('#overview [data-key=world]').click()")
         particles = [int(row[1].split()[1].strip(",")) for row in self.browser.evaluate(rows) if row[1].startswith("particles")]
-        self.assertEqual(particles, sorted(particles), "numbers in texts are numbers")
+        self.assertEqual(particles, sorted(particles), "numbers in texts must sort as numbers")
         self.browser.evaluate("(() => { const filter = document.querySelector('.filter'); filter.value = 'BILLBOARD speed 40'; filter.dispatchEvent(new Event('input')); })()")
         kept = self.browser.evaluate(rows)
         self.assertTrue(0 < len(kept) < len(all_rows))

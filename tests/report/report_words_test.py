@@ -7,7 +7,7 @@ import page_case
 
 REPORT = """({ data: JSON.parse(document.getElementById('report-data').textContent), columns: JSON.parse(document.getElementById('report-columns').textContent),
     specifications: JSON.parse(document.getElementById('report-charts').textContent) })"""
-METHODS = {"null_method": 40, "billboard": 6, "octree_search": 30}  # frames of their run
+METHODS = {"null_method": 40, "billboard": 6, "octree_search": 30}  # number of frames of the method's run
 
 
 class ReportWords(page_case.PageCase):
@@ -117,7 +117,7 @@ class ReportWords(page_case.PageCase):
         self.assertEqual((method, panels), ("octree_search", 2))
         self.assertTrue(note.startswith("octree_search"), note)
         short = self.said(f"{REPORT}.data.frames.find(item => item.frames === 6).run")
-        self.assertEqual(self.said(f"{built}({short})")[2], 1, "six frames are no distribution")
+        self.assertEqual(self.said(f"{built}({short})")[2], 1, "six frames are too few for a distribution")
 
     def test_pictures_of_equal_cost_have_no_chart(self):
         self.assertEqual(self.said(f"chartKit.list({REPORT}).filter(chart => chart.kind === 'quality')"), [])
