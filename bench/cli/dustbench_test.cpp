@@ -39,7 +39,7 @@ TEST_F(Dustbench, WrongUseIsOneLineAndExitCodeThree) {
     ASSERT_FALSE(methods().empty());
     const std::string method = methods().front().id;
     const std::vector<std::pair<std::string, std::string>> mistakes{
-        {"", "no command is given"},
+        {"", "no command given"},
         {"--bogus", "unknown option '--bogus'"},
         {"lst", "'list'"},
         {"list method", "'methods'"},
@@ -328,7 +328,7 @@ TEST_F(Dustbench, CtrlCEndsAnExperimentAtOnce) {
     waitpid(child, &status, 0);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 2);
-    EXPECT_TRUE(contentOf(errors).ends_with("ageing\naborted; the same command resumes\n")) << contentOf(errors);
+    EXPECT_TRUE(contentOf(errors).ends_with("ageing\naborted; repeat the command to resume\n")) << contentOf(errors);
 }
 
 TEST_F(Dustbench, ARunThatTakesTooLongIsATimeoutAndExitCodeOne) {

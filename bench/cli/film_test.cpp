@@ -75,8 +75,8 @@ TEST_F(Film, ThatFailsIsOneLineAndLeavesNothing) {
 TEST_F(Film, IsRefusedBeforeTheRun) {
     install("");
     const std::vector<std::pair<std::string, std::string>> mistakes{
-        {"--video x.avi", "--video: got 'x.avi', allowed: a file .mp4"},
-        {"--gif x.mp4", "--gif: got 'x.mp4', allowed: a file .gif"},
+        {"--video x.avi", "--video: got 'x.avi', allowed: a .mp4"},
+        {"--gif x.mp4", "--gif: got 'x.mp4', allowed: a .gif file"},
         {"--gif x.gif -P particles=100,200", "--gif: got 2 runs, allowed: 1"}};
     for (const auto& [options, expected] : mistakes) {
         const std::string command =

@@ -112,7 +112,7 @@ TEST_F(CompareFolders, AnAlertIsMeasuredAgainAndStandsOnlyIfItAlertsAgain) {
         compare("b", fmt::format("--fail-on-regression 2000 --markdown '{}/told.txt'", folder_.string()));
     EXPECT_EQ(real.code, 5) << real.err;
     EXPECT_THAT(real.err, AllOf(HasSubstr("regression: frame_ms_median: null_method particles=10 takes "),
-                                HasSubstr("regression: frame_ms_median: all cells together takes "),
+                                HasSubstr("regression: frame_ms_median: the mean of all configurations takes "),
                                 HasSubstr("measured again, it takes "), testing::Not(HasSubstr("not confirmed"))));
     markdown.str("");
     markdown << std::ifstream(folder_ / "told.txt").rdbuf();
@@ -128,7 +128,7 @@ TEST_F(CompareFolders, AFolderAgainstItselfPassesNoGate) {
     for (const char* same : {"a", "a/../a", "link", "within"}) {
         const Called called = compare(same);
         EXPECT_EQ(called.code, 3) << same;
-        EXPECT_THAT(called.err, HasSubstr("which are the same folder twice"));
+        EXPECT_THAT(called.err, HasSubstr("are the same folder, expected"));
         EXPECT_EQ(called.out, "");
     }
     fs::copy(folder_ / "a", folder_ / "copy", fs::copy_options::recursive);
@@ -176,7 +176,7 @@ TEST_F(CompareFolders, AGateThatCouldNotCloseIsNotPassed) {
     EXPECT_EQ(compare("few", "").code, 0);
     const Called called = compare("few");
     EXPECT_EQ(called.code, 6);
-    EXPECT_THAT(called.err, HasSubstr("no cell has 6 runs"));
+    EXPECT_THAT(called.err, HasSubstr("no configuration has 6 timed runs"));
     // A new failure is a regression, however few runs there are.
     write("fails", 1, [](bench::RunRecord& record) {
         if (record.spec.repetition > 1) return;
@@ -225,7 +225,7 @@ TEST_F(CompareFolders, BadInputIsOneLineAndExitCodeThree) {
         EXPECT_THAT(called.err, HasSubstr(word));
         EXPECT_EQ(std::ranges::count(called.err, '\n'), 1) << called.err;
     }
-    for (const auto& [more, word] : {std::pair("--frames 5", "--frames: got it for result folders"),
+    for (const auto& [more, word] : {std::pair("--frames 5", "--frames: applies only to methods"),
                                      {"--columns frame_ms", "did you mean 'frame_ms_"},
                                      {"--columns fps_avg,fps_avg", "'fps_avg' twice"},
                                      {"--fail-on-regression much", "'much'"},
@@ -236,7 +236,7 @@ TEST_F(CompareFolders, BadInputIsOneLineAndExitCodeThree) {
     }
     EXPECT_THAT(call("compare ./a billboard").err, HasSubstr("'billboard' beside a result folder"));
     EXPECT_THAT(call("compare ./a ./b ./c").err, HasSubstr("got 3 result folders"));
-    EXPECT_THAT(call("compare billboard billboard:soft=true --columns fps_avg").err, HasSubstr("got it for methods"));
+    EXPECT_THAT(call("compare billboard billboard:soft=true --columns fps_avg").err, HasSubstr("not to methods"));
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST_F(Usage, AnUnknownKeyIsAnsweredWithTheNearestAndAllOthers) {
 TEST_F(Usage, AnOptionGivenTwiceIsSaidSo) {
     const Called called = call("run --method null_method --size 64x48 --size 32x24 --out " + out());
     EXPECT_EQ(called.code, 3);
-    EXPECT_EQ(called.err, "dustbench: --size: is given more than once\n");
+    EXPECT_EQ(called.err, "dustbench: --size: given more than once\n");
 }
 
 TEST_F(Usage, WhatCannotBePrintedIsAnError) {
@@ -69,7 +69,7 @@ TEST_F(Usage, ARunThatIsThereIsKeptUnlessForced) {
     const std::string first = contentOf(record);
     const Called again = shortRun(command);
     EXPECT_EQ(again.code, 0);
-    EXPECT_THAT(again.err, HasSubstr("--force measures again"));
+    EXPECT_THAT(again.err, HasSubstr("--force measures it again"));
     EXPECT_THAT(again.out, HasSubstr("frame"));  // its table is printed all the same
     EXPECT_EQ(contentOf(record), first);
     EXPECT_EQ(shortRun(command + " --force").code, 0);
