@@ -133,7 +133,8 @@ Command viewCommand() {
                 keysText(),
             [options](Arguments& arguments) {
                 arguments.text("--method", "ID", "picture A: one of `dustbench list methods`", options->world.method);
-                arguments.text("--with", "ID", "picture B, next to A: a method; or 'exact' for the ground truth", options->with);
+                arguments.text("--with", "ID", "picture B, next to A: a method, or 'exact' for the ground truth",
+                               options->with);
                 options->world.declareWorld(arguments);
                 arguments.integer("--frame", "go to this frame first", options->frame, 0, 10'000'000);
                 arguments.text("--state", "FILE", "saved settings, instead of the options above", options->state);

@@ -35,7 +35,7 @@ float depthGrey(float depth) {
     return clamp(1.0 - log2(nearMetres / max(depth, 1e-9)) / log2(1000.0), 0.0, 1.0);
 }
 
-/// By its bits, for a compiler may take every number for a finite one.
+/// Tests the bits, because a compiler may assume that every number is finite.
 bool isFinite(vec4 value) {
     uvec4 exponent = floatBitsToUint(value) & 0x7f800000u;
     return all(notEqual(exponent, uvec4(0x7f800000u)));
