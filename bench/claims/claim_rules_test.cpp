@@ -313,7 +313,7 @@ TEST(ClaimRules, InvalidRunsAreNotUsed) {
     EXPECT_EQ(result.cells.at(0).turns, 5u);
     const files::CsvTable one = seedTable(1, value, 1);
     EXPECT_EQ(judgeRule(ruledClaim(bySeed).rule, ResultRows(one, nullptr)).note,
-              "no popping of haze in a run of s that is done and valid: clipped (1 run)");
+              "no popping of haze in a completed run of s; invalid: clipped (1 run)");
 }
 
 TEST(ClaimRules, EachVariantOfARatioIsACellOfItsOwn) {
@@ -506,7 +506,7 @@ TEST(ClaimControls, RunsThatAreMissingAreSaid) {
 TEST(ClaimRules, WhatIsMissingIsNamed) {
     const auto none = [](const std::string&, int, int) { return std::nan(""); };
     EXPECT_EQ(judged(faster, none).verdict, ClaimVerdict::notTested);
-    EXPECT_EQ(judged(faster, none).note, "no frame_ms_median of haze in a run of s that is done");
+    EXPECT_EQ(judged(faster, none).note, "no frame_ms_median of haze in a completed run of s");
     const Claim untestable =
         parseClaims("[[claim]]\nid = \"X\"\ntext = \"t\"\nquantity = \"none\"\nmissing = \"no numbers\"", "c").at(0);
     EXPECT_EQ(untestable.missing, "no numbers");

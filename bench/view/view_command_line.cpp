@@ -120,8 +120,7 @@ class LineReader {
         const std::string name = text.substr(0, equals);
         const std::vector<std::string> values = expandValues(name, text.substr(equals + 1));
         if (values.size() != 1)
-            throw InputError(fmt::format("-P: parameter {}: got {} values, expected one", name,
-                                         values.size()));
+            throw InputError(fmt::format("-P: parameter {}: got {} values, expected one", name, values.size()));
         if (!given_.emplace(name, values.front()).second) throw InputError("-P: parameter " + name + " is given twice");
     }
     ViewState finished() {

@@ -16,7 +16,7 @@ class ViewerPanels {
     /// `fontPixels`: height of the text at scale 1.
     ViewerPanels(gpu::Device& device, float fontPixels) : canvas_(device, fontPixels), fontPixels_(fontPixels) {}
 
-    /// Fills the target, which is `width` × `height`, with the viewer's picture and the panels. Passes the input of the
+    /// Fills the target, which is `width` × `height`, with the viewer's picture and the panels. Passes input of the
     /// panels and of the mouse over the picture to the viewer. Keys reach the panels only while text is typed or
     /// `walksPanel` is set.
     void draw(Viewer& viewer, const gpu::Framebuffer& target, int width, int height, const PanelInput& input);
