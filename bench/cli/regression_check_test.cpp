@@ -234,8 +234,8 @@ TEST_F(CompareFolders, BadInputIsOneLineAndExitCodeThree) {
         EXPECT_EQ(called.code, 3) << more;
         EXPECT_THAT(called.err, HasSubstr(word));
     }
-    EXPECT_THAT(call("compare ./a billboard").err, HasSubstr("'billboard' beside a result folder"));
-    EXPECT_THAT(call("compare ./a ./b ./c").err, HasSubstr("got 3 result folders"));
+    EXPECT_THAT(call("compare ./a billboard").err, HasSubstr("'billboard' together with a results folder"));
+    EXPECT_THAT(call("compare ./a ./b ./c").err, HasSubstr("got 3 results folders"));
     EXPECT_THAT(call("compare billboard billboard:soft=true --columns fps_avg").err, HasSubstr("not to methods"));
 }
 

@@ -86,7 +86,7 @@ int reportMachines(const ReportOptions& options) {
     for (const auto* sentences : {&remarks.apart, &remarks.programs, &remarks.notes})
         for (const std::string& sentence : *sentences) std::cerr << "note: " << files::printable(sentence) << "\n";
     if (!remarks.missing.empty())
-        std::cerr << fmt::format("note: {} not measured on every machine, see the list at the end of the page\n",
+        std::cerr << fmt::format("note: {} not measured on every machine, see the list on the page\n",
                                  remarks.missing.size() == 1
                                      ? std::string("1 configuration was")
                                      : fmt::format("{} configurations were", remarks.missing.size()));

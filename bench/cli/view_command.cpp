@@ -129,7 +129,7 @@ Command viewCommand() {
     options->world.method = "billboard";
     options->world.warmup = 0;
     return {"view", "Show one method, or two at once, in a window",
-            "Drive the vehicle by hand with `--drive keyboard`. Nothing shown in the window is a measurement.\n" +
+            "To drive the vehicle yourself, use `--drive keyboard`. Nothing shown in the window is a measurement.\n" +
                 keysText(),
             [options](Arguments& arguments) {
                 arguments.text("--method", "ID", "picture A: one of `dustbench list methods`", options->world.method);

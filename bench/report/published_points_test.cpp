@@ -89,7 +89,7 @@ TEST_F(Published, ARowWithoutAPlaceIsAnErrorThatNamesIt) {
     } faults[] = {
         {"mud-lods,billboard sort=none,particles,200,fps_avg,frames/s,4,4" + end,
          {"suite: got 'mud-lods'", "mud-loads"}},
-        {"mud-single,billboard,,,fps_avg,frames/s,4,4" + end, {"suite: got 'mud-single'", "two cells"}},
+        {"mud-single,billboard,,,fps_avg,frames/s,4,4" + end, {"suite: got 'mud-single'", "two configurations"}},
         {"mud-loads,billboard sort=none,p.particles,200,fps_avg,frames/s,4,4" + end,
          {"axis: got 'p.particles'", "allowed: particles"}},
         {"mud-loads,billboard,sort,1,fps_avg,frames/s,4,4" + end, {"axis: got 'sort'", "allowed: particles"}},
@@ -106,7 +106,8 @@ TEST_F(Published, ARowWithoutAPlaceIsAnErrorThatNamesIt) {
         {"mud-loads,billboard sort=quicksort,particles,200,fps_avg,frames/s,4,4" + end,
          {"of: got 'billboard sort=quicksort'", "billboard sort=radix"}},
         {"mud-loads,billboard,particles,200,fps_avg,frames/s,4,4" + end, {"of: got 'billboard (2 series)'", "one of"}},
-        {"mud-loads,billboard sort=none,particles,100,fps_avg,frames/s,28,28" + end, {"no number at this place yet"}},
+        {"mud-loads,billboard sort=none,particles,100,fps_avg,frames/s,28,28" + end,
+         {"without another number at this place"}},
         {"mud-loads,billboard sort=none,particles,200,fps_avg,frames/s,5,4" + end, {"max: got '4'", "5 and above"}},
         {"mud-loads,billboard sort=none,particles,200,fps_avg,frames/s,4,4,a PC,it", {"hardware: got 'a PC'", "year"}},
     };

@@ -177,7 +177,7 @@ TEST(ViewState, TheExactPictureIsHalfBAlone) {
     EXPECT_TRUE(showsExact(state));
     state = normalised(state);
     EXPECT_EQ(stateOfToml(toToml(state), "state.toml"), state) << toToml(state);
-    EXPECT_THAT(inputError([&] { (void)runOf(state, Half::b); }), HasSubstr("no run draws this picture"));
+    EXPECT_THAT(inputError([&] { (void)runOf(state, Half::b); }), HasSubstr("no run draws the ground truth"));
     EXPECT_FALSE(showsExact(stateOfCommandLine(commandLine(state, Half::a, "o"))));
     ViewState wrong = state;
     wrong.b->parameters["soft"] = "on";

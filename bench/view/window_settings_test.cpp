@@ -112,7 +112,7 @@ TEST_F(Settings, ABrokenFileIsOneLineAndStays) {
         SettingsKeeper keeper(file());
         EXPECT_EQ(keeper.read(), WindowSettings()) << text;
         EXPECT_THAT(keeper.problem(), StartsWith(file().string() + ":1: ")) << text;
-        EXPECT_THAT(keeper.problem(), HasSubstr("the window has its defaults"));
+        EXPECT_THAT(keeper.problem(), HasSubstr("the window uses its defaults"));
         EXPECT_EQ(keeper.problem().find('\n'), std::string::npos);
         WindowSettings changed;
         changed.divider = 0.25f;

@@ -200,8 +200,8 @@ def refuse(project):
     expect("nowhere" in missing, missing)
     expect("already exists" in dustbench("new-method", "null_method", status=3).stderr, "new-method null_method")
     expect("already exists" in dustbench("new-method", "haze", status=3).stderr, "new-method haze")
-    expect("tests or benchmarks" in dustbench("new-method", "fog_test", status=3).stderr, "new-method fog_test")
-    expect("lower case" in dustbench("new-method", "Haze", status=3).stderr, "new-method Haze")
+    expect("tests and benchmarks" in dustbench("new-method", "fog_test", status=3).stderr, "new-method fog_test")
+    expect("lower-case" in dustbench("new-method", "Haze", status=3).stderr, "new-method Haze")
 
 
 def uninstall():

@@ -84,7 +84,7 @@ class ReportOfSeveralMachines(MachinesCase):
     def test_labels_name_the_machines(self):
         data = self.data_of(self.page_of(self.lab, self.attic, "--label", "new", "--label", "old one"))
         self.assertEqual([machine["label"] for machine in data["machines"]], ["new", "old one"])
-        for labels, said in ((["--label", "x"], "got 1 for 2 folders"), (["--label", "x", "--label", "x"], "expected labels that differ")):
+        for labels, said in ((["--label", "x"], "got 1 for 2 folders"), (["--label", "x", "--label", "x"], "expected different labels")):
             called = report(self.lab, self.attic, *labels)
             self.assertEqual(called.returncode, 3)
             self.assertIn(said, called.stderr)
@@ -93,10 +93,10 @@ class ReportOfSeveralMachines(MachinesCase):
         again = self.machine("again", LAB | {"started_utc": "2026-03-02T00:00:00Z"})
         called = report(self.lab, again, "--text")
         self.assertEqual(called.returncode, 0)
-        self.assertIn("again and lab are the same machine, or two that are alike", called.stdout)
+        self.assertIn("again and lab are the same machine, or two identical ones", called.stdout)
         called = report(self.lab, os.path.join(self.lab, "..", "lab"))
         self.assertEqual(called.returncode, 3)
-        self.assertIn("got the same folder twice", called.stderr)
+        self.assertIn("given more than once", called.stderr)
 
     def test_a_missing_cell_is_named(self):
         less = self.machine("less", ATTIC, loads=(100, 200))

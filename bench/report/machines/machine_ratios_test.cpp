@@ -158,7 +158,8 @@ TEST(MachineRatios, LeaveOutWorkThatIsNotTheSame) {
     EXPECT_THAT(experiment.axes, IsEmpty());
     EXPECT_THAT(experiment.worlds, SizeIs(1));
     EXPECT_THAT(comparison.remarks.apart,
-                ElementsAre("scenes/plain.toml is not the same everywhere: different work was measured in 2 cells, "
+                ElementsAre("scenes/plain.toml is not the same everywhere: different work was measured in 2 "
+                            "configurations, "
                             "whose times are left out"));
 }
 
