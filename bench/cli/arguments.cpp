@@ -209,7 +209,7 @@ int dispatch(const std::vector<Command>& commands, const CommonOptions& common, 
         return 0;
     } catch (const CLI::ParseError& error) {
         const auto* entry = chosen();
-        // Caught by type: a subcommand's ExtrasError has the subcommand's name instead of its own.
+        // Caught by type, because a subcommand's ExtrasError has the name of the subcommand.
         if (dynamic_cast<const CLI::ExtrasError*>(&error) || !entry)
             throw unexpected(app, entry ? entry->first : nullptr, argv, error);
         const std::string_view text = error.what();

@@ -1,4 +1,4 @@
-// `dustbench merge`: combines the results of several machines in one folder.
+// `dustbench merge`: merges the results of several machines into one folder.
 #include <fmt/format.h>
 
 #include <iostream>

@@ -29,7 +29,7 @@ struct TemplateFile {
 constexpr std::array<TemplateFile, 3> templateFiles{
     {{"CMakeLists.txt", "CMakeLists.txt"}, {"method.cpp", "@ID@.cpp"}, {"method_test.cpp", "@ID@_test.cpp"}}};
 
-/// `soft_dust`: `SoftDust` with no separator, `Soft dust` with a space.
+/// `soft_dust` becomes the class `SoftDust`, and below the title `Soft dust`.
 std::string className(const std::string& id) {
     std::string name;
     bool isStart = true;

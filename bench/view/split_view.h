@@ -40,7 +40,7 @@ struct SplitSettings {
     glm::vec2 extent{1};
     Channel channel = Channel::picture;
     float stops = 0;      ///< exposure: light is multiplied by 2^stops before it is encoded
-    bool encoded = true;  ///< for display; else linear light as it is, of the channel `picture` only
+    bool encoded = true;  ///< for display; otherwise linear light, only for the channel `picture`
 
     friend bool operator==(const SplitSettings&, const SplitSettings&) = default;
 };

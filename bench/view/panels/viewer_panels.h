@@ -27,8 +27,8 @@ class ViewerPanels {
     [[nodiscard]] double textScale() const { return wantedScale_; }
     void setTextScale(double scale) { wantedScale_ = scale; }
     [[nodiscard]] PanelCanvas& canvas() { return canvas_; }
-    /// Widgets are named by their labels, parameters `a/NAME`, `b/NAME` and `world/NAME`, and the words of an open list
-    /// `LABEL/WORD`.
+    /// Widgets are named by their labels, parameters `a/NAME`, `b/NAME` and `world/NAME`, and the items of an open list
+    /// `LABEL/ITEM`.
     [[nodiscard]] const WidgetMap& widgets() const { return widgets_; }
 
  private:
