@@ -46,15 +46,15 @@ enum class Chance {
 /// The known verdict of a control.
 enum class ControlOutcome { refuted, confirmed };
 
-/// The rows with these cells: `method` → `billboard`, `p.soft` → `true`.
+/// Selects rows by the values of columns: `method` → `billboard`, `p.soft` → `true`.
 using Selection = std::vector<std::pair<std::string, std::string>>;
 
-/// Parses `billboard soft=true`: a method, then cells of parameters; or cells alone. `scene` and `drive` are columns,
-/// any other name is a parameter's. Messages begin with `what`. Throws InputError.
+/// Parses `billboard soft=true`: a method, then values of parameters; or values alone. `scene` and `drive` are columns,
+/// any other name is a parameter. Messages begin with `what`. Throws InputError.
 [[nodiscard]] Selection parseSelection(const std::string& text, const std::string& what);
-/// The same as text.
+/// The selection as text.
 [[nodiscard]] std::string textOf(const Selection& selection);
-/// The values that a bar separates: `10|40`.
+/// The values separated by bars: `10|40`.
 [[nodiscard]] std::vector<std::string> alternativesIn(const std::string& text);
 /// `particles` for the column `p.particles`.
 [[nodiscard]] std::string nameOf(const std::string& column);

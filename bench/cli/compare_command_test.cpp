@@ -75,7 +75,7 @@ TEST_F(CompareCommand, ShowsAMethodWithASimulationOfItsOwnBesideTheJudged) {
         "-P particles=50");
     ASSERT_EQ(called.code, 0) << called.err;
     const pictures::Image sheet = pictures::readImage(fs::path(out()) / "contact_sheet.png");
-    // Exact, both methods, and the difference of one.
+    // The reference image, both methods, and the difference of one.
     EXPECT_GT(sheet.width, 4 * 400);
     EXPECT_LT(sheet.width, 5 * 400);
     const auto summary = files::CsvTable::parseFile(fs::path(out()) / "summary.csv");
@@ -90,7 +90,7 @@ TEST_F(CompareCommand, TurnsTheSheetOfManyMethods) {
         "--warmup 1 --repetitions 1 -P preroll=0.1 -P particles=50");
     ASSERT_EQ(called.code, 0) << called.err;
     const pictures::Image sheet = pictures::readImage(fs::path(out()) / "contact_sheet.png");
-    // Five moments with their differences, of the exact picture and five methods.
+    // Five moments of the reference image and of five methods, with their differences.
     EXPECT_GT(sheet.width, 10 * 400);
     EXPECT_LT(sheet.width, 11 * 400 + 160);
     EXPECT_GT(sheet.height, 6 * 300);

@@ -228,7 +228,7 @@ TEST_F(Dustbench, AListOfValuesIsARunEach) {
 
     const Called tables = call(fmt::format("report {} --text", out()));
     ASSERT_EQ(tables.code, 0) << tables.err;
-    // The cloud has not grown to its number yet: `invalid: …` is a line of its own.
+    // The cloud has not reached its number of particles: `invalid: …` is a separate line.
     EXPECT_EQ(std::ranges::count(tables.out, '\n'), 3 + 6 + 1 + 1) << tables.out;
     EXPECT_THAT(tables.out, AllOf(HasSubstr(", particles=150 speed=20 "), HasSubstr(" runs ")));
 }

@@ -23,7 +23,7 @@ class Film : public Dustbench {
         setenv("PATH", path_.c_str(), 1);
         Dustbench::TearDown();
     }
-    /// An ffmpeg that notes its arguments and the pictures that it finds.
+    /// An ffmpeg that records its arguments and the pictures that it finds.
     void install(const std::string& last) const {
         const fs::path bin = folder_ / "bin";
         fs::create_directories(bin);

@@ -10,7 +10,7 @@
 
 namespace dustbench::cli {
 
-/// `recommendations` has one for each ranking, in their order.
+/// `recommendations` contains one for each ranking, in the same order.
 [[nodiscard]] std::string recommendationText(const bench::Budget& budget, const bench::MeasuredRuns& runs,
                                              const bench::Rankings& rankings,
                                              const std::vector<bench::Recommendation>& recommendations);

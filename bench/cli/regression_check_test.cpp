@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 class CompareFolders : public Dustbench {
  protected:
-    /// Six runs of two cells; `change` is applied to each record before it is written.
+    /// Six runs of each of two configurations. `change` is applied to each record before it is written.
     template <typename Change>
     void write(const std::string& name, double factor, const Change& change) const {
         for (const int particles : {100, 900})
@@ -86,7 +86,7 @@ TEST_F(CompareFolders, AnAlertIsMeasuredAgainAndStandsOnlyIfItAlertsAgain) {
            "[parameters]\npreroll = 0.1\nparticles = [10, 20]\n";
     ASSERT_EQ(call(fmt::format("suite '{0}/small.toml' --out '{0}/a'", folder_.string())).code, 0);
     fs::copy(folder_ / "a", folder_ / "b", fs::copy_options::recursive);
-    /// Frame times of all runs as if they had taken so many ms.
+    /// Replaces the frame times of all runs by this many ms.
     const auto pretend = [this](const std::string& name, double ms) {
         for (const fs::path& run : runs((folder_ / name).string())) {
             std::stringstream text;
@@ -177,7 +177,7 @@ TEST_F(CompareFolders, AGateThatCouldNotCloseIsNotPassed) {
     const Called called = compare("few");
     EXPECT_EQ(called.code, 6);
     EXPECT_THAT(called.err, HasSubstr("no configuration has 6 timed runs"));
-    // A new failure is a regression, however few runs there are.
+    // A new failure is a regression even with few runs.
     write("fails", 1, [](bench::RunRecord& record) {
         if (record.spec.repetition > 1) return;
         record.status = bench::RunStatus::timeout;

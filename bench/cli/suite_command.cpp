@@ -33,7 +33,7 @@ struct SuiteOptions {
     VolumeOptions volumes{"--volumes"};
 };
 
-/// Prints the Slurm script of the suite; nothing is run or written.
+/// Prints the Slurm script of the suite. Runs and writes nothing.
 int printSlurmScript(const SuiteOptions& options, const bench::Suite& suite, double timeoutSeconds,
                      double cooldownSeconds) {
     if (!options.shard.empty() || options.dryRun || options.estimate)

@@ -11,7 +11,7 @@
 
 namespace dustbench::bench {
 
-/// `carr2006-fig7`, `carr2006-fig7-stages` …: the charts that `writeCharts` offers for this data.
+/// Ids of the charts that `writeCharts` can write for this data: `carr2006-fig7`, `carr2006-fig7-stages` …
 [[nodiscard]] std::vector<std::string> chartIds(const ReportData& data);
 
 struct ChartTarget {

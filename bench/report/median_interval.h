@@ -1,6 +1,6 @@
 // The median of a few repetitions, with a confidence interval.
 //
-// Each value lies below the true median with probability 1/2, whatever the distribution, so the median lies between the
+// Each value is below the true median with probability 1/2, whatever the distribution. So the median is between the
 // order statistics x(j) and x(n+1−j) with probability 1 − 2·Σ_{i<j} C(n, i)/2ⁿ. The maximum j that reaches 95 % is
 // used. For fewer than 6 values even the whole range has less; it is returned with its probability. Threads: pure.
 #pragma once

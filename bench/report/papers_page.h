@@ -16,7 +16,7 @@ struct PaperLine {
     std::string citation, venue;
     std::string folder;  ///< folder of its page, relative to the index
     std::size_t runs = 0, runsDone = 0, runsWithWarnings = 0;
-    std::string form;                       ///< `quick` or `whole`
+    std::string form;                       ///< `quick` or `full`
     std::vector<std::string> machines;      ///< `AMD EPYC, 2 cores, llvmpipe …`
     std::array<std::size_t, 6> verdicts{};  ///< by ClaimVerdict
 };

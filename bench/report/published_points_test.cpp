@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// A paper with charts against a load, of bars, of bytes without times, and a suite of one cell.
+/// A paper with a chart against a load, a chart of bars, a chart of bytes without times, and a suite with one
+/// configuration.
 class Published : public testing::Test {
  protected:
     void SetUp() override {

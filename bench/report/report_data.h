@@ -37,7 +37,7 @@ struct ReportCell {
     std::map<std::string, MedianInterval, std::less<>> values;  ///< by column of summary.csv
 };
 
-/// ms = a + b·N^k through the runs of cells that differ only in the load N.
+/// A fit ms = a + b·N^k of the runs of cells that differ only in the load N.
 struct ReportFit {
     std::string axis, column, method;
     std::map<std::string, std::string, std::less<>> settings;  ///< without that of `axis`

@@ -172,7 +172,7 @@ std::set<std::string> controlsOf(const std::string& paper) {
 /// The tables in the folder of the page, to which it links.
 void listFiles(const fs::path& folder, ReportData& data) {
     for (const char* name : {"summary.csv", "claims.csv", "experiments.csv", "machine.csv", "cinema.cdb/data.csv"})
-        // The page writes claims.csv itself.
+        // claims.csv is written together with the page.
         if (std::error_code none;
             fs::exists(folder / name, none) || (name == std::string_view("claims.csv") && !data.claims.empty()))
             data.files.emplace_back(name);

@@ -12,8 +12,8 @@ namespace dustbench::bench {
 
 /// How many outlines pass through each pixel.
 struct Outlines {
-    Plane quads;   ///< of puffs: squares across the view with half side 1.5 r, as overdrawMap fills them
-    Plane voxels;  ///< edges of the octrees' voxels, cut off before the eye
+    Plane quads;   ///< of puffs: squares that face the camera, with half side 1.5 r, as in overdrawMap
+    Plane voxels;  ///< edges of the octrees' voxels, clipped in front of the eye
 };
 [[nodiscard]] Outlines outlinesOf(const CollectedVolume& volume, const scene::View& view);
 

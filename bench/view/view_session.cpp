@@ -177,7 +177,7 @@ void ViewSession::step() {
     ++next_;
     ++moment_;
     if (state_.drive == keyboardDrive && isOfDrive) recording_.add(world_->controls());
-    // As replay.h: a method is updated from the last step of the preroll on, or all the time if it wants that.
+    // As in replay.h: a method is updated from the last step of the preroll on, or always if it requests that.
     for (ShownHalf& shown : halves_)
         if (shown.host && (frame() >= -state_.warmup - 1 || shown.host->method().wantsPreroll())) updateHalf(shown);
     if (truth_.host && frame() >= -state_.warmup - 1) updateHalf(truth_);
@@ -250,7 +250,7 @@ ViewState ViewSession::replayOf(const std::string& file) const {
         throw std::logic_error("ViewSession: nothing has been driven by keyboard");
     ViewState replay = state();
     replay.drive = file;
-    replay.world.erase("speed");  // a drive by pedals has no target speeds to replace
+    replay.world.erase("speed");  // a drive with pedals has no target speeds that this could replace
     return replay;
 }
 

@@ -37,7 +37,7 @@ struct ViewState {
     std::uint64_t seed = 1;
     ImageSize size;
     int threads = 0;          ///< 0: one per core
-    std::int64_t warmup = 0;  ///< frames before frame 0, as a run has them
+    std::int64_t warmup = 0;  ///< number of frames before frame 0, as in a run
     std::int64_t frame = 0;
     HalfState a;
     std::optional<HalfState> b;

@@ -41,7 +41,7 @@ std::string otherValue(const Parameter& parameter) {
     return {};
 }
 
-/// A state with everything off its default but the method's parameters.
+/// A state in which everything except the method's parameters differs from its default.
 ViewState unusual(const std::string& method) {
     ViewState state;
     state.scene = "dir with 'quotes'/scene.toml";

@@ -63,8 +63,8 @@ class Viewer {
     /// Shows a message of the calling program.
     void say(std::string message) { message_ = std::move(message); }
 
-    /// A frame of the window: steps unless paused (the preroll for at most `secondsForPreroll`), draws and composes
-    /// unless drawing is paused. Throws InputError if the OpenGL context is lost.
+    /// Makes a frame of the window: steps unless paused (the preroll for at most `secondsForPreroll`), draws and
+    /// composes unless drawing is paused. Throws InputError if the OpenGL context is lost.
     void advance(double secondsForPreroll = 0.05);
     /// The composed picture of the last advance(), without panels, display-encoded.
     [[nodiscard]] const gpu::Texture& image() const { return image_; }
@@ -154,7 +154,7 @@ class Viewer {
     [[nodiscard]] std::string frameName() const;
     /// The light of image(), before it is encoded for display.
     [[nodiscard]] pictures::Image lightOfImage();
-    /// Half B if it can be shown, else A.
+    /// Half B if it can be shown, otherwise A.
     [[nodiscard]] Half secondHalf() const;
     template <typename Move>
     void moveCamera(const Move& move);

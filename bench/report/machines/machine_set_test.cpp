@@ -132,7 +132,7 @@ TEST(MachineRemarks, SayOnceWhichSettingsKeepMachinesApart) {
     EXPECT_THAT(apart.remarks.apart, ElementsAre("size: 640x480 on large; 64x48 on small"));
     EXPECT_THAT(apart.remarks.missing, IsEmpty());
     EXPECT_FALSE(apart.isComparable());
-    // A third machine that has cells in common with one of them.
+    // A third machine that shares configurations with one of them.
     const auto some = compared({{"small", storedRuns(session(1, 0.5), "A")},
                                 {"large", storedRuns(large, "B")},
                                 {"third", storedRuns(session(2, 0.5), "C")}});
@@ -162,7 +162,7 @@ TEST(MachineRemarks, SayThatTwoFoldersAreOfOneMachine) {
 TEST(MachineRemarks, SayThatTheRunsOfOneMachineAreOfSeveralPrograms) {
     StoredRuns mixed = storedRuns(session(1, 0.5), "A");
     mixed.begin()->second.provenance["git_commit"] = "fedcba9876543210";
-    // Of a run that is not done nothing is shown, so its commit does not count.
+    // Nothing is shown of a run that did not complete, so its commit does not count.
     StoredRuns failed = storedRuns(session(1, 0.5), "B");
     failed.begin()->second.provenance["git_commit"] = "fedcba9876543210";
     failed.begin()->second.status = RunStatus::failed;

@@ -159,7 +159,7 @@ TEST_F(Panels, RandomInputDoesNotBreakThem) {
     const auto below = [&](int limit) { return static_cast<int>(random() % static_cast<unsigned>(limit)); };
     const int inputs = randomInputs();
     for (int n = 0; n < inputs; ++n) {
-        // Above the parameters, which can ask for ten million particles, or over the picture.
+        // Above the parameters, which could request ten million particles, or over the picture.
         input_.mouse =
             below(2) == 0 ? glm::vec2(below(width), below(200)) : glm::vec2(320 + below(width - 320), below(height));
         for (bool& button : input_.buttons) button = below(3) == 0;
@@ -170,7 +170,7 @@ TEST_F(Panels, RandomInputDoesNotBreakThem) {
         if (below(4) == 0) input_.text = "1x.";
         if (key != Key::q) below(2) == 0 ? viewer_->press(key, below(4) == 0) : viewer_->release(key);
         if (n % 50 == 0) {
-            ViewState state = viewer_->state();  // half B in turn: a method, the exact picture, none
+            ViewState state = viewer_->state();  // half B is alternately a method, the ground truth, none
             state.b = HalfState{methods().back().id, {}};
             if (n % 150 == 50) state.b = HalfState{exactPicture, {}};
             if (n % 150 == 100) state.b.reset();

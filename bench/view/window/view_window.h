@@ -1,4 +1,4 @@
-// Opens a window, and shows a viewer in it until it is closed.
+// Opens a window and shows a viewer in it until it is closed.
 #pragma once
 
 #include <filesystem>
