@@ -159,7 +159,7 @@ TEST(PublishedNumbers, OfEveryPaperHaveTheirPlaces) {
     EXPECT_GE(numbers, 13u);
 }
 
-/// The thesis's own file with one text in place of another.
+/// The thesis's file with one text replaced by another.
 TEST(PublishedNumbers, OfTheThesisAreHeldToItsSuites) {
     const Folder folder;
     const fs::path thesis = files::dataFolder() / "papers" / "plugin-thesis";

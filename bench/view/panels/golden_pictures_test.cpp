@@ -1,8 +1,8 @@
 // Compares pictures of views and panels with golden ones, by FLIP. `make golden` draws them again: look at them before
 // you commit them.
 //
-// They contain no times. Between two rasterisers or compilers, a few pixels at edges differ by some 8-bit steps: the mean
-// FLIP is below 0.01. Exchanged halves, a divider moved by a tenth or an additional line of text are above 0.02.
+// They contain no times. Between two rasterisers or compilers, a few pixels at edges differ by some 8-bit steps, so the
+// mean FLIP is below 0.01. Exchanged halves, a divider moved by a tenth or an additional line of text are above 0.02.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -52,7 +52,7 @@ TEST_F(Panels, ChannelExposureAndZoomAreAtHand) {
     EXPECT_GT(viewer_->split.origin.x, 0.3f);
 }
 
-/// Pixels of a rectangle that have this colour.
+/// Number of pixels of a rectangle with this colour.
 int countOf(const pictures::Image& image, const PanelRectangle& where, glm::ivec3 colour) {
     int count = 0;
     for (int y = static_cast<int>(where.minimum.y); y < static_cast<int>(where.maximum.y); ++y)
@@ -61,7 +61,7 @@ int countOf(const pictures::Image& image, const PanelRectangle& where, glm::ivec
     return count;
 }
 
-/// Pixels that a stage has in a half's stack: a column a frame, what is above the scale is cut off.
+/// Number of pixels of a stage in a half's chart: one column per frame, cut off above the scale.
 double stackedArea(const Viewer& viewer, std::size_t half, std::string_view stage, const PanelRectangle& stack) {
     const glm::dvec2 size = stack.maximum - stack.minimum;
     const auto shown = [&, scale = stackScaleMs(viewer)](double ms) { return std::min(ms / scale, 1.0) * size.y; };
