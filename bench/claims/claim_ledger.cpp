@@ -39,7 +39,7 @@ std::string cellsText(const std::vector<ClaimCell>& cells) {
     return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// Callers loop over all repetitions, so the number must be within its limit.
+/// Callers loop up to this number, so it must be within its limit.
 int repetitionIn(const files::CsvTable& summary, std::size_t row) {
     const double number = summary.number(row, "repetition");
     if (!(number >= 1 && number <= files::limits::repetitions))

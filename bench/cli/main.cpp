@@ -53,8 +53,8 @@ CommonOptions commonOptions() {
     };
     return {[adapter, data, methodPath](Arguments& arguments) {
                 arguments.texts("--data", "DIR",
-                                "data folder to search before the installed data; may be given several times: the "
-                                "first folder with a name wins; replaces DUSTBENCH_DATA (folders separated by ':')",
+                                "data folder to search before the installed data; may be given several times, the "
+                                "first that contains a name wins; replaces DUSTBENCH_DATA (folders separated by ':')",
                                 data->emplace_back());
                 arguments.text("--adapter", "N|NAME",
                                "adapter to draw with: index or part of a name listed by `dustbench env`; default: the "
@@ -62,8 +62,8 @@ CommonOptions commonOptions() {
                                *adapter);
                 arguments.texts(
                     "--method-path", "DIR",
-                    "folder of methods built elsewhere, *.dustmethod.so; may be given several times: the first "
-                    "folder with a name wins; replaces DUSTBENCH_METHOD_PATH (folders separated by ':')",
+                    "folder of methods built elsewhere, *.dustmethod.so; may be given several times, the first "
+                    "that contains a name wins; replaces DUSTBENCH_METHOD_PATH (folders separated by ':')",
                     methodPath->emplace_back());
             },
             [adapter, data, methodPath, all] {

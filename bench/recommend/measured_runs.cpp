@@ -182,7 +182,8 @@ MeasuredRuns readMeasuredRuns(const fs::path& from) {
     const fs::path file = fs::is_directory(from, error) ? from / "summary.csv" : from;
     if (!fs::is_regular_file(file, error))
         throw InputError(fmt::format(
-            "'{}': contains no results, expected a summary.csv or a folder written by `suite`, `compare` or `reproduce`",
+            "'{}': contains no results, expected a summary.csv or a folder written by `suite`, `compare` or "
+            "`reproduce`",
             from.string()));
     MeasuredRuns measured = measuredRuns(CsvTable::parseFile(file), from.string());
     if (const fs::path machine = file.parent_path() / "machine.csv"; fs::is_regular_file(machine, error))
