@@ -18,7 +18,7 @@ class BundleCommands : public Dustbench {
     }
     [[nodiscard]] std::string mine() const { return fmt::format("--data '{}'", (folder_ / "mine").string()); }
     [[nodiscard]] std::string bundle() const { return (folder_ / "b.tar").string(); }
-    /// A suite of two repetitions with a scene of one's own.
+    /// A suite of two repetitions with a user's scene.
     void measure() const {
         std::ofstream(folder_ / "small.toml") << "title = \"Small\"\nmethods = [\"null_method\"]\nscenes = "
                                                  "[\"mine\"]\nframes = 3\nwarmup = 1\nrepetitions = 2\n"
@@ -33,7 +33,7 @@ class BundleCommands : public Dustbench {
     [[nodiscard]] Called verify(const std::string& more = "") const {
         return call(fmt::format("verify '{}' {}", bundle(), more));
     }
-    /// Unpacks the bundle, lets the commands of a shell change it, and packs it again with its sums as they are then.
+    /// Unpacks the bundle, lets shell commands change it, and packs it again with recomputed checksums.
     void forge(const std::string& commands) const {
         const Called called = callAs(
             "bash", fmt::format("-ec 'cd \"{}\" && rm -rf b && tar -xf b.tar && cd b && {} && rm SHA256SUMS && "
@@ -52,7 +52,7 @@ TEST_F(BundleCommands, ABundleAloneIsEnoughToRepeatItsRuns) {
     for (const char* name : {"mine", "small.toml", "out"}) fs::remove_all(folder_ / name);
     const Called verified = verify();
     EXPECT_EQ(verified.code, 0) << verified.err;
-    EXPECT_THAT(verified.out, HasSubstr("files are as they were packed: 2 runs of 1 simulations"));
+    EXPECT_THAT(verified.out, HasSubstr("files are unchanged: 2 runs of 1 simulations"));
     EXPECT_THAT(verified.out, HasSubstr("and 1 more: the same hashes"));
     EXPECT_THAT(verify("--runs 0").out, Not(HasSubstr("hashes")));
     const Called listed = callAs("tar", fmt::format("-tf '{}'", bundle()));
@@ -134,7 +134,7 @@ TEST_F(BundleCommands, WhatDoesNotBelongTogetherIsRefused) {
                              "$(ls results/runs/*/run.json | head -n 1)"),
                 HasSubstr("of the same simulation"));
     EXPECT_THAT(refusedAfter("rm -r results"), HasSubstr("not a results folder"));
-    // The archive alone is changed, not its sums.
+    // Changes only the archive, not its checksums.
     const auto refusedAs = [&](const std::string& tarOptions) {
         std::ofstream(bundle(), std::ios::binary) << whole;
         const Called changed = callAs("tar", fmt::format("-C '{}' -f '{}' {}", folder_.string(), bundle(), tarOptions));
@@ -166,7 +166,7 @@ TEST_F(BundleCommands, WrongUseIsOneLine) {
     EXPECT_THAT(verify().err, HasSubstr("not a dustbench bundle"));
     EXPECT_EQ(verify().code, 3);
     EXPECT_THAT(call("verify /nowhere.tar").err, HasSubstr("No such file"));
-    EXPECT_THAT(pack().err, HasSubstr("is there already"));
+    EXPECT_THAT(pack().err, HasSubstr("already exists"));
     fs::remove(bundle());
     EXPECT_THAT(call(fmt::format("bundle '{}'", folder_.string())).err, HasSubstr("is not a results folder"));
     EXPECT_THAT(call(fmt::format("verify '{}'", folder_.string())).err, HasSubstr("dustbench: '"));

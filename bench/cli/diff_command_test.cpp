@@ -88,7 +88,7 @@ TEST_F(DiffCommand, WritesAHeatMapThatIsBrightWhereThePicturesDiffer) {
 }
 
 TEST_F(DiffCommand, SeesLessFromFartherAway) {
-    // Stripes one pixel wide: with more pixels per degree a viewer sees them blurred.
+    // Stripes one pixel wide: with more pixels per degree, an observer sees them blurred.
     pictures::Image stripes = gradient(64, 48, 0), even = stripes;
     for (std::size_t i = 0; i < stripes.pixels.size(); ++i)
         stripes.pixels[i] += glm::vec4(glm::vec3(i % 2 ? 0.1f : -0.1f), 0);

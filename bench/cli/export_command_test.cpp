@@ -110,7 +110,7 @@ TEST_F(ExportCommand, WritesTheSurfacesThatAMethodWearsWithTheirHeightsAndPartic
     EXPECT_GT(hitCount, 0);
     EXPECT_GT(depthRemoved, 0);
     double bounds[6];
-    wall.GetBounds(bounds);  // 4 m by 2 m about x = 8, standing on the ground behind z = −1.9
+    wall.GetBounds(bounds);  // 4 m by 2 m around x = 8, on the ground behind z = −1.9
     EXPECT_NEAR(bounds[0], 6, 0.02);
     EXPECT_NEAR(bounds[1], 10, 0.02);
     EXPECT_NEAR(bounds[2], 0, 0.02);
@@ -304,7 +304,7 @@ TEST_F(ExportCommand, ASuiteWritesVolumesOfEveryRun) {
     ASSERT_EQ(runs(out()).size(), 2u);
     for (const fs::path& run : runs(out()))
         EXPECT_THAT(names(run / "volumes"), IsSupersetOf({"f000000.vti", "f000002.vti", "f000002.vtp", "scene.pvd"}));
-    // The command line takes precedence; these are then different runs.
+    // The command line takes precedence, so these are different runs.
     ASSERT_EQ(call(suite + "--volumes 1 --format vtp").code, 0);
     EXPECT_EQ(runs(out()).size(), 4u);
     EXPECT_THAT(call(suite + "--volumes 4").err, HasSubstr("allowed: frames 0..3"));

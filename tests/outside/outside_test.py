@@ -139,7 +139,7 @@ def use_part(project):
 
 def refused(folder, identifier, reason):
     listed = dustbench("list", "methods", "--method-path", folder)
-    lines = [line for line in listed.stdout.splitlines() if "is not taken" in line and f"{identifier}.dustmethod.so" in line]
+    lines = [line for line in listed.stdout.splitlines() if "is not loaded" in line and f"{identifier}.dustmethod.so" in line]
     expect(lines and reason in lines[0], f"{identifier}: expected '{reason}', got {lines}")
     used = dustbench("run", "--method", identifier, "--method-path", folder, "--out", "none", status=3).stderr
     expect(used.count("\n") == 1 and reason in used, f"run of {identifier}: {used}")
@@ -194,14 +194,14 @@ def refuse(project):
     twice.mkdir()
     shutil.copy(project / "build/haze.dustmethod.so", twice)
     both = dustbench("list", "methods", "--method-path", project / "build", "--method-path", twice).stdout
-    why = [line for line in both.splitlines() if f"{twice}/haze.dustmethod.so is not taken" in line]
+    why = [line for line in both.splitlines() if f"{twice}/haze.dustmethod.so is not loaded" in line]
     expect(why and f"already exists, from {project}/build/haze.dustmethod.so" in why[0], f"twice: {why}")
     missing = dustbench("list", "--method-path", "nowhere", status=3).stderr
     expect("nowhere" in missing, missing)
-    expect("is there already" in dustbench("new-method", "null_method", status=3).stderr, "new-method null_method")
-    expect("is there already" in dustbench("new-method", "haze", status=3).stderr, "new-method haze")
-    expect("tests or benchmarks" in dustbench("new-method", "fog_test", status=3).stderr, "new-method fog_test")
-    expect("lower case" in dustbench("new-method", "Haze", status=3).stderr, "new-method Haze")
+    expect("already exists" in dustbench("new-method", "null_method", status=3).stderr, "new-method null_method")
+    expect("already exists" in dustbench("new-method", "haze", status=3).stderr, "new-method haze")
+    expect("tests and benchmarks" in dustbench("new-method", "fog_test", status=3).stderr, "new-method fog_test")
+    expect("lower-case" in dustbench("new-method", "Haze", status=3).stderr, "new-method Haze")
 
 
 def uninstall():

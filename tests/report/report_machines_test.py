@@ -84,7 +84,7 @@ class ReportOfSeveralMachines(MachinesCase):
     def test_labels_name_the_machines(self):
         data = self.data_of(self.page_of(self.lab, self.attic, "--label", "new", "--label", "old one"))
         self.assertEqual([machine["label"] for machine in data["machines"]], ["new", "old one"])
-        for labels, said in ((["--label", "x"], "got 1 for 2 folders"), (["--label", "x", "--label", "x"], "expected labels that differ")):
+        for labels, said in ((["--label", "x"], "got 1 for 2 folders"), (["--label", "x", "--label", "x"], "expected different labels")):
             called = report(self.lab, self.attic, *labels)
             self.assertEqual(called.returncode, 3)
             self.assertIn(said, called.stderr)
@@ -93,10 +93,10 @@ class ReportOfSeveralMachines(MachinesCase):
         again = self.machine("again", LAB | {"started_utc": "2026-03-02T00:00:00Z"})
         called = report(self.lab, again, "--text")
         self.assertEqual(called.returncode, 0)
-        self.assertIn("again and lab are the same machine, or two that are alike", called.stdout)
+        self.assertIn("again and lab are the same machine, or two identical ones", called.stdout)
         called = report(self.lab, os.path.join(self.lab, "..", "lab"))
         self.assertEqual(called.returncode, 3)
-        self.assertIn("got the same folder twice", called.stderr)
+        self.assertIn("given more than once", called.stderr)
 
     def test_a_missing_cell_is_named(self):
         less = self.machine("less", ATTIC, loads=(100, 200))
@@ -113,7 +113,7 @@ class ReportOfSeveralMachines(MachinesCase):
         out = os.path.join(self.place, "never")
         called = report(self.lab, large, "--out", out)
         self.assertEqual(called.returncode, 6)
-        self.assertIn("not comparable: size: 320x240 on lab; 640x480 on large\nnot comparable: no cell is done on two machines\n", called.stderr)
+        self.assertIn("not comparable: size: 320x240 on lab; 640x480 on large\nnot comparable: no configuration was measured on two machines\n", called.stderr)
         self.assertFalse(os.path.exists(out))
         data = self.data_of(self.page_of(self.lab, large, self.attic))
         self.assertEqual(data["remarks"]["apart"], ["size: 320x240 on attic and lab; 640x480 on large"])
@@ -142,7 +142,7 @@ class ReportOfSeveralMachines(MachinesCase):
             self.assertIn(option, called.stderr)
         called = report(self.lab, "--label", "x")
         self.assertEqual(called.returncode, 3)
-        self.assertIn("--label: got it for one folder", called.stderr)
+        self.assertIn("--label: applies only to several folders", called.stderr)
         called = report(self.lab, self.attic, "--out", self.lab)
         self.assertEqual(called.returncode, 3)
         self.assertFalse(os.path.exists(os.path.join(self.lab, "index.html")))
