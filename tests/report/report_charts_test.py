@@ -33,7 +33,7 @@ class ReportCharts(page_case.PageCase):
         self.assertLess(after["chart-carr2006-compare-quick-stages"], before["chart-carr2006-compare-quick-stages"])
         self.assertEqual(after["chart-carr2006-fig5-quick"], 0)
         self.assertEqual(after["chart-carr2006-fig7-quick"], before["chart-carr2006-fig7-quick"])
-        self.assertIn("switched on", self.browser.evaluate("document.querySelector('#chart-carr2006-fig5-quick').textContent"))
+        self.assertIn("current selection", self.browser.evaluate("document.querySelector('#chart-carr2006-fig5-quick').textContent"))
         self.browser.evaluate("document.querySelector('.chip[data-method=billboard]').click()")
         self.assertEqual(self.marks(), before)
 

@@ -279,7 +279,7 @@ class PageOfSeveralMachines(MachinesCase):
         self.assertEqual(rows["warnings"], ["none", "the machine is busy (36 runs)", "none"])
         self.assertEqual(rows["memory"], ["16.0 GiB"] * 3)
         said = self.texts(".problems")[0]
-        for part in ("commit: 0123456789ab on cellar and lab; fedcba987654 on attic", "a software renderer on attic", "2 cells are not done on every machine"):
+        for part in ("commit: 0123456789ab on cellar and lab; fedcba987654 on attic", "a software renderer on attic", "2 configurations are missing on some machines"):
             self.assertIn(part, said)
         self.assertEqual(self.texts("#missing tbody td:first-child"), ["fog particles=400", "haze particles=400"])
 

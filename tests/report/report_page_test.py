@@ -58,8 +58,8 @@ class ReportPage(page_case.PageCase):
         self.assertTrue(self.browser.evaluate("document.getElementById('title').textContent").startswith("Variants of a New Volumetric Model"))
         trust = self.browser.evaluate("document.querySelector('.trust').innerText")
         count = len(self.rows)
-        for part in ("quick form", "5 seeds, 6 repetitions", f"{count} of {count + 4} runs with warnings", "software renderer: llvmpipe",
-                     f"1 of {count + 4} runs are not done"):
+        for part in ("quick run", "5 seeds, 6 repetitions", f"{count} of {count + 4} runs with warnings", "software renderer: llvmpipe",
+                     f"1 of {count + 4} runs not completed"):
             self.assertIn(part, trust)
         answers = self.browser.evaluate("document.querySelector('.answers').textContent")
         self.assertIn("octree_recursive has a shorter build time than octree_search", answers)
@@ -222,7 +222,7 @@ class ReportPage(page_case.PageCase):
         self.assertEqual(set(marks), {"chart-tiny-loads", "chart-tiny-loads-stages", "chart-frames"})
         self.assertTrue(all(marks.values()), marks)
         self.assertIn("✓ confirmed", self.browser.evaluate("document.getElementById('claims').textContent"))
-        self.assertRegex(self.browser.evaluate("document.getElementById('claims').textContent"), r"refuted, as known \(1\.\d+×: for each particle there is one\)")
+        self.assertRegex(self.browser.evaluate("document.getElementById('claims').textContent"), r"refuted, as expected \(1\.\d+×: for each particle there is one\)")
         self.assertTrue(self.browser.evaluate("[...document.querySelectorAll('.picture-stage img')].every(image => image.naturalWidth === 96)"))
 
     def test_reproducing_all_papers_ends_with_an_index_of_them(self):
