@@ -86,7 +86,7 @@ int reportMachines(const ReportOptions& options) {
     for (const auto* sentences : {&remarks.apart, &remarks.programs, &remarks.notes})
         for (const std::string& sentence : *sentences) std::cerr << "note: " << files::printable(sentence) << "\n";
     if (!remarks.missing.empty())
-        std::cerr << fmt::format("note: {} not done on every machine: see 'Missing configurations' of the page\n",
+        std::cerr << fmt::format("note: {} not done on every machine: see 'Missing cells' of the page\n",
                                  remarks.missing.size() == 1 ? std::string("1 cell is")
                                                              : fmt::format("{} cells are", remarks.missing.size()));
     std::cout << bench::writeMachinesPage(options.out.empty() ? "out/machines" : options.out, comparison).string()
