@@ -1,4 +1,4 @@
-"""Results folders of several machines without any measurement: times by formula, provenance made up.
+"""Makes results folders of several machines without measurements: times from formulas, made-up provenance.
 
 A machine is a dictionary: `fog`, the frame time of the method fog in ms per 100 particles; `ratio`, that of haze to fog; and what overrides
 the provenance. Both drift together by 5 % a repetition, and haze scatters by 1 % around its ratio, in its logarithm.

@@ -1,4 +1,4 @@
-"""The charts of the report: what they show, open on and save. report_page_test.py runs these tests."""
+"""The charts of the report: their content, initial state and saved files. report_page_test.py runs these tests."""
 
 import csv
 import io
@@ -10,7 +10,7 @@ import subprocess
 import made_folder
 import page_case
 
-# What the page builds of the chart with an id.
+# The chart with an id, as the page builds it.
 BUILT = """(() => { const read = id => JSON.parse(document.getElementById(id).textContent);
     const report = { data: read('report-data'), columns: read('report-columns'), specifications: read('report-charts') };
     return chartKit.build(report, chartKit.list(report).find(chart => chart.id === '%s')); })()"""

@@ -1,4 +1,4 @@
-"""What the page says of numbers, in sentences, scales and tables. report_page_test.py runs these tests."""
+"""Numbers on the page, in sentences, scales and tables. report_page_test.py runs these tests."""
 
 import json
 
@@ -21,7 +21,7 @@ class ReportWords(page_case.PageCase):
             with open(f"{place}/frames.csv", "w", encoding="utf-8") as stream:
                 stream.write("frame,time_s,frame_ms\n" + "".join(f"{i},{i / 60},{10 + i % 3}\n" for i in range(frames)))
             rows.append(row)
-        # Of pictures alone: no number of the overview is known.
+        # A run with pictures only, without numbers for the overview.
         made_folder.write_run(cls.folder, {"run_id": "bare", "status": "done", "reason": "", "method": "relief", "scene": "plain", "drive": "straight",
                                            "repetition": 1, "frames": 2, "gpu_bytes": 1e6}, {})
         return rows
