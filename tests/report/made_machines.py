@@ -1,4 +1,4 @@
-"""Results folders of several machines without any measurement: times by formula, provenance made up.
+"""Makes results folders of several machines without measurements: times from formulas, made-up provenance.
 
 A machine is a dictionary: `fog`, the frame time of the method fog in ms per 100 particles; `ratio`, the ratio of haze to fog; and
 fields that override the provenance. Both drift together by 5 % per repetition; the logarithm of the ratio scatters by 1 %.

@@ -175,14 +175,14 @@ class ReportOfSeveralMachines(MachinesCase):
         with open(out, encoding="utf-8") as stream:
             [claim] = self.data_of(stream.read())["claims"]
         self.assertEqual((claim["id"], claim["agreement"]), ("T1", "open"))
-        # Refuted there, but the control, which is refuted as well, does not turn it round.
+        # Refuted there, but its only control expects a refutation too, so the claim is untestable.
         self.assertEqual([own["verdict"] for own in claim["folders"]], ["confirmed", "untestable"])
         self.assertEqual([own["verdictText"] for own in claim["folders"]], ["confirmed on this device", "untestable"])
         said = subprocess.run([page_case.PROGRAM, "report", here, there, "--text"], capture_output=True, text=True, env=environment).stdout
         self.assertRegex(said, r"tiny +T1 +confirmed on this device +untestable +open")
 
     def test_one_folder_has_the_page_of_one_folder(self):
-        """Letter for letter: the template with these files and nothing else."""
+        """The page is exactly the template with these files and nothing else."""
         called = report(self.lab)
         self.addCleanup(os.remove, os.path.join(self.lab, "index.html"))
         self.assertEqual((called.returncode, called.stdout), (0, os.path.join(self.lab, "index.html") + "\n"))
@@ -279,7 +279,7 @@ class PageOfSeveralMachines(MachinesCase):
         self.assertEqual(rows["warnings"], ["none", "the machine is busy (36 runs)", "none"])
         self.assertEqual(rows["memory"], ["16.0 GiB"] * 3)
         said = self.texts(".problems")[0]
-        for part in ("commit: 0123456789ab on cellar and lab; fedcba987654 on attic", "a software renderer on attic", "2 cells are not done on every machine"):
+        for part in ("commit: 0123456789ab on cellar and lab; fedcba987654 on attic", "a software renderer on attic", "2 configurations are missing on some machines"):
             self.assertIn(part, said)
         self.assertEqual(self.texts("#missing tbody td:first-child"), ["fog particles=400", "haze particles=400"])
 
