@@ -23,6 +23,7 @@ namespace dustbench::cli {
 [[nodiscard]] Command newMethodCommand();
 [[nodiscard]] Command bundleCommand();
 [[nodiscard]] Command verifyCommand();
+[[nodiscard]] Command selfcheckCommand();
 /// `completion SHELL` and `manual`, which speak of all `commands` and of themselves; to be added to them last.
 [[nodiscard]] std::vector<Command> manualCommands(const std::vector<Command>& commands, const CommonOptions& common);
 /// The tools of the folders of methods/: `shape`.
