@@ -33,7 +33,7 @@ packages: ## Install the Debian packages that are missing
 	@.ci/install view || echo "make: going on without the packages of the window (dustbench view)" >&2
 
 # The build folders of a tree that was moved or copied go before make looks at them.
-ifneq ($(filter-out help packages format format-check elsewhere clean,$(or $(MAKECMDGOALS),help)),)
+ifneq ($(filter-out help packages portable portable-elsewhere elsewhere format format-check clean,$(or $(MAKECMDGOALS),help)),)
 DROPPED := $(shell .ci/drop-stale-builds build/*)
 endif
 
@@ -58,6 +58,10 @@ all-gates: ## All gates of .ci/run, whatever has changed: up to 45 minutes
 package: build ## The Debian package, build/release/dustbench_*.deb
 	@.ci/install package
 	@cpack --config build/release/CPackConfig.cmake -B build/release
+
+.PHONY: portable
+portable: ## One file for any Linux with glibc 2.36: build/dustbench-*-linux-x86_64.tar.zst
+	@JOBS=$(JOBS) .ci/portable
 
 .PHONY: view
 view: build ## Billboards beside an octree in a window (needs a display)
@@ -144,7 +148,11 @@ external: build ## Our exact pictures against POV-Ray, vdb_render and Cycles, th
 
 .PHONY: elsewhere
 elsewhere: ## Both commands of the README in a bare system of another Debian release, from nothing (RELEASE=trixie); needs root
-	@tests/elsewhere/bare_system.sh $(RELEASE)
+	@tests/elsewhere/readme_commands.sh $(RELEASE)
+
+.PHONY: portable-elsewhere
+portable-elsewhere: portable ## The portable file in bare Debian 12 and 13 with nothing but Mesa; needs root
+	@tests/elsewhere/portable_file.sh build/dustbench-*-linux-x86_64.tar.zst
 
 .PHONY: tsan
 tsan: build/tsan/build.ninja ## The unit tests that need no GPU under ThreadSanitizer
