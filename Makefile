@@ -33,7 +33,7 @@ packages: ## Install missing Debian packages
 	@.ci/install view || echo "make: continuing without the packages of the window (dustbench view)" >&2
 
 # Removes the build folders of a moved or copied tree before make checks their dates.
-ifneq ($(filter-out help packages format format-check elsewhere clean,$(or $(MAKECMDGOALS),help)),)
+ifneq ($(filter-out help packages portable portable-elsewhere elsewhere format format-check clean,$(or $(MAKECMDGOALS),help)),)
 DROPPED := $(shell .ci/drop-stale-builds build/*)
 endif
 
@@ -58,6 +58,10 @@ all-gates: ## Run every gate of .ci/run, whatever has changed (up to 45 minutes)
 package: build ## Build the Debian package, build/release/dustbench_*.deb
 	@.ci/install package
 	@cpack --config build/release/CPackConfig.cmake -B build/release
+
+.PHONY: portable
+portable: ## Build one file for any Linux with glibc 2.36 (build/dustbench-*-linux-x86_64.tar.zst)
+	@JOBS=$(JOBS) .ci/portable
 
 .PHONY: view
 view: build ## Compare billboards with an octree in a window (needs a display)
@@ -144,7 +148,11 @@ external: build ## Compare our reference images with POV-Ray, vdb_render and Cyc
 
 .PHONY: elsewhere
 elsewhere: ## Run both commands of README in a bare system of another Debian release (RELEASE=trixie; needs root)
-	@tests/elsewhere/bare_system.sh $(RELEASE)
+	@tests/elsewhere/readme_commands.sh $(RELEASE)
+
+.PHONY: portable-elsewhere
+portable-elsewhere: portable ## Run the portable file in bare Debian 12 and 13 with nothing but Mesa (needs root)
+	@tests/elsewhere/portable_file.sh build/dustbench-*-linux-x86_64.tar.zst
 
 .PHONY: tsan
 tsan: build/tsan/build.ninja ## Run the unit tests that need no GPU under ThreadSanitizer

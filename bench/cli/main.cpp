@@ -93,7 +93,7 @@ int run(const std::vector<std::string>& argv) {
     std::vector<Command> commands{listCommand(),      envCommand(),    runCommand(),   compareCommand(),
                                   recommendCommand(), suiteCommand(),  mergeCommand(), reproduceCommand(),
                                   reportCommand(),    exportCommand(), diffCommand(),  viewCommand(),
-                                  newMethodCommand(), bundleCommand(), verifyCommand()};
+                                  newMethodCommand(), bundleCommand(), verifyCommand(), selfcheckCommand()};
     std::ranges::move(toolCommands(), std::back_inserter(commands));
     const CommonOptions common = commonOptions();
     std::ranges::move(manualCommands(commands, common), std::back_inserter(commands));

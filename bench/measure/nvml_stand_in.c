@@ -1,4 +1,4 @@
-/* Stand-in for NVML, for tests: two GPUs with energy counters that grow by 1500 mJ at each call. */
+/* Stand-in for NVML, for tests: two GPUs with energy counters that grow by 1500 mJ and clocks that fall by 100 MHz at each call. */
 #include <string.h>
 
 static unsigned long long used[2] = {1000, 5000};

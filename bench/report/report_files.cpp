@@ -44,6 +44,12 @@ fs::path reportsFolder() {
     return files::shippedFolder("reports", "share/dustbench/reports");
 }
 
+/// Vega's scripts: those shipped with the program, else the system's.
+fs::path vegaFolder() {
+    const fs::path shipped = reportsFolder() / "vega";
+    return fs::is_directory(shipped) ? shipped : fs::path(DUSTBENCH_VEGA_FOLDER);
+}
+
 std::string joined(std::initializer_list<std::string_view> names) {
     std::string script;
     for (const std::string_view name : names) script += reportFile(name);
@@ -102,7 +108,7 @@ std::string machinesScript() {
 std::string vegaScript() {
     std::string script = "const vegaParts = {};\n";
     for (const auto& [name, file] : vegaModules) {
-        const fs::path path = fs::path(DUSTBENCH_VEGA_FOLDER) / fmt::format("vega-{}.min.js", file);
+        const fs::path path = vegaFolder() / fmt::format("vega-{}.min.js", file);
         if (!fs::exists(path))
             throw InputError(
                 fmt::format("'{}' is missing; on Debian, install the package libjs-vega", path.string()));

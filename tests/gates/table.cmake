@@ -46,6 +46,7 @@ dustbench_place(reports/pictures)
 dustbench_place(reports/report bench/report)
 dustbench_place(reports/sample)
 dustbench_place(tests/CMakeLists.txt ALL)
+dustbench_place(tests/elsewhere)
 dustbench_place(tests/external) # run by hand, as are the next two
 dustbench_place(tests/fuzz/coverage)
 dustbench_place(tests/fuzz/openvdb)

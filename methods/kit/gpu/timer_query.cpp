@@ -33,7 +33,7 @@ std::optional<double> TimerQuery::milliseconds() const {
     return static_cast<double>(nanoseconds) * 1e-6;
 }
 
-bool timerQueriesAreTrue(Device& device) {
+TimerComparison compareTimerWithFence(Device& device) {
     constexpr int items = 64 * 1024;
     constexpr double enoughMs = 5;  // far above the cost of reading either clock
     const std::vector<float> start(items, 0.25f);
@@ -42,9 +42,8 @@ bool timerQueriesAreTrue(Device& device) {
     TimerQuery query(device);
     values.bindStorage(0);
 
-    double wallMs = 0;
-    double queryMs = 0;
-    for (int rounds = 64; rounds <= 64 * 1024 && wallMs < enoughMs; rounds *= 4) {
+    TimerComparison times;
+    for (int rounds = 64; rounds <= 64 * 1024 && times.fenceMs < enoughMs; rounds *= 4) {
         load.set("rounds", rounds);
         device.finish();
         const auto begin = std::chrono::steady_clock::now();
@@ -52,10 +51,14 @@ bool timerQueriesAreTrue(Device& device) {
         load.dispatch(items / 64, 1, 1);
         query.end();
         device.finish();
-        wallMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-        queryMs = query.milliseconds().value_or(0);
+        times.fenceMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+        times.queryMs = query.milliseconds().value_or(0);
     }
-    return queryMs > wallMs / 2 && queryMs < wallMs * 2;
+    return times;
+}
+
+bool timerQueriesAreTrue(Device& device) {
+    return compareTimerWithFence(device).agree();
 }
 
 }  // namespace dustbench::gpu

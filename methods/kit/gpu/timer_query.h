@@ -24,7 +24,14 @@ class DUSTBENCH_API TimerQuery {
     Name name_;
 };
 
-/// Draws a known load and compares the query with fenced wall time; true if they agree within a factor of two.
+/// A known load by both clocks.
+struct TimerComparison {
+    double queryMs = 0, fenceMs = 0;
+    /// Within a factor of two.
+    [[nodiscard]] bool agree() const { return queryMs > fenceMs / 2 && queryMs < fenceMs * 2; }
+};
+[[nodiscard]] DUSTBENCH_API TimerComparison compareTimerWithFence(Device& device);
+/// Whether they agree.
 [[nodiscard]] DUSTBENCH_API bool timerQueriesAreTrue(Device& device);
 
 }  // namespace dustbench::gpu

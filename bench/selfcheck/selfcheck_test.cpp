@@ -1,0 +1,203 @@
+// Plants faults between the program and the driver, through the pointers that libepoxy calls OpenGL by, and expects
+// the self-check to name each of them, and nothing else.
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bench/selfcheck/device_checks.h"
+#include "bench/selfcheck/machine_checks.h"
+#include "bench/selfcheck/picture_checks.h"
+#include "bench/selfcheck/selfcheck_report.h"
+#include "methods/contract/errors.h"
+#include "methods/kit/files/data_folder.h"
+#include "methods/kit/testing/test_folder.h"
+
+namespace dustbench::bench {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Replaces an OpenGL function for as long as it lives.
+template <typename Function>
+class Planted {
+ public:
+    Planted(Function& pointer, Function fault) : pointer_(pointer), original_(pointer) { pointer_ = fault; }
+    ~Planted() { pointer_ = original_; }
+    Planted(const Planted&) = delete;
+    Planted& operator=(const Planted&) = delete;
+
+ private:
+    Function& pointer_;
+    Function original_;
+};
+
+std::vector<std::string> namesOf(const std::vector<Check>& checks, Outcome outcome) {
+    std::vector<std::string> names;
+    for (const Check& check : checks)
+        if (check.outcome == outcome) names.push_back(check.name);
+    return names;
+}
+
+std::vector<std::string> failuresWith(const std::vector<Check>& checks) {
+    return namesOf(checks, Outcome::failed);
+}
+
+TEST(DeviceChecks, PassOnThisDevice) {
+    gpu::Device device;
+    EXPECT_THAT(failuresWith(correctnessChecks(device)), IsEmpty());
+}
+
+TEST(DeviceChecks, NameADriverThatStoresFewerBits) {
+    gpu::Device device;
+    const auto store = +[](GLuint texture, GLsizei levels, GLenum format, GLsizei width, GLsizei height) {
+        static const auto real =
+            reinterpret_cast<PFNGLTEXTURESTORAGE2DPROC>(eglGetProcAddress("glTextureStorage2D"));
+        real(texture, levels, format == GL_RGBA32F ? GL_RGBA16F : format, width, height);
+    };
+    const Planted fault(epoxy_glTextureStorage2D, static_cast<PFNGLTEXTURESTORAGE2DPROC>(store));
+    EXPECT_THAT(failuresWith(correctnessChecks(device)), ElementsAre("float targets"));
+}
+
+TEST(DeviceChecks, NameADriverThatReordersInstances) {
+    gpu::Device device;
+    const auto reversed = +[](GLenum mode, GLint first, GLsizei count, GLsizei instances) {
+        for (GLsizei i = instances; i-- > 0;)
+            glDrawArraysInstancedBaseInstance(mode, first, count, 1, static_cast<GLuint>(i));
+    };
+    const Planted fault(epoxy_glDrawArraysInstanced, static_cast<PFNGLDRAWARRAYSINSTANCEDPROC>(reversed));
+    EXPECT_THAT(failuresWith(correctnessChecks(device)), ElementsAre("blending order"));
+}
+
+TEST(DeviceChecks, NameADriverThatLosesBarriers) {
+    gpu::Device device;
+    static int dispatched = 0;
+    dispatched = 0;
+    // Drops every fifth dispatch, as one that reads too early would lose its writes.
+    const auto lossy = +[](GLuint x, GLuint y, GLuint z) {
+        static const auto real = reinterpret_cast<PFNGLDISPATCHCOMPUTEPROC>(eglGetProcAddress("glDispatchCompute"));
+        if (++dispatched % 5 != 0) real(x, y, z);
+    };
+    const Planted fault(epoxy_glDispatchCompute, static_cast<PFNGLDISPATCHCOMPUTEPROC>(lossy));
+    EXPECT_THAT(failuresWith(correctnessChecks(device)), testing::Contains("barriers"));
+}
+
+/// Answers timer queries with the fenced time, times `factor`.
+std::vector<Check> withTimer(double factor) {
+    gpu::Device device;
+    static std::chrono::steady_clock::time_point begin;
+    static double nanoseconds = 0, by = 1;
+    by = factor;
+    const auto start = +[](GLenum, GLuint) {
+        glFinish();
+        begin = std::chrono::steady_clock::now();
+    };
+    const auto end = +[](GLenum) {
+        glFinish();
+        nanoseconds = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
+    };
+    const auto ready = +[](GLuint, GLenum, GLint* value) { *value = 1; };
+    const auto answer = +[](GLuint, GLenum, GLuint64* value) { *value = static_cast<GLuint64>(nanoseconds * by); };
+    const Planted first(epoxy_glBeginQuery, static_cast<PFNGLBEGINQUERYPROC>(start));
+    const Planted second(epoxy_glEndQuery, static_cast<PFNGLENDQUERYPROC>(end));
+    const Planted third(epoxy_glGetQueryObjectiv, static_cast<PFNGLGETQUERYOBJECTIVPROC>(ready));
+    const Planted fourth(epoxy_glGetQueryObjectui64v, static_cast<PFNGLGETQUERYOBJECTUI64VPROC>(answer));
+    return correctnessChecks(device);
+}
+
+TEST(DeviceChecks, NameATimerThatLies) {
+    const auto problems = [](double factor) {
+        std::vector<Check> checks = withTimer(factor);
+        std::vector<std::string> names = namesOf(checks, Outcome::attention);
+        std::ranges::move(failuresWith(checks), std::back_inserter(names));
+        return names;
+    };
+    EXPECT_THAT(problems(1), testing::Not(testing::Contains("timer queries")));
+    EXPECT_THAT(problems(0.1), testing::Contains("timer queries"));
+    EXPECT_THAT(problems(3), testing::Contains("timer queries"));
+}
+
+TEST(DeviceRates, ArePositiveAndDataCentreGpusAreNamed) {
+    gpu::Device device;
+    int calls = 0;
+    const DeviceRates rates = measureRates(device, [&] { ++calls; });
+    EXPECT_EQ(calls, 1);
+    EXPECT_GT(rates.blendedGigapixels, 0);
+    EXPECT_GT(rates.gigaflops, 0);
+    EXPECT_GT(rates.copiedGigabytes, 0);
+    EXPECT_GT(rates.fragmentShare, 0);
+    DeviceRates dataCentre = rates;
+    dataCentre.fragmentShare = 0.03;
+    EXPECT_THAT(namesOf(rateChecks(dataCentre, false), Outcome::attention), ElementsAre("fragment shaders"));
+    EXPECT_THAT(namesOf(rateChecks(dataCentre, true), Outcome::attention), IsEmpty());
+}
+
+TEST(GpuClockCheck, NamesAClockThatIsHeldDownOrFalls) {
+    const GpuClockReading high{1800, ""}, low{900, ""}, hot{900, "heat"};
+    EXPECT_EQ(gpuClockCheck({low, high, high}).outcome, Outcome::ok);
+    EXPECT_EQ(gpuClockCheck({high, low, high}).outcome, Outcome::attention);
+    EXPECT_THAT(gpuClockCheck({low, hot, low}).note, HasSubstr("heat"));
+    EXPECT_EQ(gpuClockCheck({}).measured, "not reported");
+}
+
+TEST(ThrottlingCheck, CountsEventsDuringTheCheck) {
+    Machine before, after;
+    before.throttled = after.throttled = 7;
+    EXPECT_EQ(throttlingCheck(before, after).outcome, Outcome::ok);
+    after.throttled = 9;
+    EXPECT_EQ(throttlingCheck(before, after).outcome, Outcome::attention);
+    EXPECT_THAT(throttlingCheck(before, after).measured, HasSubstr("2"));
+}
+
+TEST(PlannedPictures, AreOneForEachMethodOfThisTreeAndHaveTheirFiles) {
+    const auto folder = files::dataFolder() / "selfcheck";
+    std::set<std::string> drawn;
+    for (const PlannedPicture& picture : readPlannedPictures(folder / "pictures.toml")) {
+        EXPECT_GT(picture.flipLimit, 0) << picture.name;
+        drawn.insert(picture.spec.method);
+        if (picture.reference == PlannedPicture::Reference::kept)
+            EXPECT_TRUE(std::filesystem::exists(folder / (picture.name + ".png"))) << picture.name;
+    }
+    EXPECT_GE(drawn.size(), 12u);
+}
+
+TEST(PlannedPictures, SayWhatIsWrongWithTheFile) {
+    const TestFolder folder;
+    const auto message = [&](const std::string& text) {
+        return inputError([&] { (void)readPlannedPictures(folder.write("p.toml", "size = \"32x32\"\n" + text)); });
+    };
+    EXPECT_THAT(message("[[picture]]\nname = \"a\"\n"), HasSubstr("method"));
+    EXPECT_THAT(message("[[picture]]\nname = \"a\"\nmethod = \"null_method\"\nflip = 2\n"), HasSubstr("flip"));
+    EXPECT_THAT(message("[[picture]]\nname = \"a\"\nmethod = \"null_method\"\nflip = 0.1\nreference = \"x\"\n"),
+                HasSubstr("reference"));
+    const std::string one = "[[picture]]\nname = \"a\"\nmethod = \"null_method\"\nflip = 0.1\n";
+    EXPECT_THAT(message(one + one), HasSubstr("'a' appears twice"));
+    EXPECT_THAT(message(one + "parameters = { nonsense = 1 }\n"), HasSubstr("nonsense"));
+}
+
+TEST(PlannedPictures, OfAMissingMethodAreSkippedWithTheReason) {
+    const TestFolder folder;
+    const auto planned = readPlannedPictures(folder.write(
+        "p.toml", "size = \"32x32\"\n[[picture]]\nname = \"a\"\nmethod = \"smoke_signals\"\nflip = 0.1\n"));
+    ASSERT_EQ(planned.size(), 1u);
+    EXPECT_THAT(planned[0].skip, HasSubstr("smoke_signals"));
+}
+
+TEST(SelfcheckJson, SaysWhetherAllPassed) {
+    const auto passed = [](Outcome outcome) {
+        return nlohmann::json::parse(selfcheckJson({}, {{"a", Outcome::ok, "1", "1"}, {"b", outcome, "2", "3"}}))["passed"]
+            .get<bool>();
+    };
+    EXPECT_TRUE(passed(Outcome::attention));
+    EXPECT_FALSE(passed(Outcome::failed));
+}
+
+}  // namespace
+}  // namespace dustbench::bench
