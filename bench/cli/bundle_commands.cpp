@@ -126,8 +126,8 @@ int verifyBundle(const VerifyOptions& options) {
     const bench::TemporaryFolder temporary;
     const bench::OpenedBundle bundle = bench::openBundle(options.bundle, temporary.path());
     const std::vector<bench::ExactRun> exact = bench::exactRuns(bundle.runs);
-    std::cout << fmt::format("{} files are unchanged: {} runs of {} simulations\n", bundle.files,
-                             bundle.runs.size(), exact.size());
+    std::cout << fmt::format("{} files are unchanged: {} runs of {} simulations\n", bundle.files, bundle.runs.size(),
+                             exact.size());
     return repeatRuns(bundle, chosen(exact, options.runs), options.timeoutSeconds, temporary.path());
 }
 
@@ -147,17 +147,16 @@ Command bundleCommand() {
 
 Command verifyCommand() {
     auto options = std::make_shared<VerifyOptions>();
-    return {
-        "verify", "Check a bundle and repeat its simulations",
-        "Compares hashes of the state after the last frame, which are the same on every machine. Times are not "
-        "compared.",
-        [options](Arguments& arguments) {
-            arguments.required("bundle", "FILE", "file written by `bundle`", options->bundle);
-            arguments.integer("--runs", "number of simulations to repeat, evenly spread; -1: all", options->runs, -1,
-                              std::numeric_limits<std::int64_t>::max());
-            arguments.number("--timeout", "time limit of one run in seconds", options->timeoutSeconds, 1, 1e6);
-        },
-        [options] { return verifyBundle(*options); }};
+    return {"verify", "Check a bundle and repeat its simulations",
+            "Compares hashes of the state after the last frame, which are the same on every machine. Times are not "
+            "compared.",
+            [options](Arguments& arguments) {
+                arguments.required("bundle", "FILE", "file written by `bundle`", options->bundle);
+                arguments.integer("--runs", "number of simulations to repeat, evenly spread; -1: all", options->runs,
+                                  -1, std::numeric_limits<std::int64_t>::max());
+                arguments.number("--timeout", "time limit of one run in seconds", options->timeoutSeconds, 1, 1e6);
+            },
+            [options] { return verifyBundle(*options); }};
 }
 
 }  // namespace dustbench::cli

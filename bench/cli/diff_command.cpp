@@ -88,21 +88,20 @@ int diff(const DiffOptions& options) {
 
 Command diffCommand() {
     auto options = std::make_shared<DiffOptions>();
-    return {"diff", "PSNR, SSIM, FLIP and RMSE of an image file against a reference, and a heat map",
-            "Reads all formats of OpenImageIO. Integers are sRGB and floats linear, unless the file states otherwise.\n"
-            "Both images must be opaque and have the same size. Ignored parts of a file are listed on stderr.\n"
-            "reports/METRICS.md defines the metrics.",
-            [options](Arguments& arguments) {
-                arguments.required("reference", "FILE", "the reference image", options->reference);
-                arguments.required("image", "FILE", "the image to compare with it", options->image);
-                arguments.flag("--json", "print JSON: psnr_db, ssim, flip, rmse_linear, identical", options->json);
-                arguments.text("--out", "FILE.png", "write FLIP's error map: black for 0, pale yellow for 1",
-                               options->out);
-                arguments.number("--pixels-per-degree", "for FLIP: pixels per degree of the observer's field of view",
-                                 options->pixelsPerDegree, bench::minimumPixelsPerDegree,
-                                 bench::maximumPixelsPerDegree);
-            },
-            [options] { return diff(*options); }};
+    return {
+        "diff", "PSNR, SSIM, FLIP and RMSE of an image file against a reference, and a heat map",
+        "Reads all formats of OpenImageIO. Integers are sRGB and floats linear, unless the file states otherwise.\n"
+        "Both images must be opaque and have the same size. Ignored parts of a file are listed on stderr.\n"
+        "reports/METRICS.md defines the metrics.",
+        [options](Arguments& arguments) {
+            arguments.required("reference", "FILE", "the reference image", options->reference);
+            arguments.required("image", "FILE", "the image to compare with it", options->image);
+            arguments.flag("--json", "print JSON: psnr_db, ssim, flip, rmse_linear, identical", options->json);
+            arguments.text("--out", "FILE.png", "write FLIP's error map: black for 0, pale yellow for 1", options->out);
+            arguments.number("--pixels-per-degree", "for FLIP: pixels per degree of the observer's field of view",
+                             options->pixelsPerDegree, bench::minimumPixelsPerDegree, bench::maximumPixelsPerDegree);
+        },
+        [options] { return diff(*options); }};
 }
 
 }  // namespace dustbench::cli

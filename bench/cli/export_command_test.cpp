@@ -258,8 +258,7 @@ TEST_F(ExportCommand, GoesToTheEndOfTheDriveAndNoFurther) {
 TEST_F(ExportCommand, AnOctreeIsNotToBeHadFromPuffs) {
     const Called called = shortExport("--frames 0 --format vti,htg");
     EXPECT_EQ(called.code, 3);
-    EXPECT_THAT(called.err,
-                HasSubstr("method billboard provides no octree; possible formats: vti,vtp,vdb"));
+    EXPECT_THAT(called.err, HasSubstr("method billboard provides no octree; possible formats: vti,vtp,vdb"));
     EXPECT_FALSE(fs::exists(out()));
     // A suite requests the same formats from all methods: an unsupported one is omitted with a warning.
     const std::string run = fmt::format("run {} --frames 2 --volumes 0 --out '{}' ", shortWorld, out());

@@ -104,10 +104,9 @@ std::string experimentText(const MachineComparison& comparison, const MachineExp
         return fmt::format("\n{}: no ratio: no world has times of two methods or settings\n",
                            files::printable(experiment.title));
     rows.insert(rows.begin(), heads({"column", "of", "at"}, labelsOf(comparison), {"machines"}));
-    return fmt::format(
-        "\n{}\nratio of times to those of {}, within each machine, 95 % interval over paired runs\n{}",
-        files::printable(experiment.title), files::printable(experiment.variants[experiment.reference].label),
-        textTable(rows));
+    return fmt::format("\n{}\nratio of times to those of {}, within each machine, 95 % interval over paired runs\n{}",
+                       files::printable(experiment.title),
+                       files::printable(experiment.variants[experiment.reference].label), textTable(rows));
 }
 
 std::string claimsText(const MachineComparison& comparison) {

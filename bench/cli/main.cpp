@@ -90,9 +90,9 @@ int run(const std::vector<std::string>& argv) {
         bench::loadMethodLibraries();
         return argv.front() == measureRunName ? measureRunCommand(argv) : forecastRunCommand(argv);
     }
-    std::vector<Command> commands{listCommand(),      envCommand(),    runCommand(),   compareCommand(),
-                                  recommendCommand(), suiteCommand(),  mergeCommand(), reproduceCommand(),
-                                  reportCommand(),    exportCommand(), diffCommand(),  viewCommand(),
+    std::vector<Command> commands{listCommand(),      envCommand(),    runCommand(),    compareCommand(),
+                                  recommendCommand(), suiteCommand(),  mergeCommand(),  reproduceCommand(),
+                                  reportCommand(),    exportCommand(), diffCommand(),   viewCommand(),
                                   newMethodCommand(), bundleCommand(), verifyCommand(), selfcheckCommand()};
     std::ranges::move(toolCommands(), std::back_inserter(commands));
     const CommonOptions common = commonOptions();

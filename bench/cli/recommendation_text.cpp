@@ -142,8 +142,7 @@ std::string valueOf(const bench::SettingTexts& fields, std::string_view name) {
 /// `measured on: AMD EPYC, 2 cores, llvmpipe (LLVM 15.0.6, 256 bits); commit 30176ec67599`
 std::string machineText(const bench::MachineFacts& machine, const std::string& number) {
     if (machine.fields.empty())
-        return fmt::format(
-            "measured on{}: unknown, because there is no machine.csv next to summary.csv\n", number);
+        return fmt::format("measured on{}: unknown, because there is no machine.csv next to summary.csv\n", number);
     std::vector<std::string> commits;
     commits.reserve(machine.commits.size());
     constexpr std::size_t shortCommit = 12;
@@ -154,8 +153,7 @@ std::string machineText(const bench::MachineFacts& machine, const std::string& n
         fmt::format("measured on{}: {}, {} cores, {}; commit {}\n", number, valueOf(machine.fields, "cpu"),
                     valueOf(machine.fields, "cores"), renderer, fmt::join(commits, ", "));
     if (gpu::isSoftwareRenderer(renderer))
-        text +=
-            "warning: software renderer: the CPU drew the pictures; on a GPU, other settings may fit and lead\n";
+        text += "warning: software renderer: the CPU drew the pictures; on a GPU, other settings may fit and lead\n";
     if (commits.size() > 1) text += "warning: times of several builds are combined\n";
     return text;
 }
@@ -245,8 +243,7 @@ std::string incompleteText(const bench::Rankings& rankings) {
         namesOfSettings(judged, fmt::format("not ranked: {} but no time of the method", rankings.quality.column)) +
         namesOfSettings(both, "not ranked: compared over other frames or with another reference than the rest");
     if (neither > 0)
-        text +=
-            fmt::format("not ranked: {} settings with neither, run without the null method and metrics\n", neither);
+        text += fmt::format("not ranked: {} settings with neither, run without the null method and metrics\n", neither);
     return printableLines(text);
 }
 

@@ -132,8 +132,8 @@ int checkRegression(const RegressionOptions& options) {
     if (!comparison.obstacles.empty()) return exitNotComparable;
 
     std::cout << fmt::format(
-        "B = {} against A = {}: ratio of times, 95 % interval over runs that were not interleaved\n",
-        options.b, options.a);
+        "B = {} against A = {}: ratio of times, 95 % interval over runs that were not interleaved\n", options.b,
+        options.a);
     bench::TextRows table = bench::tabulate(comparison);
     table.rows.insert(table.rows.begin(), std::move(table.header));
     std::cout << textTable(table.rows);

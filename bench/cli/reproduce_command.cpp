@@ -207,26 +207,25 @@ int reproduce(const ReproduceOptions& options) {
 
 Command reproduceCommand() {
     auto options = std::make_shared<ReproduceOptions>();
-    return {"reproduce", "Run the experiments of a paper and print the results", "Existing results are kept.",
-            [options](Arguments& arguments) {
-                arguments.text("--paper", "ID", "a folder of data/papers, such as carr2006; default: all papers",
-                               options->paper);
-                arguments.flag("--quick", "run reduced suites and experiments: minutes instead of hours",
-                               options->quick);
-                arguments.flag("--full",
-                               "run the complete suites, as without --quick; first estimates how long they take",
-                               options->full);
-                arguments.flag("--controls",
-                               "also run the suites of the claims' controls: data with a known verdict, which detect "
-                               "a rule that cannot fail",
-                               options->controls);
-                arguments.flag("--dry-run",
-                               "check all files of the papers and print each suite with its number of runs; measure "
-                               "nothing",
-                               options->dryRun);
-                arguments.text("--out", "DIR", "folder for the results; default: reports/out/<paper>", options->out);
-            },
-            [options] { return reproduce(*options); }};
+    return {
+        "reproduce", "Run the experiments of a paper and print the results", "Existing results are kept.",
+        [options](Arguments& arguments) {
+            arguments.text("--paper", "ID", "a folder of data/papers, such as carr2006; default: all papers",
+                           options->paper);
+            arguments.flag("--quick", "run reduced suites and experiments: minutes instead of hours", options->quick);
+            arguments.flag("--full", "run the complete suites, as without --quick; first estimates how long they take",
+                           options->full);
+            arguments.flag("--controls",
+                           "also run the suites of the claims' controls: data with a known verdict, which detect "
+                           "a rule that cannot fail",
+                           options->controls);
+            arguments.flag("--dry-run",
+                           "check all files of the papers and print each suite with its number of runs; measure "
+                           "nothing",
+                           options->dryRun);
+            arguments.text("--out", "DIR", "folder for the results; default: reports/out/<paper>", options->out);
+        },
+        [options] { return reproduce(*options); }};
 }
 
 }  // namespace dustbench::cli

@@ -140,8 +140,8 @@ Command viewCommand() {
                 arguments.text("--state", "FILE", "saved settings, instead of the options above", options->state);
                 arguments.text("--picture", "FILE", "draw the window to a picture (.png, .exr) instead of opening it",
                                options->picture);
-                arguments.text("--show", "A|B|wipe|beside|difference|flip",
-                               "for --picture: how A and B are combined", options->show);
+                arguments.text("--show", "A|B|wipe|beside|difference|flip", "for --picture: how A and B are combined",
+                               options->show);
                 arguments.text("--channel", "picture|alpha|depth|overdraw|outlines|faults",
                                "for --picture: what it shows of A and B", options->channel);
                 arguments.text("--window", "WxH", "for --picture: size in pixels", options->windowSize);

@@ -55,8 +55,8 @@ void requireWritable(const CollectedVolume& volume, const std::vector<VolumeForm
         if (reason.empty()) continue;
         std::vector<VolumeFormat> possible{VolumeFormat::vti, VolumeFormat::htg, VolumeFormat::vtp, VolumeFormat::vdb};
         std::erase_if(possible, [&](VolumeFormat each) { return !whyNotWritable(volume, each).empty(); });
-        throw InputError(fmt::format("format {}: method {} {}; possible formats: {}",
-                                     volumeFormats.wordOf(format), method, reason, formatsText(possible)));
+        throw InputError(fmt::format("format {}: method {} {}; possible formats: {}", volumeFormats.wordOf(format),
+                                     method, reason, formatsText(possible)));
     }
 }
 

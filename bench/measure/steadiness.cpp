@@ -36,8 +36,8 @@ std::optional<std::string> takeStalls(std::vector<double>& frames) {
     if (stalls == 0) return std::nullopt;
     const auto longest = std::ranges::max_element(frames);
     std::string text =
-        fmt::format("{} of {} frames stalled: over {:.3g} ms, frame {} took {:.3g} ms; the median is {:.3g} ms",
-                    stalls, frames.size(), limit, longest - frames.begin(), *longest, middle);
+        fmt::format("{} of {} frames stalled: over {:.3g} ms, frame {} took {:.3g} ms; the median is {:.3g} ms", stalls,
+                    frames.size(), limit, longest - frames.begin(), *longest, middle);
     std::erase_if(frames, [limit](double ms) { return ms > limit; });
     return text;
 }

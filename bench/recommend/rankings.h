@@ -49,8 +49,8 @@ struct MeasuredSetting {
     std::size_t timedSeeds = 1;
     MedianInterval quality{};                                      ///< `values`: the number of seeds
     std::map<std::string, MedianInterval, std::less<>> metrics{};  ///< by column, if measured
-    bool otherRuns = false;  ///< some of its metrics are from runs without a time
-    bool onFront = false;    ///< every other setting costs more or has worse quality, by intervals without overlap
+    bool otherRuns = false;                                        ///< some of its metrics are from runs without a time
+    bool onFront = false;  ///< every other setting costs more or has worse quality, by intervals without overlap
 };
 
 struct Ranking {

@@ -110,8 +110,7 @@ std::string vegaScript() {
     for (const auto& [name, file] : vegaModules) {
         const fs::path path = vegaFolder() / fmt::format("vega-{}.min.js", file);
         if (!fs::exists(path))
-            throw InputError(
-                fmt::format("'{}' is missing; on Debian, install the package libjs-vega", path.string()));
+            throw InputError(fmt::format("'{}' is missing; on Debian, install the package libjs-vega", path.string()));
         script += fmt::format("vegaParts['vega-{}'] = function (exports, require, module) {{\n{}\n}};\n", name,
                               fileText(path));
     }

@@ -83,12 +83,11 @@ MachineOfRun findMachines(ReportData& data) {
         machineOf[id] = static_cast<std::size_t>(found - keys.begin());
     }
     if (data.machines.size() > 1)
-        noteMixed(
-            data,
-            fmt::format(
-                "the runs are from {} different machines or kinds of build: their times are shown separately and "
-                "must not be compared",
-                data.machines.size()));
+        noteMixed(data,
+                  fmt::format(
+                      "the runs are from {} different machines or kinds of build: their times are shown separately and "
+                      "must not be compared",
+                      data.machines.size()));
     return machineOf;
 }
 

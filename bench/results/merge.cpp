@@ -35,8 +35,8 @@ std::string contentOf(const fs::path& file) {
 
 void requireEqual(const std::string& runId, const fs::path& first, const fs::path& second) {
     if (contentOf(first / "run.json") == contentOf(second / "run.json") && filesOf(first) == filesOf(second)) return;
-    throw InputError(fmt::format("run '{}': has two different results, '{}' and '{}'; remove one of them",
-                                 runId, first.string(), second.string()));
+    throw InputError(fmt::format("run '{}': has two different results, '{}' and '{}'; remove one of them", runId,
+                                 first.string(), second.string()));
 }
 
 }  // namespace
@@ -68,8 +68,8 @@ MergePlan planMerge(const std::vector<MergeSource>& sources, const ResultsFolder
 
 void requireSpace(const MergePlan& plan, const fs::path& folder, std::uintmax_t availableBytes) {
     if (plan.bytes > availableBytes)
-        throw InputError(fmt::format("output '{}': {} runs need {} bytes, but only {} are free",
-                                     folder.string(), plan.copies.size(), plan.bytes, availableBytes));
+        throw InputError(fmt::format("output '{}': {} runs need {} bytes, but only {} are free", folder.string(),
+                                     plan.copies.size(), plan.bytes, availableBytes));
 }
 
 bool merge(const MergePlan& plan, ResultsFolder& results, const std::function<bool()>& interrupted) {

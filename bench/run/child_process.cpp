@@ -162,9 +162,9 @@ std::string ChildOutcome::reason() const {
     const std::string words = lastWords.empty() ? "" : ": " + lastWords;
     switch (end) {
         case End::exited:
-            return code == 0 ? ""
-                             : fmt::format("exit code {}{}", code,
-                                           words.empty() ? ", without an error message" : words);
+            return code == 0
+                       ? ""
+                       : fmt::format("exit code {}{}", code, words.empty() ? ", without an error message" : words);
         case End::killedBySignal: {
             const char* name = sigabbrev_np(code);
             return fmt::format("killed by {}{}", name ? std::string("SIG") + name : std::to_string(code), words);

@@ -142,8 +142,7 @@ Judgement judgeRun(const RunSpec& spec, const fs::path& folder, gpu::Device& dev
     replay({spec, runner, preroll, spec.frames - 1, stepped, judge, judging});
 
     if (const std::string again = fmt::format("{:016x}", world.stateHash()); again != stateHash)
-        throw std::runtime_error("metrics: the replay of the run ends in state " + again + ", not in " +
-                                 stateHash);
+        throw std::runtime_error("metrics: the replay of the run ends in state " + again + ", not in " + stateHash);
     judgement.popping = poppingJudge.summary().mean();
     judgement.poppingMax = poppingJudge.summary().maximum();
     judgement.poppingBySize = poppingJudge.bySize();

@@ -61,9 +61,8 @@ SolidKey readKey(TomlReader& table, const SolidKey& rest) {
     key.weights = rest.weights;
     if (table.has("weights")) key.weights = table.numbers("weights");
     if (key.weights.size() != rest.weights.size())
-        throw InputError(
-            fmt::format("{}key 'weights': got {} numbers, expected {}, one for each target of the solid",
-                        table.where("weights"), key.weights.size(), rest.weights.size()));
+        throw InputError(fmt::format("{}key 'weights': got {} numbers, expected {}, one for each target of the solid",
+                                     table.where("weights"), key.weights.size(), rest.weights.size()));
     for (const double weight : key.weights)
         if (!(std::abs(weight) <= 100))
             throw InputError(
@@ -128,8 +127,7 @@ void readSolid(TomlReader& table, const path& from, scene::Scene& scene, MovingS
         throw InputError(
             fmt::format("{}key 'repeat': got {} for a solid with keys, expected 1", table.where("repeat"), count));
     if (read.morph && !solidPath)
-        throw InputError(table.where("targets") +
-                         "key 'targets': requires keys, expected [[solid.key]] tables");
+        throw InputError(table.where("targets") + "key 'targets': requires keys, expected [[solid.key]] tables");
     table.finish();
 
     const glm::dvec3 turn = glm::radians(rest.turn);

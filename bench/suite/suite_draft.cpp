@@ -122,8 +122,7 @@ void readVolumes(files::TomlReader& table, std::optional<VolumeSettings>& volume
     const auto read = [&](const std::string& key, const auto& apply) {
         if (!table.has(key)) return;
         if (!volumes)
-            throw InputError(table.where(key) + "key '" + key +
-                             "': requires 'volumes', which selects the frames");
+            throw InputError(table.where(key) + "key '" + key + "': requires 'volumes', which selects the frames");
         try {
             apply(key);
         } catch (const InputError& error) {
@@ -156,8 +155,7 @@ void readJudging(files::TomlReader& table, std::optional<JudgingPlan>& judging) 
             judging.emplace();
     }
     if (!table.has("metric_frames")) return;
-    if (!judging)
-        throw InputError(table.where("metric_frames") + "key 'metric_frames': requires 'metrics = true'");
+    if (!judging) throw InputError(table.where("metric_frames") + "key 'metric_frames': requires 'metrics = true'");
     const std::string text = table.text("metric_frames", "");
     try {
         judging->moments = parseFrameRange("metric_frames", text);

@@ -41,8 +41,7 @@ void addParameter(std::vector<std::string>& words, const MethodInfo& method, con
         return;
     }
     if (expandValues(name, value) != std::vector{value})
-        throw InputError(
-            fmt::format("parameter {}: the command line would read '{}' as several values", name, value));
+        throw InputError(fmt::format("parameter {}: the command line would read '{}' as several values", name, value));
     words.insert(words.end(), {"-P", name + "=" + value});
 }
 

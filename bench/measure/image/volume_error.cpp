@@ -14,8 +14,8 @@ void requireWhole(const GridCells& grid, const char* name) {
     std::size_t expected = 1;
     for (const int cells : grid.cells) expected *= static_cast<std::size_t>(std::max(cells, 0));
     if (expected == 0 || grid.extinctionPerMetre.size() != expected)
-        throw InputError(fmt::format("{}: got {} cells, expected {}x{}x{}", name,
-                                     grid.extinctionPerMetre.size(), grid.cells[0], grid.cells[1], grid.cells[2]));
+        throw InputError(fmt::format("{}: got {} cells, expected {}x{}x{}", name, grid.extinctionPerMetre.size(),
+                                     grid.cells[0], grid.cells[1], grid.cells[2]));
     const auto bad = std::ranges::count_if(grid.extinctionPerMetre, [](float value) { return !std::isfinite(value); });
     if (bad > 0) throw InputError(fmt::format("{}: {} cells are not finite", name, bad));
 }

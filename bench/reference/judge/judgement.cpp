@@ -23,8 +23,7 @@ struct MeanMetric {
 constexpr std::array<MeanMetric, 20> means{{
     {{"psnr_db", "peak signal-to-noise ratio against the reference image, dB"}, &MomentMetrics::psnrDb},
     {{"ssim", "structural similarity to the reference image; 1: identical"}, &MomentMetrics::ssim},
-    {{"flip", "difference that a viewer sees when flipping to the reference image; 0: none"},
-     &MomentMetrics::flip},
+    {{"flip", "difference that a viewer sees when flipping to the reference image; 0: none"}, &MomentMetrics::flip},
     {{"flip_mask", "flip within the pixels that contain dust in either picture"}, &MomentMetrics::flipMask},
     {{"psnr_mask_db", "psnr_db within the pixels that contain dust in either picture, dB"}, &MomentMetrics::psnrMaskDb},
     {{"ssim_mask", "ssim of the windows around dust in either picture"}, &MomentMetrics::ssimMask},

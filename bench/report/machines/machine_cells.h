@@ -23,10 +23,9 @@ struct MachineCell {
 };
 
 struct MachineCells {
-    std::vector<MachineCell> cells;  ///< sorted by identity, numbers numerically
-    std::vector<std::string> names;  ///< the fields that distinguish cells of a method
-    std::vector<std::string>
-        unplaced;  ///< a sentence for each machine with copied runs or with runs without settings
+    std::vector<MachineCell> cells;     ///< sorted by identity, numbers numerically
+    std::vector<std::string> names;     ///< the fields that distinguish cells of a method
+    std::vector<std::string> unplaced;  ///< a sentence for each machine with copied runs or with runs without settings
     [[nodiscard]] std::string labelOf(const MachineCell& cell) const { return bench::labelOf(cell.identity, names); }
     /// True if a cell is completed on two machines with the same work.
     [[nodiscard]] bool haveSomethingInCommon() const;

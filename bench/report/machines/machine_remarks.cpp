@@ -219,9 +219,8 @@ class Remarks {
             const bool isShared = std::ranges::any_of(
                 cells_.cells, [side](const MachineCell& cell) { return cell.isDoneOn(side) && cell.sidesDone() > 1; });
             if (!isShared)
-                result_.notes.push_back(
-                    fmt::format("{}: none of its configurations was measured on another machine",
-                                set_.sides[side].label));
+                result_.notes.push_back(fmt::format("{}: none of its configurations was measured on another machine",
+                                                    set_.sides[side].label));
         }
     }
 

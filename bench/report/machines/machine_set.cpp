@@ -42,8 +42,7 @@ void requireDifferentFolders(const std::vector<fs::path>& folders) {
         std::error_code none;
         const fs::path real = fs::canonical(folder, none);
         if (!none && !seen.insert(real).second)
-            throw InputError(
-                fmt::format("'{}': given more than once, expected different folders", folder.string()));
+            throw InputError(fmt::format("'{}': given more than once, expected different folders", folder.string()));
     }
 }
 

@@ -127,9 +127,9 @@ TEST(FolderComparison, OtherMachinesAreAnObstacleUnlessAllowed) {
 
 TEST(FolderComparison, OtherWorkIsAnObstacleAlways) {
     const auto other = with(session(1), "fog-200-r3", [](StoredRun& run) { run.stateHash = "another"; });
-    EXPECT_THAT(compare(session(1), other, true).obstacles,
-                ElementsAre(AllOf(HasSubstr("particles=200: the runs did different work"),
-                                  HasSubstr("'another' in B"))));
+    EXPECT_THAT(
+        compare(session(1), other, true).obstacles,
+        ElementsAre(AllOf(HasSubstr("particles=200: the runs did different work"), HasSubstr("'another' in B"))));
     const auto inputs = with(session(1), "fog-200-r3", [](StoredRun& run) { run.inputs[0].sha256 = "02"; });
     EXPECT_THAT(compare(inputs, session(1), true).obstacles, ElementsAre(HasSubstr("scenes/plain.toml")));
 }

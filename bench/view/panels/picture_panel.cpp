@@ -148,8 +148,7 @@ void PicturePanel::showChannel(Viewer& viewer, WidgetMap& widgets) {
     if (channel == Channel::depth) showRemark("depth of the opaque scene: 1 m white, 1 km and beyond black");
     if (channel == Channel::overdraw)
         showRemark(fmt::format("primitives over a pixel: 0 black, {:.0f} yellow", viewer.maps().overdrawLimit()));
-    if (channel == Channel::outlines)
-        showRemark("quads yellow, voxels blue, brighter where several overlap");
+    if (channel == Channel::outlines) showRemark("quads yellow, voxels blue, brighter where several overlap");
     if (channel != Channel::faults) return;
     showRemark("not finite magenta, negative cyan, alpha outside 0..1 yellow");
     for (const Half half : {Half::a, Half::b})
@@ -159,12 +158,11 @@ void PicturePanel::showChannel(Viewer& viewer, WidgetMap& widgets) {
 void PicturePanel::showExact(Viewer& viewer, WidgetMap& widgets) {
     showSwitch("exact every frame", viewer.exactEveryFrame, widgets);
     if (!viewer.session().isJudged()) {
-        showRemark(
-            viewer.session().isCurrent(Half::b)
-                ? "exact_tiles draws B, the ground truth to within 1e-5. The ground truth with metrics is drawn "
-                  "when nothing moves: Space pauses, E pauses and draws it."
-                : "The ground truth is drawn when nothing moves: Space pauses, E pauses and draws it. Until "
-                  "then, only A is shown.");
+        showRemark(viewer.session().isCurrent(Half::b)
+                       ? "exact_tiles draws B, the ground truth to within 1e-5. The ground truth with metrics is drawn "
+                         "when nothing moves: Space pauses, E pauses and draws it."
+                       : "The ground truth is drawn when nothing moves: Space pauses, E pauses and draws it. Until "
+                         "then, only A is shown.");
         return;
     }
     const ExactHalf& exact = viewer.session().exact();

@@ -41,12 +41,15 @@ class Library {
  public:
     Library() {
         glfwSetErrorCallback([](int, const char* text) { lastProblem() = text; });
-#ifdef GLFW_PLATFORM  // 3.4 or newer: it asks Wayland first, whose library prints a line of its own without this variable
+#ifdef GLFW_PLATFORM  // 3.4 or newer: it asks Wayland first, whose library prints a line of its own without this
+                      // variable
         if (!std::getenv("XDG_RUNTIME_DIR")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
 #endif
         if (glfwInit() != GLFW_TRUE) throw cannotOpen();
     }
-    ~Library() { glfwTerminate(); }
+    ~Library() {
+        glfwTerminate();
+    }
     Library(const Library&) = delete;
     Library& operator=(const Library&) = delete;
 };

@@ -104,9 +104,9 @@ std::size_t findAdapter(std::span<const Adapter> adapters, std::string_view aske
     }
     if (equal.size() == 1) return equal.front();
     if (found.size() == 1) return found.front();
-    throw InputError(
-        "--adapter: got '" + std::string(asked) + "', which " + (found.empty() ? "matches none" : "matches several") +
-        " of this machine's adapters; allowed: an index or part of a name: " + listed(adapters));
+    throw InputError("--adapter: got '" + std::string(asked) + "', which " +
+                     (found.empty() ? "matches none" : "matches several") +
+                     " of this machine's adapters; allowed: an index or part of a name: " + listed(adapters));
 }
 
 std::string problemsOf(std::span<const Adapter> adapters) {

@@ -206,8 +206,8 @@ void requireSamePolygons(const Polygons& rest, const std::filesystem::path& rest
                          const std::filesystem::path& targetFile) {
     if (target.positions.size() != rest.positions.size() || target.size() != rest.size())
         throw InputError(fmt::format("{}: got {} points and {} faces, expected {} and {} as in {}, its base mesh",
-                                     targetFile.string(), target.positions.size(), target.size(),
-                                     rest.positions.size(), rest.size(), restFile.string()));
+                                     targetFile.string(), target.positions.size(), target.size(), rest.positions.size(),
+                                     rest.size(), restFile.string()));
     for (std::size_t face = 0; face < rest.size(); ++face)
         if (!std::ranges::equal(rest[face], target[face]))
             throw InputError(fmt::format("{}: face {} has different corners than in {}, its base mesh",

@@ -64,9 +64,9 @@ glm::vec3 Lines::vector(const std::vector<std::string_view>& words, std::size_t 
 
 void Lines::requireLineEnd() const {
     if (text_.empty() || text_.back() != '\n')
-        throw InputError(fmt::format(
-            "{}: the last line has no line end, so the file may be truncated; add one if it is complete",
-            file_.string()));
+        throw InputError(
+            fmt::format("{}: the last line has no line end, so the file may be truncated; add one if it is complete",
+                        file_.string()));
 }
 
 }  // namespace dustbench::meshes

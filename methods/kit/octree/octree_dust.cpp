@@ -97,10 +97,9 @@ OctreeBuilder::~OctreeBuilder() = default;
 void declareDust(MethodInfo& info) {
     declareOctreeParameters(info.parameters);
     info.parameters
-        .choice(
-            "render", Render::billboards, renders,
-            "how voxels are drawn: smoothly faded circles of their optical depth, the paper's plain circles, six "
-            "faces, or ray marching through the tree")
+        .choice("render", Render::billboards, renders,
+                "how voxels are drawn: smoothly faded circles of their optical depth, the paper's plain circles, six "
+                "faces, or ray marching through the tree")
         .choice("sort", draw::SortKind::radix, draw::sortKinds,
                 "order in which billboards and cubes are blended: far to near by the paper's quicksort or by a radix "
                 "sort, or in tree order")

@@ -7,10 +7,9 @@ namespace dustbench::raycast {
 void declareRaycast(ParameterSet& parameters) {
     parameters
         .choice("backend", Backend::automatic, backends, "where rays are cast; auto: on the CPU if OpenGL is software")
-        .choice(
-            "renderer", Renderer::raycast, renderers,
-            "marching along each pixel's ray; planes across the view; a Gaussian per cell; or an opaque surface at "
-            "one density")
+        .choice("renderer", Renderer::raycast, renderers,
+                "marching along each pixel's ray; planes across the view; a Gaussian per cell; or an opaque surface at "
+                "one density")
         .real("iso_density", 0.5, 1e-6, 1e6, "", "density of renderer=isosurface")
         .choice("filter", Filter::linear, filters,
                 "interpolation of cells: none, one value per cell; linear between eight cells; or a cubic B-spline "
@@ -19,9 +18,8 @@ void declareRaycast(ParameterSet& parameters) {
         .boolean("jitter", true, "shift each pixel's steps by a fraction of a step: noise instead of bands")
         .real("stop_alpha", 0.99, 0, 1, "", "alpha at which a ray ends; 1: never")
         .boolean("skip_empty", true, "skip blocks of cells without density")
-        .integer(
-            "shadow_cells", -1, -1, 16, "cells",
-            "edge of the blocks in which the cloud's own shadow is computed; 0: no shadow; -1: as in the file");
+        .integer("shadow_cells", -1, -1, 16, "cells",
+                 "edge of the blocks in which the cloud's own shadow is computed; 0: no shadow; -1: as in the file");
 }
 
 RaycastSettings raycastSettings(const ParameterValues& values, int shadowCells) {

@@ -51,9 +51,9 @@ void blend(const VolumeGrid& a, const VolumeGrid& b, std::vector<Value> VolumeGr
 }
 
 InputError tooMuch(const std::filesystem::path& file, double bytes) {
-    return InputError(fmt::format(
-        "{}: the series up to this file takes {:.3g} GB, allowed: {:.3g} GB (limit of volumes)", file.string(),
-        bytes / 1e9, static_cast<double>(files::limits::dustBytes) / 1e9));
+    return InputError(
+        fmt::format("{}: the series up to this file takes {:.3g} GB, allowed: {:.3g} GB (limit of volumes)",
+                    file.string(), bytes / 1e9, static_cast<double>(files::limits::dustBytes) / 1e9));
 }
 
 }  // namespace

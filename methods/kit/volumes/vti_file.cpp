@@ -135,9 +135,8 @@ class VtiParser {
 
     void open(const Tag& tag) {
         if (!mayHold(inside(), tag.name))
-            throw VolumeFault{seenRoot_
-                                  ? fmt::format("it has an unexpected element '{}'", tag.name.substr(0, 40))
-                                  : "it is not image data"};
+            throw VolumeFault{seenRoot_ ? fmt::format("it has an unexpected element '{}'", tag.name.substr(0, 40))
+                                        : "it is not image data"};
         if (tag.name == "VTKFile") openRoot(tag);
         if (tag.name == "ImageData") openImage(tag);
         if (tag.name == "Piece") openPiece(tag);

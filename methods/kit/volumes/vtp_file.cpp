@@ -100,9 +100,8 @@ class VtpParser {
 
     void open(const Tag& tag) {
         if (!mayHold(inside(), tag.name))
-            throw VolumeFault{seenRoot_
-                                  ? fmt::format("it has an unexpected element '{}'", tag.name.substr(0, 40))
-                                  : "it is not poly data"};
+            throw VolumeFault{seenRoot_ ? fmt::format("it has an unexpected element '{}'", tag.name.substr(0, 40))
+                                        : "it is not poly data"};
         if (tag.name == "VTKFile") openRoot(tag);
         if (tag.name == "PolyData") seenData_ = true;
         if (tag.name == "Piece") openPiece(tag);

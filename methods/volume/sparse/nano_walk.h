@@ -19,8 +19,7 @@ class NanoWalk {
     struct Found {
         const float* values = nullptr;          ///< of a leaf, z fastest
         const std::uint64_t* active = nullptr;  ///< cells of a leaf, a word for each x
-        int emptyEdge =
-            0;  ///< cells along the edge of the empty node that contains the brick; 0: it is active
+        int emptyEdge = 0;  ///< cells along the edge of the empty node that contains the brick; 0: it is active
     };
 
     [[gnu::always_inline]] Found at(const glm::ivec3& brick) {

@@ -55,9 +55,8 @@ PartInfo describe() {
     PartInfo info;
     info.help = "death on contact with a half-space, sphere, disc, mesh or the scene, in addition to death by age";
     info.source = "Thesis, 4.7.3 and 6.1";
-    info.parameters.choice(
-        "mode", maths::SamplingMode::fixed, samplingModes,
-        "paper: tests the path predicted before the forces act; fixed: the actual path");
+    info.parameters.choice("mode", maths::SamplingMode::fixed, samplingModes,
+                           "paper: tests the path predicted before the forces act; fixed: the actual path");
     declareSurface(info.parameters);
     info.create = [](const ParameterValues& values) { return std::make_unique<Collision>(values); };
     return info;

@@ -32,8 +32,7 @@ PartInfo describe() {
     PartInfo info;
     info.help = "particles emit light, which falls on the ground, the solids and the car";
     info.source = "Thesis, 6.3";
-    info.parameters
-        .integer("lights", 1, 1, 16, "", "number of point lights that replace the particles, grouped by age")
+    info.parameters.integer("lights", 1, 1, 16, "", "number of point lights that replace the particles, grouped by age")
         .real("strength", 20, 0, 1e6, "1/m", "k: a light's intensity is k·Σ colour·opacity·radius³, in m²");
     info.create = [](const ParameterValues& values) { return std::make_unique<Glowing>(values); };
     return info;
