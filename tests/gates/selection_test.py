@@ -177,7 +177,7 @@ class TheBase(unittest.TestCase):
         self.verify("")
         self.assertEqual(selection.verified(self.root), (None, ".ci/verified is missing or empty"))
         self.verify("0123456789abcdef0123456789abcdef01234567 2026-11-26\n")
-        self.assertIn("does not know", selection.verified(self.root)[1])
+        self.assertIn("is not a commit", selection.verified(self.root)[1])
         self.git("checkout", "--quiet", "-b", "side")
         other = self.commit("side.txt", "three")
         self.git("checkout", "--quiet", "main")
