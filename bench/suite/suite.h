@@ -3,6 +3,7 @@
 // Suites are in `data/suites/` and `data/papers/<id>/suites/`; data/suites/README.md documents every key.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -31,9 +32,13 @@ inline constexpr Choices<Order> orders{{"interleaved", Order::interleaved}, {"ba
 /// What a suite's chart opens on. Empty: the frame rate, against what varies most.
 struct ChartView {
     std::string column;  ///< of summary.csv
-    /// A parameter that the suite sets, or `size`, `scene`, `drive`, `seed`; empty: as the chart likes.
+    /// A parameter that the suite sets, or `size`, `scene`, `drive`, `seed`; empty: as the chart likes. One of
+    /// chartCosts: the page opens on this chart.
     std::string against;
 };
+/// What the error of pictures can be drawn against.
+inline constexpr std::array<std::string_view, 6> chartCosts{"frame_ms_median", "method_ms_median", "memory_bytes",
+                                                            "gpu_bytes",       "cpu_bytes",        "primitives_median"};
 
 struct Suite {
     std::string id;

@@ -19,6 +19,7 @@ struct Exception {
     ParameterLists parameters;
     int afterRepetition = 0;  ///< repetitions up to this one are kept
     std::string reason;       ///< recorded with the cells, as skipped; empty: they do not appear
+    bool metricsOnly = false;  ///< the cells run, but their pictures are not compared
     std::string where;        ///< `file:line: `, for messages
 };
 
